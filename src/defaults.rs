@@ -1,0 +1,74 @@
+//! Every default of the tool, in one place: value, unit, and source or reason.
+//!
+//! "Guess to calibrate" marks a figure for which no reliable source was found. The moduli are two-dimensional, the
+//! plushie's thickness multiplied in (N/mm).
+
+/// Shear modulus `mu` of the stuffed body, N/mm. Guess to calibrate: fibre filling is of the order of some kPa, here
+/// 6.5 kPa over 60 mm of thickness.
+pub const MU: f64 = 0.4;
+/// Modulus `kappa` of eq. 5 (it acts as the first Lame parameter), N/mm. Guess to calibrate: stuffing is compressible,
+/// and linear triangles lock above about ten times `MU`.
+pub const KAPPA: f64 = 0.6;
+
+/// Stiffness `K` of a muscle fibre, N/mm (the taut stiffness of eq. 8 is 2K). A muscle of the idealized plushie is
+/// virtual: as stiff as the body, so that full contraction can bend it strongly and no fibre is needlessly stiff.
+pub const FIBER_STIFFNESS: f64 = 0.3;
+/// Smoothing half-width `epsilon` of a fibre (eq. 8), as a fraction of the mean edge length. Small enough to be
+/// invisible, large enough for a well-conditioned Newton step.
+pub const FIBER_EPSILON_FRACTION: f64 = 0.01;
+/// Largest contraction of a fibre as a fraction of its rest length. Virtual muscles may go far; real ones reach 0.3.
+pub const FIBER_MAX_CONTRACTION: f64 = 0.6;
+
+/// Stiffness `K` of a tendon, N/mm. 0.5 mm fishing line over 200 mm is about 5 N/mm.
+pub const TENDON_STIFFNESS: f64 = 5.0;
+/// Smoothing half-width `epsilon` of a tendon (eq. 8), mm: below what a winch resolves.
+pub const TENDON_EPSILON_MM: f64 = 0.2;
+/// Largest contraction of a tendon as a fraction of its rest length: beyond half, felt bunches up.
+pub const TENDON_MAX_CONTRACTION: f64 = 0.5;
+
+/// Stiffness of a pin, N/mm: a pinned point moves under a micrometre per mN while the matrix stays well conditioned.
+pub const PIN_STIFFNESS: f64 = 20.0;
+
+/// Weight `w` of the rest shape in the posing objective, relative to a target (dimensionless, section 5: "greatly
+/// reduced").
+pub const REST_WEIGHT: f64 = 1e-3;
+/// Weight of squared tension in the posing objective is this over `mu^2`, with lengths in body lengths: the smallest that
+/// keeps the choice between equivalent fibres unique and smooth.
+pub const TENSION_WEIGHT: f64 = 1e-4;
+
+/// Number of heaviest fibres that seed a network (SEED_NUM of Algorithm 2).
+pub const SEED_NUM: usize = 24;
+/// Rounds of joining (JOIN_DEPTH of Algorithm 2).
+pub const JOIN_DEPTH: usize = 3;
+/// Largest number of edges of a joining path (JOIN_LEN of Algorithm 2).
+pub const JOIN_LEN: usize = 3;
+/// Tendons of a network (TENDON_NUM of Algorithm 2).
+pub const TENDON_NUM: usize = 2;
+/// Trade between a large mean and a small spread of the tendons' net contractions (phi of Algorithm 2).
+pub const PHI: f64 = 0.5;
+
+/// Height of a new plushie when its outline has no physical size, mm: a soft toy for one hand.
+pub const HEIGHT_MM: f64 = 250.0;
+/// Muscle fibres of a new design. The paper's designs have 276 to 571.
+pub const FIBERS: usize = 414;
+
+/// Seam allowance, mm. Shop guides for hand-made plush: 6 to 10.
+pub const SEAM_ALLOWANCE_MM: f64 = 8.0;
+/// Hole for a tendon in the felt, mm: a blunt large-eyed needle for 0.5 mm line. Unconfirmed (1 to 3).
+pub const TENDON_HOLE_MM: f64 = 1.5;
+/// Opening left in the seam to turn and stuff the body, mm.
+pub const TURNING_GAP_MM: f64 = 50.0;
+/// Radius of the printed spool's core, mm.
+pub const SPOOL_RADIUS_MM: f64 = 10.0;
+/// Encoder lines per motor revolution (counts are four times as many). Faulhaber IE2-512.
+pub const ENCODER_LINES: u32 = 512;
+/// Gear ratio between motor and spool. A common planetary gearhead; set it to yours.
+pub const GEAR_RATIO: f64 = 43.0;
+/// Rate of the winch tracks, Hz.
+pub const TRACK_RATE_HZ: f64 = 50.0;
+/// Motor speed limit written to the controller, rpm. Unconfirmed: depends on the motor.
+pub const MOTOR_SPEED_RPM: u32 = 5000;
+/// Motor acceleration limit written to the controller, rev/s^2. Unconfirmed: depends on the load.
+pub const MOTOR_ACCELERATION: u32 = 200;
+/// Seconds between keyframes where the tool lays them out itself.
+pub const KEYFRAME_SPACING_S: f64 = 1.0;

@@ -1,0 +1,56 @@
+//! Plushwright: design, animate and fabricate cable-driven plush robots.
+//!
+//! After Bern, Chang and Coros, *Interactive Design of Animated Plushies* (ACM TOG 36(4), 2017).
+//!
+//! # The rooms
+//! Data flows one way, in the order below; no room imports from one further down.
+//!
+//! | room | holds |
+//! | --- | --- |
+//! | [`defaults`] | every default figure of the tool, with unit, source or reason |
+//! | [`outline`] | a silhouette: reading, clean-up, polygons |
+//! | [`mesh`] | outline to triangle mesh, points of the body, quality |
+//! | [`physics`] | what a plushie is made of: energies, materials, contractile elements, pins, statics |
+//! | [`soft_ik`] | targets to contractions: objective, sensitivities, actuation, solvers |
+//! | [`discovery`] | activation graph to winch-tendon network (Algorithm 2) |
+//! | [`problem`] | the JSON question-and-answer interface of the numerical core |
+//! | [`design`] | the document: design, poses, networks, keyframes, file format, edits, undo |
+//! | [`engine`] | compiles a design into a physics model, poses both plushies, worker thread, rigging |
+//! | [`fabrication`] | patterns, routings, winch tracks, controller programs |
+//! | [`picture`] | a neutral drawing of both plushies, rasterised without a graphics adapter |
+//! | [`commands`] | the headless commands |
+//! | `studio` | the window (feature `studio`) |
+//!
+//! # Units
+//! Lengths in mm, forces in N, time in s, angles in rad; 2-D moduli and spring stiffnesses in N/mm (thickness
+//! multiplied in). Problem files alone are in SI (m, N, J); the physics itself only asks for consistent units.
+//! Coordinates have y up and their origin at the lower left corner of the rest silhouette's box.
+//!
+//! # Glossary
+//! *Contractile element*: a muscle fibre or a tendon, a unilateral spring whose rest length is `alpha = alpha_0 - alpha_c`.
+//! *Routing*: the mesh nodes an element runs through: attachment point, via points, attachment point.
+//! *Contraction* `alpha_c`: how much an element's rest length is shortened. *Activation* `beta`: how much cable a winch
+//! has wound; the contraction of its tendons is `Z beta` (*winch synergy*). *Tension* `tau = dU/dGamma`, with the
+//! *deformation* `Gamma = length - alpha`. *Idealized plushie*: a fibre on every mesh edge beside the accepted
+//! networks. *Realizable plushie*: the accepted winch-tendon networks alone.
+//!
+//! # Invariants
+//! - The core never imports the window: `cargo build --no-default-features` builds everything but `studio`.
+//! - Only `physics::cholesky` names the sparse linear algebra library.
+//! - The same input gives the same bits; iteration order never depends on hashing or thread count.
+//! - What is shown is finite, uninverted and within the actuation limits.
+
+pub mod commands;
+pub mod defaults;
+pub mod design;
+pub mod discovery;
+pub mod engine;
+pub mod fabrication;
+pub mod mesh;
+pub mod outline;
+pub mod physics;
+pub mod picture;
+pub mod problem;
+pub mod soft_ik;
+#[cfg(feature = "studio")]
+pub mod studio;

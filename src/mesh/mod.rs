@@ -1,0 +1,70 @@
+//! Outline to triangle mesh, and points of the body.
+
+use crate::outline::Point;
+use serde::{Deserialize, Serialize};
+
+/// A triangle mesh of the rest silhouette. Triangles are counter-clockwise, 0-based.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Mesh {
+    /// Rest positions `X`, mm.
+    pub nodes: Vec<Point>,
+    pub triangles: Vec<[usize; 3]>,
+}
+
+/// A material point of the body: a triangle and the barycentric weights of its three nodes (they sum to 1).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BodyPoint {
+    pub triangle: usize,
+    pub weights: [f64; 3],
+}
+
+impl Mesh {
+    /// The undirected edges `[i, j]`, `i < j`, each once, in lexicographic order: the muscle fibres of the paper.
+    pub fn edges(&self) -> Vec<[usize; 2]> {
+        let mut edges: Vec<[usize; 2]> = self
+            .triangles
+            .iter()
+            .flat_map(|t| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]])
+            .map(|[a, b]| [a.min(b), a.max(b)])
+            .collect();
+        edges.sort_unstable();
+        edges.dedup();
+        edges
+    }
+
+    /// Where a body point is when the nodes are at `positions`.
+    pub fn position(&self, at: &BodyPoint, positions: &[Point]) -> Point {
+        let mut p = [0.0; 2];
+        for (&node, &weight) in self.triangles[at.triangle].iter().zip(&at.weights) {
+            p[0] += weight * positions[node][0];
+            p[1] += weight * positions[node][1];
+        }
+        p
+    }
+
+    /// The body point that is exactly `node` (the first triangle that has it), or `None` for a node without a triangle.
+    pub fn node_point(&self, node: usize) -> Option<BodyPoint> {
+        let triangle = self.triangles.iter().position(|t| t.contains(&node))?;
+        let weights = self.triangles[triangle].map(|n| if n == node { 1.0 } else { 0.0 });
+        Some(BodyPoint { triangle, weights })
+    }
+
+    /// The node nearest to `p` when the nodes are at `positions`; ties go to the smaller id.
+    pub fn nearest_node(&self, p: Point, positions: &[Point]) -> usize {
+        let distance2 = |q: &Point| (q[0] - p[0]).powi(2) + (q[1] - p[1]).powi(2);
+        (0..positions.len()).min_by(|&a, &b| distance2(&positions[a]).total_cmp(&distance2(&positions[b]))).unwrap_or(0)
+    }
+
+    /// The longer side of the box around the rest nodes, mm: the unit in which pose errors are stated.
+    pub fn body_length(&self) -> f64 {
+        let mut low = [f64::INFINITY; 2];
+        let mut high = [f64::NEG_INFINITY; 2];
+        for p in &self.nodes {
+            for axis in 0..2 {
+                low[axis] = low[axis].min(p[axis]);
+                high[axis] = high[axis].max(p[axis]);
+            }
+        }
+        (high[0] - low[0]).max(high[1] - low[1])
+    }
+}

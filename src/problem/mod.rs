@@ -1,0 +1,1 @@
+//! The JSON question-and-answer interface of the numerical core.
