@@ -1,1 +1,3 @@
 //! The JSON question-and-answer interface of the numerical core.
+
+pub mod network;

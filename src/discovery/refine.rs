@@ -1,0 +1,1 @@
+//! Better tendons than the raw ones: straighter, shorter, longer reach.
