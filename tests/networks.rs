@@ -1,6 +1,6 @@
 //! Network discovery against published cases and against a reference that enumerates everything.
 
-use plushwright::discovery::{DiscoveryError, Parameters, Spread, Stages, discover};
+use plushwright::discovery::{DiscoveryError, Parameters, Spread, Stages, candidates, discover, propose};
 use serde_json::Value;
 use std::collections::BTreeSet;
 
@@ -169,4 +169,107 @@ fn bushy_trees_agree_with_the_reference() {
         };
         check(index, &Case { nodes, edges, weights, parameters });
     }
+}
+
+/// A triangulated strip of body, about as many fibres as asked, with contractions in smooth patches.
+fn body(random: &mut Random, fibers: usize) -> Case {
+    let width = ((fibers as f64 / 3.0).sqrt() * 0.7) as usize;
+    let height = fibers / 3 / width;
+    let mut edges = Vec::new();
+    for y in 0..height {
+        for x in 0..width {
+            let node = y * width + x;
+            if x + 1 < width {
+                edges.push([node, node + 1]);
+            }
+            if y + 1 < height {
+                edges.push([node, node + width]);
+                if x + 1 < width {
+                    edges.push([node, node + width + 1]);
+                }
+            }
+        }
+    }
+    let patches: Vec<[f64; 2]> =
+        (0..4).map(|_| [random.unit() * width as f64, random.unit() * height as f64]).collect();
+    let weight = |&[a, _]: &[usize; 2], noise: f64| {
+        let at = [(a % width) as f64, (a / width) as f64];
+        let near = patches.iter().map(|p| (-((at[0] - p[0]).powi(2) + (at[1] - p[1]).powi(2)) / 20.0).exp());
+        near.sum::<f64>() * noise
+    };
+    let weights = edges.iter().map(|edge| weight(edge, random.unit())).collect();
+    Case { nodes: width * height, edges, weights, parameters: Parameters::default() }
+}
+
+/// No blow-up: what enumeration would need ages for ends in milliseconds. The limits leave room for slow machines and
+/// unoptimised builds; `--nocapture` shows the figures.
+#[test]
+fn large_questions_stay_fast() {
+    let mut random = Random(5);
+    let timed = |name: &str, limit_ms: f64, run: &mut dyn FnMut()| {
+        let start = std::time::Instant::now();
+        run();
+        let elapsed = start.elapsed().as_secs_f64() * 1e3;
+        println!("{name}: {elapsed:.2} ms");
+        assert!(elapsed < limit_ms, "{name}: {elapsed} ms");
+    };
+    for fibers in [430, 1055, 5000] {
+        let mut case = body(&mut random, fibers);
+        let run = |case: &Case| discover(case.nodes, &case.edges, &case.weights, &case.parameters);
+        timed(&format!("{fibers} fibres, defaults"), 500.0, &mut || drop(run(&case)));
+        case.parameters =
+            Parameters { seed_num: fibers / 3, join_depth: 5, join_len: 4, tendon_num: 3, ..case.parameters };
+        for phi in [0.0, 0.05, 0.5, 1.0] {
+            case.parameters.phi = phi;
+            timed(&format!("{fibers} fibres, a third seeds, phi {phi}"), 4000.0, &mut || drop(run(&case)));
+        }
+        let mut found = 0;
+        timed(&format!("{fibers} fibres, candidates"), 10_000.0, &mut || {
+            let base = Parameters::default();
+            found = candidates(case.nodes, &case.edges, &case.weights, &base, &[1, 2, 3]).unwrap().len();
+        });
+        println!("  {found} networks");
+        assert!(found > 3);
+    }
+    for hubs in [1, 5, 25] {
+        for ties in [false, true] {
+            let edges: Vec<[usize; 2]> = (1..201).map(|node| [random.below(node.min(hubs)), node]).collect();
+            let weights = edges.iter().map(|_| if ties { 1.0 } else { random.unit() }).collect();
+            let mut case = Case { nodes: 201, edges, weights, parameters: Parameters::default() };
+            for (phi, spread) in [
+                (0.01, Spread::Variance),
+                (0.5, Spread::StandardDeviation),
+                (1.0, Spread::Variance),
+                (0.0, Spread::Variance),
+            ] {
+                case.parameters = Parameters { seed_num: 200, join_depth: 0, join_len: 0, tendon_num: 8, phi, spread };
+                timed(&format!("200 edges, {hubs} hubs, 8 tendons, phi {phi}, ties {ties}"), 4000.0, &mut || {
+                    let _ = discover(case.nodes, &case.edges, &case.weights, &case.parameters);
+                });
+            }
+        }
+    }
+}
+
+#[test]
+fn candidates_are_distinct_start_with_the_base_and_can_be_found_again() {
+    let mut random = Random(11);
+    let case = body(&mut random, 430);
+    let base = Parameters::default();
+    let found = candidates(case.nodes, &case.edges, &case.weights, &base, &[2, 1, 3]).unwrap();
+    assert_eq!(found[0].0, base);
+    let sets: BTreeSet<_> = found.iter().map(|(_, stages)| stages.tendons.clone()).collect();
+    assert_eq!(sets.len(), found.len());
+    for (parameters, stages) in &found {
+        assert_eq!(&discover(case.nodes, &case.edges, &case.weights, parameters).unwrap(), stages);
+    }
+}
+
+#[test]
+fn the_proposal_takes_fewer_tendons_and_only_contracted_fibres() {
+    let edges = [[0, 1], [1, 2], [2, 3], [1, 4]];
+    let parameters = Parameters { seed_num: 4, tendon_num: 5, ..Parameters::default() };
+    let stages = propose(5, &edges, &[1.0, 1.0, -1.0, 1.0], &parameters).unwrap();
+    assert_eq!((stages.winch, stages.tendons), (1, vec![vec![1, 0], vec![1, 2], vec![1, 4]]));
+    assert_eq!(propose(5, &edges, &[0.0; 4], &parameters), Err(DiscoveryError::Inactive));
 }
