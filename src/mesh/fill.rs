@@ -11,6 +11,11 @@ use spade::{Point2, PositionInTriangulation, Triangulation};
 const GRADATION: f64 = 0.35;
 /// Nearest that an interior node may come to the boundary, in wanted edge lengths: below, triangles grow flat.
 const BOUNDARY_GAP: f64 = 0.42;
+/// Preference for triangles between boundary nodes alone, as a factor on that ratio: a limb is to be two across before
+/// the trunk is filled evenly.
+const LIMB_FIRST: f64 = 1.35;
+/// Largest wanted edge length, in boundary spacings: the trunk may be coarser than the limbs.
+const COARSEST: f64 = 1.25;
 /// Smallest ratio of circumradius to wanted edge length that takes a node, from round to round: an equilateral triangle
 /// of the wanted size has 0.577.
 const RATIOS: [f64; 12] = [1.2, 1.0, 0.9, 0.8, 0.75, 0.7, 0.66, 0.62, 0.58, 0.54, 0.5, 0.45];
@@ -28,7 +33,7 @@ pub(super) fn fill(boundary: &Boundary, count: usize, h: f64) -> Option<Vec<Poin
         // Insertions change their surroundings: a ratio is done when it finds no more.
         while nodes.len() < wanted {
             let before = nodes.len();
-            let taken = accept(candidates(&cdt, &nodes, &sizes, h, ratio), wanted - nodes.len());
+            let taken = accept(candidates(&cdt, &nodes, &sizes, boundary.nodes.len(), h, ratio), wanted - nodes.len());
             for (point, size) in taken {
                 cdt.insert(Point2::new(point[0], point[1])).ok()?;
                 nodes.push(point);
@@ -62,16 +67,20 @@ fn boundary_sizes(boundary: &Boundary, h: f64) -> Vec<f64> {
     sizes.into_iter().map(|s: f64| s.min(h)).collect()
 }
 
-/// Circumcentres of triangles whose circumradius is more than `least` wanted edge lengths, the largest first.
-fn candidates(cdt: &Cdt, nodes: &[Point], sizes: &[f64], h: f64, least: f64) -> Vec<Candidate> {
+/// Circumcentres of triangles whose circumradius is more than `least` wanted edge lengths, the largest first. The first
+/// `rim` nodes are those of the boundary.
+fn candidates(cdt: &Cdt, nodes: &[Point], sizes: &[f64], rim: usize, h: f64, least: f64) -> Vec<Candidate> {
     let inside = triangulate::inside_faces(cdt);
     let mut found = Vec::new();
     for face in cdt.inner_faces().filter(|face| inside[face.fix().index()]) {
         let (centre, radius2) = face.circumcircle();
         let at = [centre.x, centre.y];
         let radius = radius2.sqrt();
-        let size = face.vertices().map(|v| sizes[v.fix().index()] + GRADATION * radius).into_iter().fold(h, f64::min);
-        if radius <= least * size || !centre.x.is_finite() || !centre.y.is_finite() {
+        let corners = face.vertices().map(|v| v.fix().index());
+        let size = corners.iter().map(|&v| sizes[v] + GRADATION * radius).fold(COARSEST * h, f64::min);
+        let limb = if corners.iter().all(|&v| v < rim) { LIMB_FIRST } else { 1.0 };
+        let ratio = limb * radius / size;
+        if ratio <= least || !centre.x.is_finite() || !centre.y.is_finite() {
             continue;
         }
         let home = match cdt.locate(centre) {
@@ -81,7 +90,7 @@ fn candidates(cdt: &Cdt, nodes: &[Point], sizes: &[f64], h: f64, least: f64) -> 
         };
         let Some(home) = home.filter(|home| inside[home.fix().index()]) else { continue };
         if boundary_distance(home, nodes, at) > BOUNDARY_GAP * size {
-            found.push(Candidate { ratio: radius / size, at, size });
+            found.push(Candidate { ratio, at, size });
         }
     }
     found.sort_by(|a, b| {

@@ -14,7 +14,7 @@ use crate::outline::Outline;
 pub const MAX_FIBERS: usize = 200_000;
 /// Boundary spacings tried, relative to the evenly dense one, for small meshes and for large ones, where the boundary is
 /// few of the nodes and the even spacing is good.
-const SPACINGS: [f64; 9] = [1.0, 0.94, 1.06, 0.88, 1.12, 0.97, 1.03, 1.18, 0.82];
+const SPACINGS: [f64; 12] = [1.0, 0.94, 1.06, 0.88, 1.12, 0.97, 1.03, 1.18, 1.24, 1.3, 1.09, 1.15];
 const SPACINGS_LARGE: [f64; 1] = [1.0];
 /// Fibres from which a mesh is large.
 const LARGE: usize = 3000;

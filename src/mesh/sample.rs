@@ -14,11 +14,11 @@ const CORNER_TURN: f64 = std::f64::consts::FRAC_PI_4;
 /// Corners closer than this along the outline, in spacings, count as one.
 const CORNER_GAP: f64 = 0.55;
 /// Weights `a` of curvature in the density, tried in turn until the area is kept.
-const CURVATURE_WEIGHTS: [f64; 3] = [0.5, 0.8, 1.1];
+const CURVATURE_WEIGHTS: [f64; 4] = [0.4, 0.7, 1.0, 1.4];
 /// Farthest that a chord may stray from the outline, in spacings.
 const STRAY: f64 = 0.12;
 /// Area that the polygon of boundary nodes may lose or win, as a fraction of the outline's.
-const AREA_FRACTION: f64 = 0.008;
+const AREA_FRACTION: f64 = 0.0095;
 
 /// Sampled boundary. Nodes of a ring are consecutive and in the ring's order.
 #[derive(Clone, Debug, Default)]
@@ -35,18 +35,18 @@ pub(super) fn sample(outline: &Outline, h: f64, extra: usize) -> Option<Boundary
     let area = outline.area();
     let lost = |rings: &[Vec<f64>]| {
         let sampled: f64 = curves.iter().zip(rings).map(|(c, ring)| polygon::signed_area(&c.points(ring))).sum();
-        (sampled / area - 1.0).abs()
+        1.0 - sampled / area
     };
     let mut rings = Vec::new();
     for weight in CURVATURE_WEIGHTS {
         // The outer polygon takes the extra nodes.
         rings = curves.iter().enumerate().map(|(k, c)| c.sample(h, weight, if k == 0 { extra } else { 0 })).collect();
-        if lost(&rings) < AREA_FRACTION {
+        if lost(&rings).abs() < AREA_FRACTION {
             break;
         }
     }
-    while lost(&rings) > AREA_FRACTION {
-        let (k, i) = widest_lens(&curves, &rings)?;
+    while lost(&rings).abs() > AREA_FRACTION {
+        let (k, i) = widest_lens(&curves, &rings, lost(&rings).signum())?;
         curves[k].split(&mut rings[k], i)?;
     }
     // Chords across narrow gaps may cross: halve what does until nothing is left to halve.
@@ -67,13 +67,13 @@ pub(super) fn sample(outline: &Outline, h: f64, extra: usize) -> Option<Boundary
     }
 }
 
-/// The chord that cuts off the largest area, as ring and index of its first node.
-fn widest_lens(curves: &[Curve], rings: &[Vec<f64>]) -> Option<(usize, usize)> {
+/// The chord that cuts off the largest area (`sign` 1) or adds the largest (-1), as ring and index of its first node.
+fn widest_lens(curves: &[Curve], rings: &[Vec<f64>], sign: f64) -> Option<(usize, usize)> {
     let mut widest = (0.0, None);
     for (k, (curve, ring)) in curves.iter().zip(rings).enumerate() {
         for i in 0..ring.len() {
             let (from, to) = curve.arc(ring, i);
-            let lens = polygon::signed_area(&curve.arc_points(from, to)).abs();
+            let lens = sign * polygon::signed_area(&curve.arc_points(from, to));
             if lens > widest.0 {
                 widest = (lens, Some((k, i)));
             }
