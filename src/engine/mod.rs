@@ -3,6 +3,8 @@
 //! The realizable plushie is always solved first; its activations are then held in the idealized one and the fibres
 //! add what is missing (section 3, design loop).
 
+pub mod rig;
+
 use crate::design::{Design, Network, Target};
 use crate::discovery;
 use crate::outline::Point;
