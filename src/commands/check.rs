@@ -2,7 +2,7 @@
 
 use super::error::CommandError;
 use super::output::say_json;
-use super::{parts, table};
+use super::{document, table};
 use clap::Args;
 use std::io::Write;
 use std::path::PathBuf;
@@ -23,7 +23,7 @@ pub struct Check {
 
 impl Check {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
-        let design = parts::read_design(&self.design)?;
+        let design = document::load(&self.design)?;
         let figures = table::figures(&design, cancel)?;
         if self.json { say_json(out, &figures) } else { table::print(&figures, out) }
     }

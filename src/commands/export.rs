@@ -2,7 +2,7 @@
 
 use super::error::{CommandError, check_cancel};
 use super::output::{say, say_json};
-use super::parts;
+use super::{document, parts};
 use clap::Args;
 use serde::Serialize;
 use std::io::Write;
@@ -39,7 +39,7 @@ struct File {
 
 impl Export {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
-        let design = parts::read_design(&self.design)?;
+        let design = document::load(&self.design)?;
         if design.networks.is_empty() {
             return Err(CommandError::input(
                 &self.design,

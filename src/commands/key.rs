@@ -1,9 +1,9 @@
 //! `key`: a pose on the timeline, as the winch activations that reach it.
 
+use super::document;
 use super::error::{CommandError, check_cancel};
 use super::output::say;
-use super::parts;
-use crate::design::{Design, Easing, Keyframe};
+use crate::design::{Design, Easing, Keyframe, Target, edit};
 use crate::engine::{Question, Request, Shape, Solver};
 use clap::{Args, ValueEnum};
 use std::io::Write;
@@ -43,7 +43,7 @@ pub enum Ease {
 
 impl Key {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
-        let mut design = parts::read_design(&self.design)?;
+        let mut design = document::load(&self.design)?;
         if design.networks.is_empty() {
             return Err(CommandError::input(
                 &self.design,
@@ -62,8 +62,8 @@ impl Key {
             Ease::Smooth => Easing::Smooth,
             Ease::Hold => Easing::Hold,
         };
-        put(&mut design, self.time, activations, pose, easing);
-        parts::write_design(&self.output, &design, cancel)?;
+        put(&mut design, self.time, activations, pose, easing)?;
+        document::save(&self.output, &design, cancel)?;
         say(out, &format!("{}: {} at {} s, winches at {text} mm", self.output.display(), self.pose, self.time))
     }
 }
@@ -79,7 +79,7 @@ pub fn activations(design: &Design, pose: &str, cancel: &AtomicBool) -> Result<V
 }
 
 /// The targets of a pose.
-pub fn targets(design: &Design, pose: &str) -> Result<Vec<crate::design::Target>, CommandError> {
+pub fn targets(design: &Design, pose: &str) -> Result<Vec<Target>, CommandError> {
     design.poses.iter().find(|p| p.name == pose).map(|p| p.targets.clone()).ok_or_else(|| {
         let names: Vec<&str> = design.poses.iter().map(|p| p.name.as_str()).collect();
         CommandError::Usage(format!("no pose `{pose}`; the design has: {}", names.join(", ")))
@@ -106,12 +106,17 @@ pub fn solve(
     Ok([outcome.idealized.unwrap_or_else(rest), outcome.realizable.unwrap_or_else(rest)])
 }
 
-/// Puts a keyframe on the timeline, which stays sorted; one at the same time is replaced.
-pub fn put(design: &mut Design, time_s: f64, activations_mm: Vec<f64>, pose: Option<String>, easing: Easing) {
-    let keyframe = Keyframe { time_s, activations_mm, pose, easing };
-    design.keyframes.retain(|k| k.time_s != time_s);
-    let place = design.keyframes.partition_point(|k| k.time_s < time_s);
-    design.keyframes.insert(place, keyframe);
+/// Puts a keyframe on the timeline; one at the same time is replaced.
+pub fn put(
+    design: &mut Design,
+    time_s: f64,
+    activations_mm: Vec<f64>,
+    pose: Option<String>,
+    easing: Easing,
+) -> Result<(), CommandError> {
+    edit::set_keyframe(design, Keyframe { time_s, activations_mm, pose, easing })
+        .map(|_| ())
+        .map_err(|e| CommandError::Failed(e.to_string()))
 }
 
 fn parse_time(text: &str) -> Result<f64, String> {

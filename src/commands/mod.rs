@@ -7,6 +7,7 @@
 mod check;
 mod demo;
 mod discover;
+mod document;
 pub mod error;
 mod export;
 mod key;
@@ -17,7 +18,6 @@ mod place;
 mod pose;
 mod render;
 mod rig;
-mod sketch;
 mod solve;
 mod table;
 

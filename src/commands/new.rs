@@ -2,9 +2,10 @@
 
 use super::error::CommandError;
 use super::output::{read_file, say};
-use super::parts;
+use super::{document, parts};
 use crate::defaults;
 use crate::design::Design;
+use crate::outline::svg;
 use clap::Args;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -32,7 +33,7 @@ impl New {
         let bytes = read_file(&self.outline)?;
         let design = design(&bytes, self.height, self.fibers, &stem(&self.output))
             .map_err(|reason| CommandError::input(&self.outline, reason))?;
-        parts::write_design(&self.output, &design, cancel)?;
+        document::save(&self.output, &design, cancel)?;
         say(
             out,
             &format!(
@@ -49,26 +50,9 @@ impl New {
 
 /// A design with default settings around an outline.
 pub fn design(svg: &[u8], height_mm: Option<f64>, fibers: usize, name: &str) -> Result<Design, String> {
-    let outline = parts::outline(svg, height_mm)?;
+    let outline = svg::read(svg, height_mm).map_err(|e| e.to_string())?;
     let mesh = parts::mesh(&outline, fibers)?;
-    Ok(Design {
-        version: 1,
-        name: name.to_owned(),
-        outline,
-        mesh,
-        material: Default::default(),
-        fibers: Default::default(),
-        tendons: Default::default(),
-        pins: Vec::new(),
-        poses: Vec::new(),
-        networks: Vec::new(),
-        keyframes: Vec::new(),
-        fabrication: Default::default(),
-        controller: Default::default(),
-        texture: None,
-        gravity: None,
-        stiffness_map: None,
-    })
+    Ok(Design::new(name, outline, mesh))
 }
 
 fn stem(path: &Path) -> String {

@@ -1,11 +1,13 @@
 //! `pose`: pins of the design and targets of a named pose.
 
+use super::document;
 use super::error::CommandError;
 use super::output::say;
-use super::parts;
 use super::place::{Move, body_point, parse_move, parse_point};
 use crate::defaults;
+use crate::design::edit::{self, EditError};
 use crate::design::{Design, Pin, Pose as DesignPose, Target};
+use crate::mesh::{BodyPoint, Mesh};
 use crate::outline::Point;
 use clap::Args;
 use std::io::Write;
@@ -39,9 +41,9 @@ pub struct Pose {
 
 impl Pose {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
-        let mut design = parts::read_design(&self.design)?;
+        let mut design = document::load(&self.design)?;
         add(&mut design, &self.name, &self.pins, &self.targets)?;
-        parts::write_design(&self.output, &design, cancel)?;
+        document::save(&self.output, &design, cancel)?;
         let targets = design.poses.iter().find(|p| p.name == self.name).map_or(0, |p| p.targets.len());
         say(
             out,
@@ -58,39 +60,40 @@ impl Pose {
 
 /// Adds pins to `design` and targets to its pose `name`, which is created where it is missing.
 pub fn add(design: &mut Design, name: &str, pins: &[Point], targets: &[Move]) -> Result<(), CommandError> {
-    if name.trim().is_empty() {
-        return Err(CommandError::Usage("a pose needs a name".into()));
-    }
     for &p in pins {
         let pin = Pin { at: body_point(&design.mesh, p)?, position: None, stiffness: defaults::PIN_STIFFNESS };
-        match design.pins.iter().position(|old| same(design, &old.at, &pin.at)) {
-            Some(index) => design.pins[index] = pin,
-            None => design.pins.push(pin),
+        let old = design.pins.iter().position(|old| same(&design.mesh, &old.at, &pin.at));
+        match old {
+            Some(index) => edit::set_pin(design, index, pin),
+            None => edit::add_pin(design, pin).map(|_| ()),
         }
+        .map_err(refused)?;
     }
-    let mut added = Vec::with_capacity(targets.len());
-    for target in targets {
-        added.push(Target { at: body_point(&design.mesh, target.from)?, to: target.to, weight: 1.0 });
-    }
+    let name = name.trim();
     let index = match design.poses.iter().position(|p| p.name == name) {
         Some(index) => index,
-        None => {
-            design.poses.push(DesignPose { name: name.to_owned(), targets: Vec::new() });
-            design.poses.len() - 1
-        }
+        None => edit::add_pose(design, DesignPose { name: name.to_owned(), targets: Vec::new() }).map_err(refused)?,
     };
-    for target in added {
-        match design.poses[index].targets.iter().position(|old| same(design, &old.at, &target.at)) {
-            Some(old) => design.poses[index].targets[old] = target,
-            None => design.poses[index].targets.push(target),
+    for target in targets {
+        let target = Target { at: body_point(&design.mesh, target.from)?, to: target.to, weight: 1.0 };
+        let old = design.poses[index].targets.iter().position(|old| same(&design.mesh, &old.at, &target.at));
+        match old {
+            Some(old) => edit::set_target(design, index, old, target),
+            None => edit::add_target(design, index, target).map(|_| ()),
         }
+        .map_err(refused)?;
     }
     Ok(())
 }
 
-/// Whether two points of the body are the same place at rest, to a micrometre: far below what anybody types.
-fn same(design: &Design, a: &crate::mesh::BodyPoint, b: &crate::mesh::BodyPoint) -> bool {
+fn refused(error: EditError) -> CommandError {
+    CommandError::Usage(error.to_string())
+}
+
+/// Whether two points of the body are the same place at rest.
+fn same(mesh: &Mesh, a: &BodyPoint, b: &BodyPoint) -> bool {
+    /// A micrometre: far below what anybody types, far above rounding.
     const SAME_MM: f64 = 1e-3;
-    let (p, q) = (design.mesh.position(a, &design.mesh.nodes), design.mesh.position(b, &design.mesh.nodes));
+    let (p, q) = (mesh.position(a, &mesh.nodes), mesh.position(b, &mesh.nodes));
     (p[0] - q[0]).hypot(p[1] - q[1]) < SAME_MM
 }

@@ -2,10 +2,13 @@
 
 use super::error::CommandError;
 use super::output::{say, write_file};
-use super::{key, parts};
-use crate::design::Design;
+use super::{document, key};
+use crate::design::animation::activations_at;
+use crate::design::{Design, Target};
 use crate::engine::{Question, Shape};
-use crate::picture::{Color, raster};
+use crate::picture::palette::Palette;
+use crate::picture::raster;
+use crate::picture::scene::{self, Options};
 use clap::Args;
 use std::io::Write;
 use std::path::PathBuf;
@@ -33,14 +36,14 @@ pub struct Render {
 
 impl Render {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
-        let design = parts::read_design(&self.design)?;
+        let design = document::load(&self.design)?;
         let question = match (&self.pose, self.time) {
             (Some(pose), _) => Question::Targets(key::targets(&design, pose)?),
             (None, Some(time)) => {
                 if design.keyframes.is_empty() {
                     return Err(CommandError::input(&self.design, "the design has no keyframes to show"));
                 }
-                Question::Activations(parts::activations_at(&design, time))
+                Question::Activations(activations_at(&design, time))
             }
             (None, None) => Question::Targets(Vec::new()),
         };
@@ -55,18 +58,20 @@ impl Render {
     }
 }
 
-/// Paper white, slightly warm, as in the window.
-pub const BACKGROUND: Color = Color(247, 245, 241, 255);
-
 /// Both plushies side by side as PNG.
 pub fn picture(
     design: &Design,
-    shapes: &[Shape; 2],
-    targets: &[crate::design::Target],
+    [idealized, realizable]: &[Shape; 2],
+    targets: &[Target],
     size: (u32, u32),
 ) -> Result<Vec<u8>, CommandError> {
-    let [left, right] = shapes.each_ref().map(|shape| super::sketch::scene(design, shape, targets));
-    raster::png(&left, &right, size, BACKGROUND).map_err(|e| CommandError::Failed(e.to_string()))
+    let left = Options { targets, ..Options::default() };
+    // The realizable plushie has no fibres.
+    let right = Options { fibers: false, ..left };
+    let background = Palette::of(left.theme).background;
+    let left = scene::scene(design, idealized, &left);
+    let right = scene::scene(design, realizable, &right);
+    raster::png(&left, &right, size, background).map_err(|e| CommandError::Failed(e.to_string()))
 }
 
 /// Reads `WxH`.

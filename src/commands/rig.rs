@@ -2,7 +2,7 @@
 
 use super::error::CommandError;
 use super::output::say;
-use super::{key, parts};
+use super::{document, key};
 use crate::defaults;
 use crate::design::{Design, Easing};
 use crate::engine::rig::{RigError, RigOptions, TendonChoice, rig};
@@ -44,7 +44,7 @@ pub struct Rig {
 
 impl Rig {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
-        let design = parts::read_design(&self.design)?;
+        let design = document::load(&self.design)?;
         let options = RigOptions {
             max_winches: usize::from(self.max_winches),
             tendons: self.tendons.clone(),
@@ -69,7 +69,7 @@ impl Rig {
             other => other,
         })?;
         printed?;
-        parts::write_design(&self.output, &rigged, cancel)?;
+        document::save(&self.output, &rigged, cancel)?;
         let tendons: usize = rigged.networks.iter().map(|n| n.tendons.len()).sum();
         say(out, &format!("{}: {} winches, {tendons} tendons", self.output.display(), rigged.networks.len()))
     }
@@ -99,13 +99,12 @@ fn lay_out(design: &mut Design, cancel: &AtomicBool) -> Result<(), CommandError>
     let names: Vec<String> = design.poses.iter().filter(|p| !p.targets.is_empty()).map(|p| p.name.clone()).collect();
     let rest = vec![0.0; design.networks.len()];
     let time = |index: usize| index as f64 * defaults::KEYFRAME_SPACING_S;
-    key::put(design, time(0), rest.clone(), None, Easing::default());
+    key::put(design, time(0), rest.clone(), None, Easing::default())?;
     for (index, name) in names.iter().enumerate() {
         let activations = key::activations(design, name, cancel)?;
-        key::put(design, time(index + 1), activations, Some(name.clone()), Easing::default());
+        key::put(design, time(index + 1), activations, Some(name.clone()), Easing::default())?;
     }
-    key::put(design, time(names.len() + 1), rest, None, Easing::default());
-    Ok(())
+    key::put(design, time(names.len() + 1), rest, None, Easing::default())
 }
 
 /// Most tendons of one winch: a spool does not hold more.

@@ -4,6 +4,7 @@
 //! add what is missing (section 3, design loop).
 
 pub mod rig;
+pub mod worker;
 
 use crate::design::{Design, Network, Target};
 use crate::discovery;

@@ -31,7 +31,8 @@ impl Cholesky {
     /// Symbolic analysis; `None` only if the factor would not fit into memory.
     pub fn new(pattern: &Pattern) -> Option<Self> {
         let n = pattern.dimension();
-        let structure = SymbolicSparseColMatRef::new_checked(n, n, pattern.column_starts(), None, pattern.row_indices());
+        let structure =
+            SymbolicSparseColMatRef::new_checked(n, n, pattern.column_starts(), None, pattern.row_indices());
         let symbolic = factorize_symbolic_cholesky(
             structure,
             Side::Lower,
@@ -52,7 +53,8 @@ impl Cholesky {
             return Err(NotPositiveDefinite);
         }
         let n = pattern.dimension();
-        let structure = SymbolicSparseColMatRef::new_checked(n, n, pattern.column_starts(), None, pattern.row_indices());
+        let structure =
+            SymbolicSparseColMatRef::new_checked(n, n, pattern.column_starts(), None, pattern.row_indices());
         self.symbolic
             .factorize_numeric_llt(
                 &mut self.factor,
@@ -91,10 +93,10 @@ impl Cholesky {
 
     fn reserve(&mut self, columns: usize) {
         if columns > self.columns {
-            let need = self
-                .symbolic
-                .factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default())
-                .or(self.symbolic.solve_in_place_scratch::<f64>(columns, Par::Seq));
+            let need =
+                self.symbolic
+                    .factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default())
+                    .or(self.symbolic.solve_in_place_scratch::<f64>(columns, Par::Seq));
             self.memory = MemBuffer::new(need);
             self.columns = columns;
         }

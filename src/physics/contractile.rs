@@ -230,8 +230,12 @@ impl Energy for Contractile {
             }
             out.add(k, |a, b| {
                 let (ga, gb) = (g[a], g[b]);
-                let mut block =
-                    [tangent * ga[0] * gb[0], tangent * ga[0] * gb[1], tangent * ga[1] * gb[0], tangent * ga[1] * gb[1]];
+                let mut block = [
+                    tangent * ga[0] * gb[0],
+                    tangent * ga[0] * gb[1],
+                    tangent * ga[1] * gb[0],
+                    tangent * ga[1] * gb[1],
+                ];
                 for &(p, q, c) in &curvature {
                     let sign = ((a == p) as i32 - (a == q) as i32) * ((b == p) as i32 - (b == q) as i32);
                     if sign != 0 {

@@ -89,8 +89,8 @@ mod tests {
                 let dp = material.tangent(&f) * d;
                 decays(
                     |h| {
-                        let difference = (material.stress(&(f + direction * h)) - material.stress(&(f - direction * h)))
-                            / (2.0 * h);
+                        let difference =
+                            (material.stress(&(f + direction * h)) - material.stress(&(f - direction * h))) / (2.0 * h);
                         (Vector4::from_column_slice(difference.as_slice()) - dp).norm()
                     },
                     scale,

@@ -111,7 +111,11 @@ pub fn solve(
             return Ok(state);
         }
         if state.iterations >= settings.max_iterations {
-            return if settled(residual, scale) { Ok(state) } else { fail(unconverged(model, Cause::Iterations), state) };
+            return if settled(residual, scale) {
+                Ok(state)
+            } else {
+                fail(unconverged(model, Cause::Iterations), state)
+            };
         }
         if cancel() {
             return fail(Cause::Cancelled, state);
