@@ -12,6 +12,10 @@ use nalgebra::{Matrix2, Vector2};
 /// Step cap: the fraction of the way to the first inversion that a step may go.
 const INVERSION_MARGIN: f64 = 0.9;
 
+/// A strain of this size counts as force at work even at rest: rounding leaves 1e-16 of `mu`, and a residual is asked to be
+/// 1e-12 of the forces at work.
+const ROUNDING_STRAIN: f64 = 1e-4;
+
 pub struct Body {
     material: Box<dyn Material>,
     triangles: Vec<[usize; 3]>,
@@ -159,14 +163,16 @@ impl Energy for Body {
         limit
     }
 
-    /// The forces of a single triangle, before they balance with its neighbours'.
+    /// The forces of a single triangle, before they balance with its neighbours', and the floor that rounding sets.
     fn add_force_scale(&self, x: &[f64], scale: &mut [f64]) {
+        let floor = ROUNDING_STRAIN * self.material.shear_modulus();
         for (k, t) in self.triangles.iter().enumerate() {
             let p = self.material.stress(&self.deformation_gradient(k, x)) * self.weights[k];
             for (a, &n) in t.iter().enumerate() {
                 let force = p * self.gradients[k][a];
-                scale[2 * n] += force[0].abs();
-                scale[2 * n + 1] += force[1].abs();
+                let rounding = floor * self.weights[k] * self.gradients[k][a].norm();
+                scale[2 * n] += force[0].abs() + rounding;
+                scale[2 * n + 1] += force[1].abs() + rounding;
             }
         }
     }

@@ -5,6 +5,9 @@
 use super::energy::{Energy, HessianForm};
 use super::pattern::Scatter;
 
+/// Part of `K |p|` that counts as force at work: rounding leaves 1e-16 of it.
+const ROUNDING: f64 = 1e-6;
+
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pin {
     /// Distinct nodes and their weights, which sum to one.
@@ -62,6 +65,18 @@ impl Energy for Pins {
             for (&n, w) in pin.nodes.iter().zip(&pin.weights) {
                 gradient[2 * n] -= w * force[0];
                 gradient[2 * n + 1] -= w * force[1];
+            }
+        }
+    }
+
+    /// The force, and what rounding of the coordinates makes of a stiff spring.
+    fn add_force_scale(&self, x: &[f64], scale: &mut [f64]) {
+        for pin in &self.pins {
+            let force = pin.force(x);
+            for &n in &pin.nodes {
+                for axis in 0..2 {
+                    scale[2 * n + axis] += force[axis].abs() + ROUNDING * pin.stiffness * pin.anchor[axis].abs();
+                }
             }
         }
     }
