@@ -5,6 +5,7 @@
 
 pub mod answer;
 pub mod file;
+pub mod network;
 
 pub use answer::{Answered, Options, Quality, solve};
 pub use file::{Problem, ProblemError, read};
