@@ -29,7 +29,13 @@ fn run(cli: &Cli) -> Result<(), CommandError> {
             catch_interrupts()?;
             commands::run(command, &mut std::io::stdout(), &CANCEL)
         }
-        None => open_studio(cli),
+        None => {
+            if let Some(path) = cli.design.as_deref().filter(|path| !path.exists()) {
+                // What looks like a design may be a mistyped command.
+                return Err(CommandError::input(path, "no such file, and no such command (--help lists them)"));
+            }
+            open_studio(cli)
+        }
     }
 }
 

@@ -1,8 +1,8 @@
 //! `discover`: network discovery on a given activation graph, as JSON.
 
 use super::error::CommandError;
-use super::output::{read_text, say, write_file};
-use super::parts;
+use super::output::{json, read_text, say, write_file};
+use crate::problem::network::{self, NetworkError};
 use clap::Args;
 use std::io::Write;
 use std::path::PathBuf;
@@ -21,10 +21,27 @@ pub struct Discover {
 
 impl Discover {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
-        let answer = parts::network_answer(&read_text(&self.network)?)?;
+        let text = read_text(&self.network)?;
+        let (answer, failure) = match network::answer(&text) {
+            Ok(answer) => (answer, None),
+            Err(error) => {
+                let line = error.to_string();
+                match error {
+                    NetworkError::NoNetwork { answer, .. } => (answer, Some(CommandError::NotConverged(line))),
+                    NetworkError::Json { .. } | NetworkError::Key { .. } => {
+                        return Err(CommandError::input(&self.network, line));
+                    }
+                }
+            }
+        };
+        let mut text = json(&answer)?;
         match &self.output {
-            Some(path) => write_file(path, answer.as_bytes(), cancel),
-            None => say(out, &answer),
+            Some(path) => {
+                text.push('\n');
+                write_file(path, text.as_bytes(), cancel)?;
+            }
+            None => say(out, &text)?,
         }
+        failure.map_or(Ok(()), Err)
     }
 }

@@ -4,7 +4,7 @@ use super::document;
 use super::error::{CommandError, check_cancel};
 use super::output::say;
 use crate::design::{Design, Easing, Keyframe, Target, edit};
-use crate::engine::{Question, Request, Shape, Solver};
+use crate::engine::{Effort, Question, Request, Shape, Solver};
 use clap::{Args, ValueEnum};
 use std::io::Write;
 use std::path::PathBuf;
@@ -100,7 +100,7 @@ pub fn solve(
         show_idealized: wanted[0],
         show_realizable: wanted[1],
     };
-    let outcome = Solver::default().solve(&request, cancel);
+    let outcome = Solver::default().solve_with(&request, Effort::Thorough, cancel);
     check_cancel(cancel)?;
     let rest = || Shape { nodes: design.mesh.nodes.clone(), ..Shape::default() };
     Ok([outcome.idealized.unwrap_or_else(rest), outcome.realizable.unwrap_or_else(rest)])

@@ -1,10 +1,11 @@
 //! `new`: an outline becomes a meshed design.
 
+use super::document;
 use super::error::CommandError;
 use super::output::{read_file, say};
-use super::{document, parts};
 use crate::defaults;
 use crate::design::Design;
+use crate::mesh;
 use crate::outline::svg;
 use clap::Args;
 use std::io::Write;
@@ -51,7 +52,7 @@ impl New {
 /// A design with default settings around an outline.
 pub fn design(svg: &[u8], height_mm: Option<f64>, fibers: usize, name: &str) -> Result<Design, String> {
     let outline = svg::read(svg, height_mm).map_err(|e| e.to_string())?;
-    let mesh = parts::mesh(&outline, fibers)?;
+    let mesh = mesh::generate(&outline, fibers).map_err(|e| e.to_string())?;
     Ok(Design::new(name, outline, mesh))
 }
 

@@ -1,7 +1,6 @@
 //! Places on the command line, `X,Y` and `X,Y=X2,Y2` in mm, and where on the body they are.
 
 use super::error::CommandError;
-use super::parts;
 use crate::mesh::{BodyPoint, Mesh};
 use crate::outline::Point;
 
@@ -33,14 +32,15 @@ pub fn parse_move(text: &str) -> Result<Move, String> {
 
 /// The point of the body at rest that `p` means.
 pub fn body_point(mesh: &Mesh, p: Point) -> Result<BodyPoint, CommandError> {
-    let found = parts::nearest_body_point(mesh, p).map(|at| (mesh.position(&at, &mesh.nodes), at));
-    let reach = REACH * mesh.body_length();
-    match found {
-        Some((q, at)) if (q[0] - p[0]).hypot(q[1] - p[1]) <= reach => Ok(at),
-        Some((q, _)) => Err(CommandError::Usage(format!(
-            "{},{} mm is not on the body at rest; the nearest point of the body is {:.1},{:.1}",
-            p[0], p[1], q[0], q[1]
-        ))),
+    match mesh.locate_nearest(p, &mesh.nodes) {
+        Some((at, distance)) if distance <= REACH * mesh.body_length() => Ok(at),
+        Some((at, _)) => {
+            let q = mesh.position(&at, &mesh.nodes);
+            Err(CommandError::Usage(format!(
+                "{},{} mm is not on the body at rest; the nearest point of the body is {:.1},{:.1}",
+                p[0], p[1], q[0], q[1]
+            )))
+        }
         None => Err(CommandError::Usage(format!("{},{} mm is not on the body: the design has no mesh", p[0], p[1]))),
     }
 }

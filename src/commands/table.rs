@@ -3,8 +3,9 @@
 use super::error::CommandError;
 use super::key::solve;
 use super::output::say;
-use crate::design::{Design, Target};
+use crate::design::Design;
 use crate::engine::Question;
+use crate::engine::solver::target_error;
 use serde::Serialize;
 use std::io::Write;
 use std::sync::atomic::AtomicBool;
@@ -46,7 +47,7 @@ pub fn figures(design: &Design, cancel: &AtomicBool) -> Result<Figures, CommandE
         poses.push(PoseFigures {
             name: pose.name.clone(),
             targets: pose.targets.len(),
-            error_rest: error_at_rest(design, &pose.targets),
+            error_rest: target_error(design, &pose.targets, &design.mesh.nodes),
             error_idealized: idealized.target_error,
             error_realizable: realizable.target_error,
             milliseconds_idealized: idealized.milliseconds,
@@ -67,21 +68,6 @@ pub fn figures(design: &Design, cancel: &AtomicBool) -> Result<Figures, CommandE
         body_length_mm: design.body_length_mm(),
         poses,
     })
-}
-
-/// Rms distance of the targets from the rest shape, in body lengths (0 without targets).
-fn error_at_rest(design: &Design, targets: &[Target]) -> f64 {
-    if targets.is_empty() {
-        return 0.0;
-    }
-    let squares: f64 = targets
-        .iter()
-        .map(|t| {
-            let p = design.mesh.position(&t.at, &design.mesh.nodes);
-            (p[0] - t.to[0]).powi(2) + (p[1] - t.to[1]).powi(2)
-        })
-        .sum();
-    (squares / targets.len() as f64).sqrt() / design.body_length_mm()
 }
 
 /// Prints the figures as a table.

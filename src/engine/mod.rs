@@ -3,10 +3,10 @@
 //! The realizable plushie is always solved first; its activations are then held in the idealized one and the fibres
 //! add what is missing (section 3, design loop).
 
-pub mod rig;
-pub mod worker;
 pub mod compile;
+pub mod rig;
 pub mod solver;
+pub mod worker;
 
 pub use solver::{Effort, Solver};
 
