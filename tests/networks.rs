@@ -1,6 +1,7 @@
 //! Network discovery against published cases and against a reference that enumerates everything.
 
 use plushwright::discovery::{DiscoveryError, Parameters, Spread, Stages, candidates, discover, propose};
+use plushwright::problem::network;
 use serde_json::Value;
 use std::collections::BTreeSet;
 
@@ -40,6 +41,11 @@ fn published_cases_are_exact() {
         assert_eq!(pairs(&stages.tree), paths(&answer["tree"]));
         let joins: Vec<Value> = answer["joins"].as_array().unwrap().iter().map(|join| join["path"].clone()).collect();
         assert_eq!(BTreeSet::from_iter(stages.joins), paths(&Value::Array(joins)));
+
+        let found = network::answer(&question.to_string()).unwrap();
+        assert_eq!((&found["format"], &found["winch"]), (&answer["format"], &answer["winch"]));
+        assert_eq!(paths(&found["tendons"]), paths(&answer["tendons"]));
+        assert_eq!(found["score"].as_f64().unwrap(), stages.score);
     }
 }
 

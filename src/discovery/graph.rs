@@ -49,7 +49,7 @@ impl Graph {
             neighbors[a].push((b, edge));
             neighbors[b].push((a, edge));
         }
-        if let Some(edge) = weights.iter().position(|weight| !(weight.abs() < LARGEST)) {
+        if let Some(edge) = weights.iter().position(|weight| weight.is_nan() || weight.abs() >= LARGEST) {
             return Err(DiscoveryError::NonFinite { edge });
         }
         neighbors.iter_mut().for_each(|list| list.sort_unstable());
