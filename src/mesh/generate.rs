@@ -18,8 +18,9 @@ const SPACINGS: [f64; 12] = [1.0, 0.94, 1.06, 0.88, 1.12, 0.97, 1.03, 1.18, 1.24
 const SPACINGS_LARGE: [f64; 1] = [1.0];
 /// Fibres from which a mesh is large.
 const LARGE: usize = 3000;
-/// Spacings tried, growing, where the boundary alone has too many edges.
-const COARSER: usize = 40;
+/// Number of spacings tried where the boundary alone has too many edges at those, and the factor from one to the next.
+const COARSER: i32 = 40;
+const COARSENING: f64 = 1.12;
 
 /// A mesh of the outline with `fibers` edges, exactly so where nothing stands in the way.
 ///
@@ -40,13 +41,12 @@ pub fn generate(outline: &Outline, fibers: usize) -> Result<Mesh, MeshError> {
         return Ok(mesh);
     }
     // The boundary's own features ask for many nodes: sample it more and more coarsely.
-    let mut h = even;
-    for _ in 0..COARSER {
-        h *= 1.12;
-        if let Some((_, mesh)) = attempt(outline, fibers, h) {
-            return Ok(mesh);
-        }
+    let coarser: Vec<f64> = (1..=COARSER).map(|k| even * COARSENING.powi(k)).collect();
+    let found = coarser.iter().filter_map(|&h| attempt(outline, fibers, h)).take(SPACINGS.len());
+    if let Some((_, mesh)) = best(found) {
+        return Ok(mesh);
     }
+    let h = coarser.last().copied().unwrap_or(even);
     Err(MeshError::Unreachable { asked: fibers, nearest: fewest(outline, h) })
 }
 
@@ -65,8 +65,15 @@ fn even_spacing(outline: &Outline, fibers: usize) -> f64 {
     (p + (p * p + 4.0 * a * e2).sqrt()) / (2.0 * e2)
 }
 
-/// Lower is better: poor triangles first, then limbs one triangle across, then the least angle.
+/// Number of poor triangles and a figure of what else is unwanted; lower is better.
 type Rank = (usize, f64);
+
+/// An inner edge across a limb weighs as much as ten degrees of the least angle, or edges that differ by a factor of
+/// two more.
+fn rank(quality: &Quality) -> Rank {
+    let uneven = quality.max_edge / quality.min_edge;
+    (quality.below_20_deg, quality.bridges as f64 - 0.1 * quality.min_angle_deg + 0.5 * uneven)
+}
 
 fn best(candidates: impl Iterator<Item = (Rank, Mesh)>) -> Option<(Rank, Mesh)> {
     candidates.min_by(|(a, _), (b, _)| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)))
@@ -89,8 +96,7 @@ fn attempt(outline: &Outline, fibers: usize, h: f64) -> Option<(Rank, Mesh)> {
         let sound =
             quality.edges == fibers && (mesh.area() / outline.area() - 1.0).abs() < 0.01 && mesh.validate().is_ok();
         if sound {
-            let rank = (quality.below_20_deg, quality.bridges as f64 - 0.1 * quality.min_angle_deg);
-            return Some((rank, mesh));
+            return Some((rank(&quality), mesh));
         }
     }
     None
