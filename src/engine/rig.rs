@@ -44,6 +44,9 @@ pub fn rig(
     progress: &mut dyn FnMut(&str),
     cancel: &AtomicBool,
 ) -> Result<Design, RigError> {
-    let _ = (design, options, progress, cancel);
+    let _ = (options, progress, cancel);
+    if design.poses.iter().all(|pose| pose.targets.is_empty()) {
+        return Err(RigError::NoTargets);
+    }
     Err(RigError::NotAvailable)
 }
