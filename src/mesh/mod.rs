@@ -1,7 +1,22 @@
 //! Outline to triangle mesh, and points of the body.
+//!
+//! [`generate()`] makes a mesh with an asked number of edges; [`Mesh::validate`] says whether one from a file is sound;
+//! [`Mesh::locate`] finds the point of the body at a place.
+
+mod check;
+mod fill;
+mod generate;
+mod locate;
+pub mod quality;
+mod sample;
+mod smooth;
+mod triangulate;
+
+pub use generate::{MAX_FIBERS, generate};
 
 use crate::outline::Point;
 use serde::{Deserialize, Serialize};
+use thiserror::Error;
 
 /// A triangle mesh of the rest silhouette. Triangles are counter-clockwise, 0-based.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -16,6 +31,35 @@ pub struct Mesh {
 pub struct BodyPoint {
     pub triangle: usize,
     pub weights: [f64; 3],
+}
+
+/// Why there is no mesh, or a mesh is refused.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum MeshError {
+    #[error("the outline is not a simple polygon with an area")]
+    BadOutline,
+    #[error("no mesh of this outline has {asked} muscle fibres; the nearest possible count is {nearest}")]
+    Unreachable { asked: usize, nearest: usize },
+    #[error("the mesh has no triangles")]
+    Empty,
+    #[error("node {node} of the mesh is not finite")]
+    NotFinite { node: usize },
+    #[error("triangle {triangle} names node {node}, which does not exist")]
+    NoSuchNode { triangle: usize, node: usize },
+    #[error("triangle {triangle} is flat or not counter-clockwise")]
+    NotCounterClockwise { triangle: usize },
+    #[error("node {node} belongs to no triangle")]
+    UnusedNode { node: usize },
+    #[error("nodes {a} and {b} are at the same place")]
+    SameNode { a: usize, b: usize },
+    #[error("the edge from node {a} to {b} is used twice in the same direction: triangles overlap")]
+    SharedEdge { a: usize, b: usize },
+    #[error("the mesh falls into {pieces} pieces")]
+    Pieces { pieces: usize },
+    #[error("the mesh hangs together by the single node {node}")]
+    PinchedNode { node: usize },
+    #[error("node {node} hangs in the middle of another triangle's edge")]
+    HangingNode { node: usize },
 }
 
 impl Mesh {

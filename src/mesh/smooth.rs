@@ -1,0 +1,123 @@
+//! Moves interior nodes so that triangles come close to equilateral.
+
+use super::quality::min_angle;
+use super::triangulate::{self, doubled_area};
+use crate::outline::Point;
+
+/// Rounds of optimal-Delaunay smoothing: the angles gain little after a dozen.
+const ROUNDS: usize = 12;
+/// Rounds of angle climbing, each followed by a new triangulation.
+const CLIMBS: usize = 6;
+/// Triangles with a smaller least angle than this have their interior nodes climbed, degrees.
+const CLIMB_BELOW_DEG: f64 = 36.0;
+
+/// Smooths the nodes from `fixed` on; returns the triangles. `None` where no triangulation exists.
+///
+/// Rounds of the optimal Delaunay triangulation (Chen and Holst, *Efficient mesh optimization schemes based on optimal
+/// Delaunay triangulations*, 2011): each node goes to the mean of the circumcentres of its triangles, weighted by area.
+/// Then nodes at poor triangles climb to where the least angle around them is largest.
+pub(super) fn smooth(nodes: &mut [Point], fixed: usize, segments: &[[usize; 2]]) -> Option<Vec<[usize; 3]>> {
+    let mut triangles = triangulate::triangles(nodes, segments)?;
+    for _ in 0..ROUNDS {
+        let stars = stars(nodes.len(), &triangles);
+        for node in fixed..nodes.len() {
+            let Some(goal) = circumcentre_mean(nodes, &triangles, &stars[node]) else { continue };
+            step(nodes, &triangles, &stars[node], node, goal);
+        }
+        triangles = triangulate::triangles(nodes, segments)?;
+    }
+    for _ in 0..CLIMBS {
+        if !climb(nodes, fixed, &triangles) {
+            break;
+        }
+        triangles = triangulate::triangles(nodes, segments)?;
+    }
+    Some(triangles)
+}
+
+/// The triangles at each node.
+fn stars(nodes: usize, triangles: &[[usize; 3]]) -> Vec<Vec<usize>> {
+    let mut stars = vec![Vec::new(); nodes];
+    for (t, triangle) in triangles.iter().enumerate() {
+        for &node in triangle {
+            stars[node].push(t);
+        }
+    }
+    stars
+}
+
+fn circumcentre_mean(nodes: &[Point], triangles: &[[usize; 3]], star: &[usize]) -> Option<Point> {
+    let mut sum = [0.0; 2];
+    let mut weight = 0.0;
+    for &t in star {
+        let [a, b, c] = triangles[t].map(|n| nodes[n]);
+        let d = doubled_area(a, b, c);
+        // Circumcentre relative to `a`, times twice its denominator: d stands in both, so that it cancels.
+        let (u, v) = ([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]);
+        let (uu, vv) = (u[0] * u[0] + u[1] * u[1], v[0] * v[0] + v[1] * v[1]);
+        sum[0] += a[0] * d + 0.5 * (v[1] * uu - u[1] * vv);
+        sum[1] += a[1] * d + 0.5 * (u[0] * vv - v[0] * uu);
+        weight += d;
+    }
+    let goal = [sum[0] / weight, sum[1] / weight];
+    (weight > 0.0 && goal[0].is_finite() && goal[1].is_finite()).then_some(goal)
+}
+
+/// Moves a node to its goal, or half, or a quarter of the way: as far as its triangles stay well oriented.
+fn step(nodes: &mut [Point], triangles: &[[usize; 3]], star: &[usize], node: usize, goal: Point) {
+    let start = nodes[node];
+    let smallest = |nodes: &[Point]| {
+        star.iter()
+            .map(|&t| {
+                let [a, b, c] = triangles[t].map(|n| nodes[n]);
+                doubled_area(a, b, c)
+            })
+            .fold(f64::INFINITY, f64::min)
+    };
+    let floor = 0.25 * smallest(nodes);
+    for share in [1.0, 0.5, 0.25] {
+        nodes[node] = [start[0] + share * (goal[0] - start[0]), start[1] + share * (goal[1] - start[1])];
+        if smallest(nodes) > floor {
+            return;
+        }
+    }
+    nodes[node] = start;
+}
+
+/// One pass of climbing over the nodes at poor triangles; whether any moved.
+fn climb(nodes: &mut [Point], fixed: usize, triangles: &[[usize; 3]]) -> bool {
+    let stars = stars(nodes.len(), triangles);
+    let angle = |nodes: &[Point], t: usize| min_angle(triangles[t].map(|n| nodes[n]));
+    let worst = |nodes: &[Point], star: &[usize]| star.iter().map(|&t| angle(nodes, t)).fold(f64::INFINITY, f64::min);
+    let mut poor: Vec<usize> = (fixed..nodes.len()).filter(|&n| worst(nodes, &stars[n]) < CLIMB_BELOW_DEG).collect();
+    poor.sort_by(|&a, &b| worst(nodes, &stars[a]).total_cmp(&worst(nodes, &stars[b])).then(a.cmp(&b)));
+    let mut moved = false;
+    for node in poor {
+        let Some(&first) = stars[node].first() else { continue };
+        let [a, b, c] = triangles[first].map(|n| nodes[n]);
+        let mut reach = 0.2 * doubled_area(a, b, c).abs().sqrt();
+        let mut best = worst(nodes, &stars[node]);
+        for _ in 0..6 {
+            let centre = nodes[node];
+            let mut improved = false;
+            for direction in
+                [[1.0, 0.0], [0.7, 0.7], [0.0, 1.0], [-0.7, 0.7], [-1.0, 0.0], [-0.7, -0.7], [0.0, -1.0], [0.7, -0.7]]
+            {
+                let here = nodes[node];
+                nodes[node] = [centre[0] + reach * direction[0], centre[1] + reach * direction[1]];
+                let value = worst(nodes, &stars[node]);
+                if value > best + 1e-3 {
+                    best = value;
+                    improved = true;
+                } else {
+                    nodes[node] = here;
+                }
+            }
+            moved |= improved;
+            if !improved {
+                reach *= 0.5;
+            }
+        }
+    }
+    moved
+}
