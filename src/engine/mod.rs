@@ -3,6 +3,11 @@
 //! The realizable plushie is always solved first; its activations are then held in the idealized one and the fibres
 //! add what is missing (section 3, design loop).
 
+pub mod compile;
+pub mod solver;
+
+pub use solver::{Effort, Solver};
+
 use crate::design::{Design, Network, Target};
 use crate::discovery;
 use crate::outline::Point;
@@ -72,19 +77,6 @@ pub struct Proposal {
     /// Target error before and after, in body lengths.
     pub error_before: f64,
     pub error_after: f64,
-}
-
-/// Poses both plushies, warm-started from the request before. Keeps compiled models between requests.
-#[derive(Default)]
-pub struct Solver {}
-
-impl Solver {
-    /// Answers a request; `cancel` is checked at every Newton step and leaves the best state reached so far.
-    pub fn solve(&mut self, request: &Request, cancel: &AtomicBool) -> Outcome {
-        let _ = cancel;
-        let rest = Shape { nodes: request.design.mesh.nodes.clone(), ..Shape::default() };
-        Outcome { id: request.id, idealized: Some(rest.clone()), realizable: Some(rest) }
-    }
 }
 
 /// Proposes networks for a pose, best simulated pose error first.

@@ -1,1 +1,11 @@
-//! The JSON question-and-answer interface of the numerical core.
+//! The JSON question-and-answer interface of the numerical core (`examples/problem-format.md`).
+//!
+//! A problem file puts one numerical question without a design, a window or a mesh generator, in SI units, so that a
+//! script or another solver can put the same question and compare.
+
+pub mod answer;
+pub mod file;
+pub mod network;
+
+pub use answer::{Answered, Options, Quality, solve};
+pub use file::{Problem, ProblemError, read};

@@ -1,1 +1,111 @@
-//! Room soft_ik.
+//! Soft IK: which contractions bring the body closest to its targets (section 5).
+//!
+//! Minimises, over the activations `beta` of the free winches within their bounds, with `x` in equilibrium,
+//!
+//! ```text
+//! O = 1/2 sum_T q_t |S_t x - x'_t|^2 + 1/2 sum_i q_i |x_i - X_i|^2 + lambda/2 sum (alpha_c/alpha_0)^2 + rho/2 sum_free tau^2
+//! ```
+//!
+//! `S_t x` is a point of the body. A muscle fibre is a winch with a single element. Three methods implement [`Method`]:
+//!
+//! | method | unknowns | for |
+//! | --- | --- | --- |
+//! | [`gradient`] | `xi`, the paper's reparametrisation | the baseline: Algorithm 1 as printed; may stall where elements go slack |
+//! | [`contraction`] | `beta`, Gauss-Newton with true bounds | winches; exact objective of problem files |
+//! | [`tension`] | `x` and the tensions of the free elements, all at once | many fibres under the hand |
+//!
+//! [`solve`] is the default: it chooses and combines them, and never returns an answer stuck in the slack stall.
+
+pub mod actuation;
+pub mod contraction;
+pub mod default_method;
+pub mod gradient;
+pub mod objective;
+pub mod sensitivity;
+pub mod tension;
+
+pub use actuation::{Actuation, Winch};
+pub use default_method::solve;
+pub use objective::{Objective, PointTarget};
+
+use crate::physics::{Model, StaticsError, StaticsSettings, statics};
+
+/// The question: a body, what may pull, and where it should go.
+pub struct Question<'a> {
+    pub model: &'a mut Model,
+    pub actuation: &'a Actuation,
+    pub objective: &'a Objective,
+}
+
+/// Activations of the free winches with the equilibrium they lead to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Posture {
+    pub beta: Vec<f64>,
+    pub x: Vec<f64>,
+    /// `O` of the question.
+    pub objective: f64,
+    /// `max |dE/dx|`.
+    pub residual: f64,
+    /// Whether statics converged at these activations.
+    pub in_equilibrium: bool,
+}
+
+/// What a method did.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Answer {
+    pub posture: Posture,
+    pub iterations: usize,
+    pub factorizations: usize,
+    pub converged: bool,
+}
+
+/// How long a method may go on.
+pub struct Budget<'a> {
+    pub iterations: usize,
+    /// Asked between factorisations; `true` ends the work with the best posture so far.
+    pub stop: &'a dyn Fn() -> bool,
+}
+
+/// A way to minimise `O` from a starting posture.
+pub trait Method {
+    fn name(&self) -> &'static str;
+    fn solve(&self, question: &mut Question, start: &Posture, budget: &Budget) -> Answer;
+}
+
+impl Question<'_> {
+    /// The equilibrium at activations `beta`, statics started from `from`. The best state reached, where statics fails.
+    pub fn settle(&mut self, beta: &[f64], from: &[f64], stop: &dyn Fn() -> bool) -> (Posture, usize) {
+        let contractions = self.actuation.contractions(beta);
+        self.model.contractile.set_contractions(&contractions);
+        let (state, in_equilibrium) = match statics::solve(self.model, from, &StaticsSettings::default(), stop) {
+            Ok(state) => (state, true),
+            Err(error) => {
+                let StaticsError { best, .. } = *error;
+                (best, false)
+            }
+        };
+        let objective = self.objective_at(&state.x, &contractions);
+        let posture = Posture { beta: beta.to_vec(), x: state.x, objective, residual: state.residual, in_equilibrium };
+        (posture, state.factorizations)
+    }
+
+    /// `O` at `x` with all elements springs at `contractions` (as set in the model).
+    pub fn objective_at(&self, x: &[f64], contractions: &[f64]) -> f64 {
+        let tensions = self.model.contractile.tensions(x);
+        self.objective.value(x, &self.model.contractile.elements, contractions, &tensions, self.actuation)
+    }
+}
+
+/// The method of this name, or `None`.
+pub fn method(name: &str) -> Option<Box<dyn Method>> {
+    match name {
+        "gradient" => Some(Box::new(gradient::Gradient::default())),
+        "contraction" => Some(Box::new(contraction::GaussNewton::default())),
+        "tension" => Some(Box::new(tension::AllAtOnce::default())),
+        "default" => Some(Box::new(default_method::Default)),
+        _ => None,
+    }
+}
+
+/// The names that [`method`] knows.
+pub const METHODS: [&str; 4] = ["default", "gradient", "contraction", "tension"];

@@ -1,0 +1,124 @@
+//! Winch activations over time, read off the keyframes.
+//!
+//! Between two keyframes each activation moves along the straight line of its two values, at the pace of the earlier
+//! keyframe's [`Easing`]; before the first and after the last keyframe it stays where that keyframe put it.
+
+use super::{Design, Easing};
+
+/// Two moments closer than this are the same moment, s. Well below a track step and any hand on a timeline.
+pub const SAME_TIME_S: f64 = 1e-6;
+
+/// Cable wound by each winch at `time_s`, mm, in the order of the networks; zeros if there are no keyframes.
+pub fn activations_at(design: &Design, time_s: f64) -> Vec<f64> {
+    let frames = &design.keyframes;
+    let next = frames.partition_point(|k| k.time_s <= time_s);
+    match (next.checked_sub(1).map(|i| &frames[i]), frames.get(next)) {
+        (None, None) => vec![0.0; design.networks.len()],
+        (None, Some(only)) | (Some(only), None) => only.activations_mm.clone(),
+        (Some(a), Some(b)) => {
+            let s = eased(a.easing, (time_s - a.time_s) / (b.time_s - a.time_s));
+            a.activations_mm.iter().zip(&b.activations_mm).map(|(a, b)| a + (b - a) * s).collect()
+        }
+    }
+}
+
+/// Progress of the motion after the fraction `s` of the time between two keyframes, both from 0 to 1.
+pub fn eased(easing: Easing, s: f64) -> f64 {
+    match easing {
+        Easing::Linear => s,
+        Easing::Smooth => s * s * (3.0 - 2.0 * s),
+        Easing::Hold => {
+            if s < 1.0 {
+                0.0
+            } else {
+                1.0
+            }
+        }
+    }
+}
+
+/// Time of the last keyframe, s: the length of the timeline, which starts at 0.
+pub fn duration_s(design: &Design) -> f64 {
+    design.keyframes.last().map_or(0.0, |k| k.time_s)
+}
+
+/// The moments of a winch track: from the first keyframe in steps of `1 / track_rate_hz`, and the last keyframe itself,
+/// s. A single 0 without keyframes.
+pub fn track_times(design: &Design) -> Vec<f64> {
+    let (Some(first), Some(last)) = (design.keyframes.first(), design.keyframes.last()) else {
+        return vec![0.0];
+    };
+    let (first, last) = (first.time_s, last.time_s);
+    let rate = design.controller.track_rate_hz;
+    let mut times = Vec::new();
+    let mut step = 0u32;
+    // Computed from the step's number: adding up the interval would drift.
+    while first + f64::from(step) / rate < last - SAME_TIME_S {
+        times.push(first + f64::from(step) / rate);
+        step += 1;
+    }
+    times.push(last);
+    times
+}
+
+/// How many steps [`track_times`] has, about, without building them: a check before a long export.
+pub fn track_steps(design: &Design) -> f64 {
+    let first = design.keyframes.first().map_or(0.0, |k| k.time_s);
+    (duration_s(design) - first) * design.controller.track_rate_hz + 1.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::sample;
+    use super::*;
+    use crate::design::Keyframe;
+
+    fn with_keyframes(frames: &[(f64, f64, Easing)]) -> Design {
+        let mut design = sample();
+        design.networks.truncate(1);
+        design.keyframes = frames
+            .iter()
+            .map(|&(time_s, a, easing)| Keyframe { time_s, activations_mm: vec![a], pose: None, easing })
+            .collect();
+        design.validate().expect("sound");
+        design
+    }
+
+    #[test]
+    fn clamps_outside_and_is_exact_on_keyframes() {
+        let design =
+            with_keyframes(&[(0.5, 3.0, Easing::Smooth), (2.5, 7.0, Easing::Linear), (3.5, 1.0, Easing::Hold)]);
+        for (time, value) in [(-1.0, 3.0), (0.0, 3.0), (0.5, 3.0), (2.5, 7.0), (3.5, 1.0), (9.0, 1.0)] {
+            assert_eq!(activations_at(&design, time), [value], "at {time} s");
+        }
+        // 3 s^2 - 2 s^3 at a quarter is 5/32.
+        assert!((activations_at(&design, 1.0)[0] - (3.0 + 4.0 * 5.0 / 32.0)).abs() < 1e-12);
+        assert!((activations_at(&design, 2.75)[0] - 5.5).abs() < 1e-12);
+        assert_eq!(duration_s(&design), 3.5);
+    }
+
+    #[test]
+    fn hold_stays_until_the_next_keyframe() {
+        let design = with_keyframes(&[(0.0, 1.0, Easing::Hold), (1.0, 2.0, Easing::Smooth)]);
+        assert_eq!(activations_at(&design, 0.999), [1.0]);
+        assert_eq!(activations_at(&design, 1.0), [2.0]);
+    }
+
+    #[test]
+    fn without_keyframes_everything_is_slack() {
+        let design = with_keyframes(&[]);
+        assert_eq!(activations_at(&design, 1.0), [0.0]);
+        assert_eq!(track_times(&design), [0.0]);
+    }
+
+    #[test]
+    fn tracks_hold_both_ends_at_the_given_rate() {
+        let design = with_keyframes(&[(0.1, 0.0, Easing::Linear), (1.1, 1.0, Easing::Linear)]);
+        let times = track_times(&design);
+        assert_eq!(times.len(), 51);
+        assert_eq!((times[0], times[50]), (0.1, 1.1));
+        let uneven = with_keyframes(&[(0.0, 0.0, Easing::Linear), (0.05, 1.0, Easing::Linear)]);
+        assert_eq!(track_times(&uneven), [0.0, 0.02, 0.04, 0.05]);
+        assert_eq!(track_times(&with_keyframes(&[(2.0, 1.0, Easing::Linear)])), [2.0]);
+    }
+}

@@ -1,0 +1,272 @@
+//! The changes a user can make to a document.
+//!
+//! Each function leaves a valid design valid, or returns an error and leaves it as it was. They know nothing of undo:
+//! [`super::History`] calls them.
+
+use super::animation::SAME_TIME_S;
+use super::{
+    ControllerSettings, Design, DesignError, FabricationSettings, FiberSettings, Gravity, Keyframe, Material, Network,
+    Pin, Pose, Target, TendonSettings, validate,
+};
+use crate::outline::Point;
+use thiserror::Error;
+
+/// Why a change was refused.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum EditError {
+    #[error(transparent)]
+    Invalid(#[from] DesignError),
+    #[error("there is no {what} {index}, the design has {len}")]
+    Missing { what: &'static str, index: usize, len: usize },
+    #[error("a {0} needs a name")]
+    NoName(&'static str),
+    #[error("there is already a {what} named {name:?}")]
+    NameTaken { what: &'static str, name: String },
+    #[error("there is already a keyframe at {0} s")]
+    TimeTaken(f64),
+    #[error("no gesture is running")]
+    NoGesture,
+}
+
+/// Adds a pin; its index.
+pub fn add_pin(design: &mut Design, pin: Pin) -> Result<usize, EditError> {
+    validate::pin(&format!("pins[{}]", design.pins.len()), &design.mesh, &pin)?;
+    design.pins.push(pin);
+    Ok(design.pins.len() - 1)
+}
+
+/// Replaces a pin: another anchor or stiffness.
+pub fn set_pin(design: &mut Design, index: usize, pin: Pin) -> Result<(), EditError> {
+    validate::pin(&format!("pins[{index}]"), &design.mesh, &pin)?;
+    *item(&mut design.pins, "pin", index)? = pin;
+    Ok(())
+}
+
+pub fn remove_pin(design: &mut Design, index: usize) -> Result<Pin, EditError> {
+    item(&mut design.pins, "pin", index)?;
+    Ok(design.pins.remove(index))
+}
+
+/// Adds a pose; its index.
+pub fn add_pose(design: &mut Design, pose: Pose) -> Result<usize, EditError> {
+    let name = free_pose_name(design, &pose.name, None)?;
+    let pose = Pose { name, ..pose };
+    validate::pose(&format!("poses[{}]", design.poses.len()), &design.mesh, &pose)?;
+    design.poses.push(pose);
+    Ok(design.poses.len() - 1)
+}
+
+/// Renames a pose, in the keyframes made from it as well.
+pub fn rename_pose(design: &mut Design, index: usize, name: &str) -> Result<(), EditError> {
+    item(&mut design.poses, "pose", index)?;
+    let name = free_pose_name(design, name, Some(index))?;
+    let old = std::mem::replace(&mut design.poses[index].name, name.clone());
+    for keyframe in design.keyframes.iter_mut().filter(|k| k.pose.as_ref() == Some(&old)) {
+        keyframe.pose = Some(name.clone());
+    }
+    Ok(())
+}
+
+/// Copies a pose behind itself, under its name with a number; the copy's index.
+pub fn duplicate_pose(design: &mut Design, index: usize) -> Result<usize, EditError> {
+    let mut copy = item(&mut design.poses, "pose", index)?.clone();
+    copy.name = unused_pose_name(design, &copy.name);
+    design.poses.insert(index + 1, copy);
+    Ok(index + 1)
+}
+
+/// Removes a pose. Keyframes made from it keep their activations.
+pub fn remove_pose(design: &mut Design, index: usize) -> Result<Pose, EditError> {
+    item(&mut design.poses, "pose", index)?;
+    let pose = design.poses.remove(index);
+    for keyframe in design.keyframes.iter_mut().filter(|k| k.pose.as_ref() == Some(&pose.name)) {
+        keyframe.pose = None;
+    }
+    Ok(pose)
+}
+
+/// Adds a target to a pose; its index there.
+pub fn add_target(design: &mut Design, pose: usize, target: Target) -> Result<usize, EditError> {
+    let targets = &mut item(&mut design.poses, "pose", pose)?.targets;
+    validate::target(&format!("poses[{pose}].targets[{}]", targets.len()), &design.mesh, &target)?;
+    targets.push(target);
+    Ok(targets.len() - 1)
+}
+
+/// Moves the goal of a target.
+pub fn move_target(design: &mut Design, pose: usize, index: usize, to: Point) -> Result<(), EditError> {
+    let target = *item(&mut item(&mut design.poses, "pose", pose)?.targets, "target", index)?;
+    set_target(design, pose, index, Target { to, ..target })
+}
+
+/// Replaces a target: another goal, weight or point of the body.
+pub fn set_target(design: &mut Design, pose: usize, index: usize, target: Target) -> Result<(), EditError> {
+    let place = item(&mut item(&mut design.poses, "pose", pose)?.targets, "target", index)?;
+    validate::target(&format!("poses[{pose}].targets[{index}]"), &design.mesh, &target)?;
+    *place = target;
+    Ok(())
+}
+
+pub fn remove_target(design: &mut Design, pose: usize, index: usize) -> Result<Target, EditError> {
+    let targets = &mut item(&mut design.poses, "pose", pose)?.targets;
+    item(targets, "target", index)?;
+    Ok(targets.remove(index))
+}
+
+/// Adds a network, slack in every keyframe so far; its index. A name that is taken gets a number.
+pub fn accept_network(design: &mut Design, mut network: Network) -> Result<usize, EditError> {
+    validate::network(&format!("networks[{}]", design.networks.len()), &design.mesh, &network)?;
+    let wanted = if network.name.trim().is_empty() { "winch 1" } else { network.name.trim() };
+    network.name = unused_name(wanted, |name| design.networks.iter().any(|n| n.name == name));
+    design.networks.push(network);
+    for keyframe in &mut design.keyframes {
+        keyframe.activations_mm.push(0.0);
+    }
+    Ok(design.networks.len() - 1)
+}
+
+/// Removes a network, and its activation from every keyframe.
+pub fn remove_network(design: &mut Design, index: usize) -> Result<Network, EditError> {
+    item(&mut design.networks, "network", index)?;
+    for keyframe in &mut design.keyframes {
+        keyframe.activations_mm.remove(index);
+    }
+    Ok(design.networks.remove(index))
+}
+
+pub fn rename_network(design: &mut Design, index: usize, name: &str) -> Result<(), EditError> {
+    let name = trimmed("network", name)?;
+    item(&mut design.networks, "network", index)?;
+    if design.networks.iter().enumerate().any(|(i, n)| i != index && n.name == name) {
+        return Err(EditError::NameTaken { what: "network", name });
+    }
+    design.networks[index].name = name;
+    Ok(())
+}
+
+/// Puts a keyframe on the timeline in place of one at the same time (within [`SAME_TIME_S`]), if any; its index.
+pub fn set_keyframe(design: &mut Design, keyframe: Keyframe) -> Result<usize, EditError> {
+    validate::keyframe("keyframe", design, &keyframe)?;
+    if let Some(index) = keyframe_at(design, keyframe.time_s) {
+        design.keyframes[index] = keyframe;
+        return Ok(index);
+    }
+    Ok(insert_keyframe(design, keyframe))
+}
+
+/// Moves a keyframe in time, past others if need be; its new index. Two keyframes at one time are refused.
+pub fn move_keyframe(design: &mut Design, index: usize, time_s: f64) -> Result<usize, EditError> {
+    let moved = Keyframe { time_s, ..item(&mut design.keyframes, "keyframe", index)?.clone() };
+    validate::keyframe(&format!("keyframes[{index}]"), design, &moved)?;
+    if design.keyframes.iter().enumerate().any(|(i, k)| i != index && same_time(k.time_s, time_s)) {
+        return Err(EditError::TimeTaken(time_s));
+    }
+    design.keyframes.remove(index);
+    Ok(insert_keyframe(design, moved))
+}
+
+pub fn remove_keyframe(design: &mut Design, index: usize) -> Result<Keyframe, EditError> {
+    item(&mut design.keyframes, "keyframe", index)?;
+    Ok(design.keyframes.remove(index))
+}
+
+/// The keyframe at a time, within [`SAME_TIME_S`].
+pub fn keyframe_at(design: &Design, time_s: f64) -> Option<usize> {
+    design.keyframes.iter().position(|k| same_time(k.time_s, time_s))
+}
+
+pub fn rename(design: &mut Design, name: &str) -> Result<(), EditError> {
+    design.name = trimmed("design", name)?;
+    Ok(())
+}
+
+pub fn set_material(design: &mut Design, material: Material) -> Result<(), EditError> {
+    set(design, |d| std::mem::replace(&mut d.material, material), |d, old| d.material = old)
+}
+
+pub fn set_fibers(design: &mut Design, fibers: FiberSettings) -> Result<(), EditError> {
+    set(design, |d| std::mem::replace(&mut d.fibers, fibers), |d, old| d.fibers = old)
+}
+
+pub fn set_tendons(design: &mut Design, tendons: TendonSettings) -> Result<(), EditError> {
+    set(design, |d| std::mem::replace(&mut d.tendons, tendons), |d, old| d.tendons = old)
+}
+
+pub fn set_fabrication(design: &mut Design, fabrication: FabricationSettings) -> Result<(), EditError> {
+    set(design, |d| std::mem::replace(&mut d.fabrication, fabrication), |d, old| d.fabrication = old)
+}
+
+pub fn set_controller(design: &mut Design, controller: ControllerSettings) -> Result<(), EditError> {
+    set(design, |d| std::mem::replace(&mut d.controller, controller), |d, old| d.controller = old)
+}
+
+pub fn set_gravity(design: &mut Design, gravity: Option<Gravity>) -> Result<(), EditError> {
+    set(design, |d| std::mem::replace(&mut d.gravity, gravity), |d, old| d.gravity = old)
+}
+
+pub fn set_texture(design: &mut Design, texture: Option<String>) -> Result<(), EditError> {
+    set(design, |d| std::mem::replace(&mut d.texture, texture), |d, old| d.texture = old)
+}
+
+pub fn set_stiffness_map(design: &mut Design, map: Option<Vec<f64>>) -> Result<(), EditError> {
+    set(design, |d| std::mem::replace(&mut d.stiffness_map, map), |d, old| d.stiffness_map = old)
+}
+
+/// A pose name that is free: `wanted` itself, or with a number behind it.
+pub fn unused_pose_name(design: &Design, wanted: &str) -> String {
+    unused_name(wanted, |name| design.poses.iter().any(|p| p.name == name))
+}
+
+/// Replaces a setting and puts the old one back if the outcome is unsound.
+fn set<T>(
+    design: &mut Design,
+    replace: impl FnOnce(&mut Design) -> T,
+    restore: impl FnOnce(&mut Design, T),
+) -> Result<(), EditError> {
+    let old = replace(design);
+    validate::settings(design).map_err(|error| {
+        restore(design, old);
+        error.into()
+    })
+}
+
+/// Counts a name's trailing number up until it is free: "wave", "wave 2", "wave 3".
+fn unused_name(wanted: &str, taken: impl Fn(&str) -> bool) -> String {
+    if !taken(wanted) {
+        return wanted.to_string();
+    }
+    let (stem, number) = match wanted.rsplit_once(' ') {
+        Some((stem, number)) => (stem, number.parse::<u32>().ok()),
+        None => (wanted, None),
+    };
+    let (stem, first) = number.map_or((wanted, 2), |n| (stem, u64::from(n) + 1));
+    (first..).map(|n| format!("{stem} {n}")).find(|name| !taken(name)).unwrap_or_default()
+}
+
+fn free_pose_name(design: &Design, name: &str, except: Option<usize>) -> Result<String, EditError> {
+    let name = trimmed("pose", name)?;
+    if design.poses.iter().enumerate().any(|(i, p)| Some(i) != except && p.name == name) {
+        return Err(EditError::NameTaken { what: "pose", name });
+    }
+    Ok(name)
+}
+
+fn trimmed(what: &'static str, name: &str) -> Result<String, EditError> {
+    let name = name.trim();
+    if name.is_empty() { Err(EditError::NoName(what)) } else { Ok(name.to_string()) }
+}
+
+fn insert_keyframe(design: &mut Design, keyframe: Keyframe) -> usize {
+    let index = design.keyframes.partition_point(|k| k.time_s < keyframe.time_s);
+    design.keyframes.insert(index, keyframe);
+    index
+}
+
+fn same_time(a: f64, b: f64) -> bool {
+    (a - b).abs() < SAME_TIME_S
+}
+
+fn item<'a, T>(items: &'a mut [T], what: &'static str, index: usize) -> Result<&'a mut T, EditError> {
+    let len = items.len();
+    items.get_mut(index).ok_or(EditError::Missing { what, index, len })
+}

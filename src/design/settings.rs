@@ -1,0 +1,130 @@
+//! Settings of a design: material, fibres, tendons, fabrication, controllers. The figures come from [`crate::defaults`].
+
+use crate::defaults;
+use serde::{Deserialize, Serialize};
+
+/// Material of the body. A choice, so that others can follow.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Material {
+    /// Eq. 5 of the paper.
+    NeoHookean { mu: f64, kappa: f64 },
+    /// Linear in the Green strain; for comparison, and only for moderate compression.
+    StVenantKirchhoff { mu: f64, lambda: f64 },
+}
+
+/// The muscle fibres of the idealized plushie.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct FiberSettings {
+    pub set: FiberSet,
+    /// `K` of eq. 8, N/mm.
+    pub stiffness: f64,
+    /// `epsilon` of eq. 8 as a fraction of the mean fibre length.
+    pub epsilon_fraction: f64,
+    /// Largest contraction as a fraction of the rest length.
+    pub max_contraction: f64,
+}
+
+/// Where the fibres run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub enum FiberSet {
+    /// One on every mesh edge, in the order of [`Mesh::edges`].
+    #[default]
+    Edges,
+    /// Routings of their own over the mesh nodes: a coarse set on a fine mesh (section 8.2).
+    Routings(Vec<Vec<usize>>),
+}
+
+/// The tendons of all networks.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct TendonSettings {
+    /// `K` of eq. 8, N/mm.
+    pub stiffness: f64,
+    /// `epsilon` of eq. 8, mm.
+    pub epsilon_mm: f64,
+    /// Largest contraction as a fraction of the rest length.
+    pub max_contraction: f64,
+}
+
+/// Gravity, off unless present.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Gravity {
+    /// m/s^2.
+    pub acceleration: [f64; 2],
+    /// kg per mm^2 of silhouette.
+    pub surface_density: f64,
+}
+
+/// How the skin is cut and the cables are led.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct FabricationSettings {
+    pub seam_allowance_mm: f64,
+    pub tendon_hole_mm: f64,
+    pub turning_gap_mm: f64,
+    pub spool_radius_mm: f64,
+}
+
+/// The motor behind each winch and the rate of its track.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct ControllerSettings {
+    pub encoder_lines: u32,
+    pub gear_ratio: f64,
+    pub track_rate_hz: f64,
+    pub speed_rpm: u32,
+    /// rev/s^2.
+    pub acceleration: u32,
+}
+
+impl Default for Material {
+    fn default() -> Self {
+        Self::NeoHookean { mu: defaults::MU, kappa: defaults::KAPPA }
+    }
+}
+
+impl Default for FiberSettings {
+    fn default() -> Self {
+        Self {
+            set: FiberSet::Edges,
+            stiffness: defaults::FIBER_STIFFNESS,
+            epsilon_fraction: defaults::FIBER_EPSILON_FRACTION,
+            max_contraction: defaults::FIBER_MAX_CONTRACTION,
+        }
+    }
+}
+
+impl Default for TendonSettings {
+    fn default() -> Self {
+        Self {
+            stiffness: defaults::TENDON_STIFFNESS,
+            epsilon_mm: defaults::TENDON_EPSILON_MM,
+            max_contraction: defaults::TENDON_MAX_CONTRACTION,
+        }
+    }
+}
+
+impl Default for FabricationSettings {
+    fn default() -> Self {
+        Self {
+            seam_allowance_mm: defaults::SEAM_ALLOWANCE_MM,
+            tendon_hole_mm: defaults::TENDON_HOLE_MM,
+            turning_gap_mm: defaults::TURNING_GAP_MM,
+            spool_radius_mm: defaults::SPOOL_RADIUS_MM,
+        }
+    }
+}
+
+impl Default for ControllerSettings {
+    fn default() -> Self {
+        Self {
+            encoder_lines: defaults::ENCODER_LINES,
+            gear_ratio: defaults::GEAR_RATIO,
+            track_rate_hz: defaults::TRACK_RATE_HZ,
+            speed_rpm: defaults::MOTOR_SPEED_RPM,
+            acceleration: defaults::MOTOR_ACCELERATION,
+        }
+    }
+}

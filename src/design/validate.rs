@@ -1,0 +1,341 @@
+//! What makes a document sound: every index in range, every figure finite and of the right sign, names unambiguous.
+//!
+//! The rest of the program relies on it and does not check again. An error names the place as a path into the file
+//! (`pins[1].at.triangle`), 0-based, and what is wrong there.
+
+use super::{Design, FORMAT_VERSION, FiberSet, Keyframe, Material, Network, Pin, Pose, Target, Tendon};
+use crate::mesh::{BodyPoint, Mesh};
+use crate::outline::Point;
+use std::collections::HashSet;
+use thiserror::Error;
+
+/// How far the weights of a body point may sum from 1, dimensionless: a file written by hand with six decimals passes.
+pub const WEIGHT_SUM_TOLERANCE: f64 = 1e-6;
+/// How far below zero a weight of a body point may be, dimensionless: room for rounding where a point lies on an edge.
+pub const WEIGHT_TOLERANCE: f64 = 1e-9;
+
+/// Where a document is unsound, and why.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error("{at}: {problem}")]
+pub struct DesignError {
+    /// Path of the offending value, such as `poses[2].targets[0].to`.
+    pub at: String,
+    pub problem: Problem,
+}
+
+/// What is wrong at the place a [`DesignError`] names.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum Problem {
+    #[error("{index} is out of range, the mesh has {len} {what}")]
+    OutOfRange { index: usize, len: usize, what: &'static str },
+    #[error("{0} is not a finite number")]
+    NotFinite(f64),
+    #[error("{0} is not greater than zero")]
+    NotPositive(f64),
+    #[error("{0} is negative")]
+    Negative(f64),
+    #[error("{0} is greater than {1}")]
+    TooLarge(f64, f64),
+    #[error("the weights sum to {0}, not to 1")]
+    WeightSum(f64),
+    #[error("has {found} {what}, needs at least {least}")]
+    TooFew { found: usize, least: usize, what: &'static str },
+    #[error("has {found} entries for {expected} {what}")]
+    Length { found: usize, expected: usize, what: &'static str },
+    #[error("area {0} mm^2: corners must run counter-clockwise around a positive area")]
+    Triangle(f64),
+    #[error("area {0} mm^2: the outer polygon must run counter-clockwise around a positive area")]
+    OuterPolygon(f64),
+    #[error("area {0} mm^2: a hole must run clockwise around a positive area")]
+    HolePolygon(f64),
+    #[error("node {0} belongs to no triangle")]
+    LooseNode(usize),
+    #[error("node {0} stands twice in a row")]
+    RepeatedNode(usize),
+    #[error("starts at node {found}, the network's winch is at node {winch}")]
+    OtherWinch { found: usize, winch: usize },
+    #[error("{time} s does not come after {before} s")]
+    NotAscending { time: f64, before: f64 },
+    #[error("is empty")]
+    Empty,
+    #[error("there is another {what} named {name:?}")]
+    Duplicate { what: &'static str, name: String },
+    #[error("there is no pose named {0:?}")]
+    UnknownPose(String),
+    #[error("{found} is not a version this program knows (1 to {FORMAT_VERSION})")]
+    Version { found: u32 },
+}
+
+type Check = Result<(), DesignError>;
+
+impl Design {
+    /// Checks the whole document; the first fault found, in the order of the file. Linear in the document's size.
+    pub fn validate(&self) -> Result<(), DesignError> {
+        if self.version == 0 || self.version > FORMAT_VERSION {
+            return fail("version", Problem::Version { found: self.version });
+        }
+        outline(self)?;
+        mesh(&self.mesh)?;
+        settings(self)?;
+        for (i, p) in self.pins.iter().enumerate() {
+            pin(&format!("pins[{i}]"), &self.mesh, p)?;
+        }
+        poses(&self.mesh, &self.poses)?;
+        for (i, n) in self.networks.iter().enumerate() {
+            network(&format!("networks[{i}]"), &self.mesh, n)?;
+        }
+        keyframes(self)
+    }
+}
+
+fn outline(design: &Design) -> Check {
+    let area = polygon("outline.outer", &design.outline.outer)?;
+    require(area > 0.0, "outline.outer", || Problem::OuterPolygon(area))?;
+    for (i, hole) in design.outline.holes.iter().enumerate() {
+        let at = format!("outline.holes[{i}]");
+        let area = polygon(&at, hole)?;
+        require(area < 0.0, &at, || Problem::HolePolygon(area))?;
+    }
+    Ok(())
+}
+
+/// Signed area of a polygon, mm^2, after checking that it has one.
+fn polygon(at: &str, points: &[Point]) -> Result<f64, DesignError> {
+    at_least(at, points.len(), 3, "points")?;
+    for (i, p) in points.iter().enumerate() {
+        point(&format!("{at}[{i}]"), p)?;
+    }
+    let twice: f64 = (0..points.len())
+        .map(|i| {
+            let (a, b) = (points[i], points[(i + 1) % points.len()]);
+            a[0] * b[1] - a[1] * b[0]
+        })
+        .sum();
+    Ok(0.5 * twice)
+}
+
+fn mesh(mesh: &Mesh) -> Check {
+    at_least("mesh.nodes", mesh.nodes.len(), 3, "nodes")?;
+    at_least("mesh.triangles", mesh.triangles.len(), 1, "triangles")?;
+    for (i, p) in mesh.nodes.iter().enumerate() {
+        point(&format!("mesh.nodes[{i}]"), p)?;
+    }
+    let mut used = vec![false; mesh.nodes.len()];
+    for (i, corners) in mesh.triangles.iter().enumerate() {
+        let at = format!("mesh.triangles[{i}]");
+        for &n in corners {
+            node(&at, mesh, n)?;
+            used[n] = true;
+        }
+        let [a, b, c] = corners.map(|n| mesh.nodes[n]);
+        let area = 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+        require(area > 0.0 && area.is_finite(), &at, || Problem::Triangle(area))?;
+    }
+    match used.iter().position(|used| !used) {
+        Some(n) => fail("mesh.nodes", Problem::LooseNode(n)),
+        None => Ok(()),
+    }
+}
+
+/// Everything about a design's settings; used by the edits as well.
+pub(super) fn settings(design: &Design) -> Check {
+    match design.material {
+        Material::NeoHookean { mu, kappa } => {
+            positive("material.mu", mu)?;
+            not_negative("material.kappa", kappa)?;
+        }
+        Material::StVenantKirchhoff { mu, lambda } => {
+            positive("material.mu", mu)?;
+            not_negative("material.lambda", lambda)?;
+        }
+    }
+    let fibers = &design.fibers;
+    if let FiberSet::Routings(routings) = &fibers.set {
+        for (i, r) in routings.iter().enumerate() {
+            routing(&format!("fibers.set[{i}]"), &design.mesh, r)?;
+        }
+    }
+    positive("fibers.stiffness", fibers.stiffness)?;
+    positive("fibers.epsilon_fraction", fibers.epsilon_fraction)?;
+    fraction("fibers.max_contraction", fibers.max_contraction)?;
+    positive("tendons.stiffness", design.tendons.stiffness)?;
+    positive("tendons.epsilon_mm", design.tendons.epsilon_mm)?;
+    fraction("tendons.max_contraction", design.tendons.max_contraction)?;
+
+    let made = &design.fabrication;
+    not_negative("fabrication.seam_allowance_mm", made.seam_allowance_mm)?;
+    positive("fabrication.tendon_hole_mm", made.tendon_hole_mm)?;
+    not_negative("fabrication.turning_gap_mm", made.turning_gap_mm)?;
+    positive("fabrication.spool_radius_mm", made.spool_radius_mm)?;
+    let motor = &design.controller;
+    positive("controller.encoder_lines", f64::from(motor.encoder_lines))?;
+    positive("controller.gear_ratio", motor.gear_ratio)?;
+    positive("controller.track_rate_hz", motor.track_rate_hz)?;
+    positive("controller.speed_rpm", f64::from(motor.speed_rpm))?;
+    positive("controller.acceleration", f64::from(motor.acceleration))?;
+
+    if let Some(gravity) = &design.gravity {
+        point("gravity.acceleration", &gravity.acceleration)?;
+        not_negative("gravity.surface_density", gravity.surface_density)?;
+    }
+    if let Some(map) = &design.stiffness_map {
+        same_length("stiffness_map", map.len(), design.mesh.triangles.len(), "triangles")?;
+        for (i, &factor) in map.iter().enumerate() {
+            positive(&format!("stiffness_map[{i}]"), factor)?;
+        }
+    }
+    match &design.texture {
+        Some(path) if path.is_empty() => fail("texture", Problem::Empty),
+        _ => Ok(()),
+    }
+}
+
+fn poses(mesh: &Mesh, poses: &[Pose]) -> Check {
+    let mut names = HashSet::new();
+    for (i, p) in poses.iter().enumerate() {
+        let at = format!("poses[{i}]");
+        pose(&at, mesh, p)?;
+        require(names.insert(p.name.as_str()), &format!("{at}.name"), || Problem::Duplicate {
+            what: "pose",
+            name: p.name.clone(),
+        })?;
+    }
+    Ok(())
+}
+
+fn keyframes(design: &Design) -> Check {
+    let mut before: Option<f64> = None;
+    for (i, k) in design.keyframes.iter().enumerate() {
+        let at = format!("keyframes[{i}]");
+        keyframe(&at, design, k)?;
+        if let Some(before) = before.filter(|&before| k.time_s <= before) {
+            return fail(format!("{at}.time_s"), Problem::NotAscending { time: k.time_s, before });
+        }
+        before = Some(k.time_s);
+    }
+    Ok(())
+}
+
+pub(super) fn pin(at: &str, mesh: &Mesh, pin: &Pin) -> Check {
+    body_point(&format!("{at}.at"), mesh, &pin.at)?;
+    if let Some(position) = &pin.position {
+        point(&format!("{at}.position"), position)?;
+    }
+    positive(&format!("{at}.stiffness"), pin.stiffness)
+}
+
+pub(super) fn pose(at: &str, mesh: &Mesh, pose: &Pose) -> Check {
+    require(!pose.name.trim().is_empty(), &format!("{at}.name"), || Problem::Empty)?;
+    for (i, t) in pose.targets.iter().enumerate() {
+        target(&format!("{at}.targets[{i}]"), mesh, t)?;
+    }
+    Ok(())
+}
+
+pub(super) fn target(at: &str, mesh: &Mesh, target: &Target) -> Check {
+    body_point(&format!("{at}.at"), mesh, &target.at)?;
+    point(&format!("{at}.to"), &target.to)?;
+    not_negative(&format!("{at}.weight"), target.weight)
+}
+
+/// Network names may repeat or be empty: nothing refers to them, and exports make their own labels.
+pub(super) fn network(at: &str, mesh: &Mesh, network: &Network) -> Check {
+    at_least(&format!("{at}.tendons"), network.tendons.len(), 1, "tendons")?;
+    let mut winch = None;
+    for (i, Tendon { routing: nodes, ratio, slack_mm }) in network.tendons.iter().enumerate() {
+        let at = format!("{at}.tendons[{i}]");
+        routing(&format!("{at}.routing"), mesh, nodes)?;
+        let (found, winch) = (nodes[0], *winch.get_or_insert(nodes[0]));
+        require(found == winch, &format!("{at}.routing"), || Problem::OtherWinch { found, winch })?;
+        positive(&format!("{at}.ratio"), *ratio)?;
+        not_negative(&format!("{at}.slack_mm"), *slack_mm)?;
+    }
+    Ok(())
+}
+
+pub(super) fn keyframe(at: &str, design: &Design, keyframe: &Keyframe) -> Check {
+    not_negative(&format!("{at}.time_s"), keyframe.time_s)?;
+    let activations = &keyframe.activations_mm;
+    same_length(&format!("{at}.activations_mm"), activations.len(), design.networks.len(), "networks")?;
+    for (i, &a) in activations.iter().enumerate() {
+        finite(&format!("{at}.activations_mm[{i}]"), a)?;
+    }
+    match &keyframe.pose {
+        Some(name) if !design.poses.iter().any(|p| p.name == *name) => {
+            fail(format!("{at}.pose"), Problem::UnknownPose(name.clone()))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn routing(at: &str, mesh: &Mesh, nodes: &[usize]) -> Check {
+    at_least(at, nodes.len(), 2, "nodes")?;
+    for (i, &n) in nodes.iter().enumerate() {
+        node(&format!("{at}[{i}]"), mesh, n)?;
+    }
+    match (1..nodes.len()).find(|&i| nodes[i] == nodes[i - 1]) {
+        Some(i) => fail(format!("{at}[{i}]"), Problem::RepeatedNode(nodes[i])),
+        None => Ok(()),
+    }
+}
+
+fn body_point(at: &str, mesh: &Mesh, p: &BodyPoint) -> Check {
+    let len = mesh.triangles.len();
+    require(p.triangle < len, &format!("{at}.triangle"), || Problem::OutOfRange {
+        index: p.triangle,
+        len,
+        what: "triangles",
+    })?;
+    for (i, &w) in p.weights.iter().enumerate() {
+        let at = format!("{at}.weights[{i}]");
+        finite(&at, w)?;
+        require(w >= -WEIGHT_TOLERANCE, &at, || Problem::Negative(w))?;
+    }
+    let sum: f64 = p.weights.iter().sum();
+    require((sum - 1.0).abs() <= WEIGHT_SUM_TOLERANCE, &format!("{at}.weights"), || Problem::WeightSum(sum))
+}
+
+fn node(at: &str, mesh: &Mesh, index: usize) -> Check {
+    let len = mesh.nodes.len();
+    require(index < len, at, || Problem::OutOfRange { index, len, what: "nodes" })
+}
+
+fn point(at: &str, p: &Point) -> Check {
+    finite(at, p[0])?;
+    finite(at, p[1])
+}
+
+fn finite(at: &str, v: f64) -> Check {
+    require(v.is_finite(), at, || Problem::NotFinite(v))
+}
+
+fn positive(at: &str, v: f64) -> Check {
+    finite(at, v)?;
+    require(v > 0.0, at, || Problem::NotPositive(v))
+}
+
+fn not_negative(at: &str, v: f64) -> Check {
+    finite(at, v)?;
+    require(v >= 0.0, at, || Problem::Negative(v))
+}
+
+fn fraction(at: &str, v: f64) -> Check {
+    not_negative(at, v)?;
+    require(v <= 1.0, at, || Problem::TooLarge(v, 1.0))
+}
+
+fn at_least(at: &str, found: usize, least: usize, what: &'static str) -> Check {
+    require(found >= least, at, || Problem::TooFew { found, least, what })
+}
+
+fn same_length(at: &str, found: usize, expected: usize, what: &'static str) -> Check {
+    require(found == expected, at, || Problem::Length { found, expected, what })
+}
+
+fn require(holds: bool, at: &str, problem: impl FnOnce() -> Problem) -> Check {
+    if holds { Ok(()) } else { fail(at, problem()) }
+}
+
+fn fail(at: impl Into<String>, problem: Problem) -> Check {
+    Err(DesignError { at: at.into(), problem })
+}

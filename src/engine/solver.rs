@@ -1,0 +1,286 @@
+//! Poses both plushies of a design, warm-started from the request before.
+
+use super::compile::{Plushie, View, compile, objective};
+use super::{Outcome, Question, Request, Shape};
+use crate::design::{Design, Target};
+use crate::soft_ik::contraction::GaussNewton;
+use crate::soft_ik::tension::AllAtOnce;
+use crate::soft_ik::{self, Actuation, Answer, Budget, Method, Posture, default_method};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+/// Iterations of the fibres' solver for one request of the studio.
+const FIBER_ITERATIONS: usize = 40;
+/// Iterations of the winches' solver for one request of the studio.
+const WINCH_ITERATIONS: usize = 20;
+/// Iterations of each method where there is time (checks, rigging).
+const THOROUGH_ITERATIONS: usize = 200;
+
+/// How much work a pose is worth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Effort {
+    /// Warm-started, one start: while a hand drags.
+    Interactive,
+    /// From rest, several starts: for figures that are kept.
+    Thorough,
+}
+
+/// Keeps compiled models and the last postures between requests.
+#[derive(Default)]
+pub struct Solver {
+    idealized: Option<Compiled>,
+    realizable: Option<Compiled>,
+}
+
+/// A compiled view, the design it came from, and its last posture.
+struct Compiled {
+    source: Design,
+    plushie: Plushie,
+    last: Option<Posture>,
+}
+
+impl Solver {
+    /// Answers a request; `cancel` is checked at every Newton step and leaves the best state reached so far.
+    pub fn solve(&mut self, request: &Request, cancel: &AtomicBool) -> Outcome {
+        self.solve_with(request, Effort::Interactive, cancel)
+    }
+
+    /// The same with a stated effort. The realizable plushie comes first; its activations are held in the idealized one.
+    pub fn solve_with(&mut self, request: &Request, effort: Effort, cancel: &AtomicBool) -> Outcome {
+        let design = &request.design;
+        let needed = request.show_realizable || (!design.networks.is_empty() && request.show_idealized);
+        let realizable = needed.then(|| realize(&mut self.realizable, design, &request.question, effort, cancel));
+        let idealized = request.show_idealized.then(|| {
+            let activations = realizable.as_ref().map(|s| s.activations_mm.clone()).unwrap_or_default();
+            idealize(&mut self.idealized, design, &request.question, &activations, effort, cancel)
+        });
+        Outcome { id: request.id, idealized, realizable: realizable.filter(|_| request.show_realizable) }
+    }
+}
+
+/// The winches alone, towards the targets or at given activations.
+fn realize(
+    slot: &mut Option<Compiled>,
+    design: &Design,
+    question: &Question,
+    effort: Effort,
+    cancel: &AtomicBool,
+) -> Shape {
+    let clock = Instant::now();
+    let compiled = match compiled(slot, design, View::Realizable) {
+        Ok(compiled) => compiled,
+        Err(message) => return Shape::at_rest(design, message),
+    };
+    let plushie = &mut compiled.plushie;
+    let (targets, actuation, beta) = match question {
+        Question::Targets(targets) => {
+            let free = Actuation { winches: plushie.winches.clone(), fixed: vec![0.0; plushie.tendons.len()] };
+            (targets.as_slice(), free, vec![0.0; plushie.winches.len()])
+        }
+        Question::Activations(beta) => {
+            let all = Actuation { winches: plushie.winches.clone(), fixed: vec![0.0; plushie.tendons.len()] };
+            let held = Actuation { winches: Vec::new(), fixed: all.contractions(beta) };
+            (&[][..], held, Vec::new())
+        }
+    };
+    let last = compiled.last.take().filter(|p| p.beta.len() == beta.len());
+    let answer = run(design, plushie, targets, &actuation, last, beta, effort, cancel);
+    let mut shape = shape(design, plushie, &actuation, targets, &answer, clock);
+    shape.activations_mm = match question {
+        Question::Targets(_) => tidy(plushie, &answer.posture),
+        Question::Activations(beta) => beta.clone(),
+    };
+    compiled.last = Some(answer.posture);
+    shape
+}
+
+/// The fibres, with the winches held at `activations`.
+fn idealize(
+    slot: &mut Option<Compiled>,
+    design: &Design,
+    question: &Question,
+    activations: &[f64],
+    effort: Effort,
+    cancel: &AtomicBool,
+) -> Shape {
+    let clock = Instant::now();
+    let compiled = match compiled(slot, design, View::Idealized) {
+        Ok(compiled) => compiled,
+        Err(message) => return Shape::at_rest(design, message),
+    };
+    let plushie = &mut compiled.plushie;
+    let count = plushie.fiber_elements.end;
+    let all = Actuation { winches: plushie.winches.clone(), fixed: vec![0.0; count] };
+    let fixed = all.contractions(activations);
+    let (targets, winches) = match question {
+        Question::Targets(targets) => (targets.as_slice(), plushie.fibers.clone()),
+        Question::Activations(_) => (&[][..], Vec::new()),
+    };
+    let beta = vec![0.0; winches.len()];
+    let actuation = Actuation { winches, fixed };
+    let last = compiled.last.take().filter(|p| p.beta.len() == beta.len());
+    let answer = run(design, plushie, targets, &actuation, last, beta, effort, cancel);
+    let mut shape = shape(design, plushie, &actuation, targets, &answer, clock);
+    shape.activations_mm = activations.to_vec();
+    let contractions = actuation.contractions(&answer.posture.beta);
+    let tensions = plushie.model.contractile.tensions(&answer.posture.x);
+    shape.fiber_contractions_mm = contractions[plushie.fiber_elements.clone()].to_vec();
+    shape.fiber_tensions = tensions[plushie.fiber_elements.clone()].to_vec();
+    compiled.last = Some(answer.posture);
+    shape
+}
+
+/// Solves one view. Without targets there is no inverse problem: statics alone, at activations zero.
+#[allow(clippy::too_many_arguments)]
+fn run(
+    design: &Design,
+    plushie: &mut Plushie,
+    targets: &[Target],
+    actuation: &Actuation,
+    last: Option<Posture>,
+    beta: Vec<f64>,
+    effort: Effort,
+    cancel: &AtomicBool,
+) -> Answer {
+    let objective = objective(design, plushie, targets);
+    let fibers = !plushie.fiber_elements.is_empty();
+    let rest = plushie.model.rest.clone();
+    let mut question = soft_ik::Question { model: &mut plushie.model, actuation, objective: &objective };
+    let stop = || cancel.load(Ordering::Relaxed);
+    let (start, factorizations) = match last {
+        Some(last) if !targets.is_empty() => question.settle(&last.beta, &last.x, &stop),
+        Some(last) => question.settle(&beta, &last.x, &stop),
+        None => question.settle(&beta, &rest, &stop),
+    };
+    if targets.is_empty() || actuation.winches.is_empty() {
+        let converged = start.in_equilibrium;
+        return Answer { posture: start, iterations: 0, factorizations, converged };
+    }
+    let mut answer = match effort {
+        Effort::Thorough if !fibers => {
+            let budget = Budget { iterations: THOROUGH_ITERATIONS, stop: &stop };
+            default_method::Default.solve(&mut question, &start, &budget)
+        }
+        Effort::Thorough => {
+            let budget = Budget { iterations: THOROUGH_ITERATIONS, stop: &stop };
+            AllAtOnce::default().solve(&mut question, &start, &budget)
+        }
+        Effort::Interactive if fibers => {
+            AllAtOnce::default().solve(&mut question, &start, &Budget { iterations: FIBER_ITERATIONS, stop: &stop })
+        }
+        Effort::Interactive => {
+            GaussNewton::default().solve(&mut question, &start, &Budget { iterations: WINCH_ITERATIONS, stop: &stop })
+        }
+    };
+    answer.factorizations += factorizations;
+    answer
+}
+
+fn compiled<'a>(slot: &'a mut Option<Compiled>, design: &Design, view: View) -> Result<&'a mut Compiled, String> {
+    let keep = slot.take().filter(|c| same_body(&c.source, design));
+    let compiled = match keep {
+        Some(compiled) => compiled,
+        None => {
+            let plushie = compile(design, view).map_err(|e| e.to_string())?;
+            Compiled { source: body_of(design), plushie, last: None }
+        }
+    };
+    Ok(slot.insert(compiled))
+}
+
+/// The parts of a design that a model is compiled from.
+fn body_of(design: &Design) -> Design {
+    Design { poses: Vec::new(), keyframes: Vec::new(), ..design.clone() }
+}
+
+fn same_body(a: &Design, b: &Design) -> bool {
+    a.mesh == b.mesh
+        && a.material == b.material
+        && a.fibers == b.fibers
+        && a.tendons == b.tendons
+        && a.pins == b.pins
+        && a.networks == b.networks
+        && a.gravity == b.gravity
+        && a.stiffness_map == b.stiffness_map
+}
+
+/// Activations for display and export: a winch whose cables are all slack is wound just to the point where they are not
+/// yet taut, within its bounds.
+fn tidy(plushie: &Plushie, posture: &Posture) -> Vec<f64> {
+    let elements = &plushie.model.contractile.elements;
+    plushie
+        .winches
+        .iter()
+        .zip(&posture.beta)
+        .map(|(winch, beta)| {
+            let slack = |&(e, ratio): &(usize, f64)| {
+                (elements[e].alpha0 - elements[e].length(&posture.x) - elements[e].epsilon) / ratio
+            };
+            let just_slack = winch.members.iter().map(slack).fold(f64::INFINITY, f64::min);
+            if just_slack > *beta { just_slack.min(winch.upper) } else { *beta }
+        })
+        .collect()
+}
+
+fn shape(
+    design: &Design,
+    plushie: &Plushie,
+    actuation: &Actuation,
+    targets: &[Target],
+    answer: &Answer,
+    clock: Instant,
+) -> Shape {
+    let posture = &answer.posture;
+    let tensions = plushie.model.contractile.tensions(&posture.x);
+    let _ = actuation;
+    let nodes: Vec<[f64; 2]> = posture.x.chunks_exact(2).map(|p| [p[0], p[1]]).collect();
+    Shape {
+        target_error: target_error(design, targets, &nodes),
+        nodes,
+        activations_mm: Vec::new(),
+        fiber_contractions_mm: Vec::new(),
+        fiber_tensions: Vec::new(),
+        tendon_tensions: tensions[plushie.tendons.clone()].to_vec(),
+        residual: posture.residual,
+        iterations: answer.iterations,
+        milliseconds: clock.elapsed().as_secs_f64() * 1e3,
+        warning: warning(plushie, posture),
+    }
+}
+
+fn warning(plushie: &Plushie, posture: &Posture) -> Option<String> {
+    if plushie.model.free_pieces() > 0 {
+        Some("The body is free to move: add pins until two points of it are held.".into())
+    } else if !posture.in_equilibrium {
+        Some("Not in equilibrium: what is shown is the nearest state found.".into())
+    } else {
+        None
+    }
+}
+
+/// Rms distance of the targets in body lengths; zero without targets.
+pub fn target_error(design: &Design, targets: &[Target], nodes: &[[f64; 2]]) -> f64 {
+    if targets.is_empty() {
+        return 0.0;
+    }
+    let sum: f64 = targets
+        .iter()
+        .map(|t| {
+            let p = design.mesh.position(&t.at, nodes);
+            (p[0] - t.to[0]).powi(2) + (p[1] - t.to[1]).powi(2)
+        })
+        .sum();
+    (sum / targets.len() as f64).sqrt() / design.body_length_mm()
+}
+
+impl Shape {
+    /// The rest shape, with what is to be said about it.
+    pub fn at_rest(design: &Design, warning: String) -> Self {
+        Self {
+            nodes: design.mesh.nodes.clone(),
+            activations_mm: vec![0.0; design.networks.len()],
+            warning: Some(warning),
+            ..Self::default()
+        }
+    }
+}

@@ -1,0 +1,211 @@
+//! The elastic body: linear triangles of one material (section 4.1).
+//!
+//! Per triangle `F = d D^-1` is constant, `E = sum_e A_e s_e psi(F_e)` with rest area `A_e` and an optional stiffness
+//! factor `s_e`. With the shape function gradients `b_a` (rows of `D^-1`, and minus their sum for node 0):
+//! `F = sum_a x_a b_a^T`, `dE/dx_a = A P b_a`.
+
+use super::energy::{Energy, HessianForm};
+use super::material::{Material, cofactor, project};
+use super::pattern::Scatter;
+use nalgebra::{Matrix2, Vector2};
+
+/// Step cap: the fraction of the way to the first inversion that a step may go.
+const INVERSION_MARGIN: f64 = 0.9;
+
+/// A strain of this size counts as force at work even at rest: rounding leaves 1e-16 of `mu`, and a residual is asked to be
+/// 1e-12 of the forces at work.
+const ROUNDING_STRAIN: f64 = 1e-4;
+
+pub struct Body {
+    material: Box<dyn Material>,
+    triangles: Vec<[usize; 3]>,
+    /// Shape function gradients of the three nodes, 1/length.
+    gradients: Vec<[Vector2<f64>; 3]>,
+    /// Rest area times stiffness factor.
+    weights: Vec<f64>,
+    areas: Vec<f64>,
+}
+
+impl Body {
+    /// A body with rest positions `nodes`. `stiffness` is a factor per triangle (all one if absent).
+    ///
+    /// Returns the index of the first triangle that is clockwise, degenerate or not finite as the error.
+    pub fn new(
+        nodes: &[[f64; 2]],
+        triangles: &[[usize; 3]],
+        material: Box<dyn Material>,
+        stiffness: Option<&[f64]>,
+    ) -> Result<Self, usize> {
+        let mut gradients = Vec::with_capacity(triangles.len());
+        let mut areas = Vec::with_capacity(triangles.len());
+        for (k, t) in triangles.iter().enumerate() {
+            let [p, q, r] = t.map(|n| Vector2::from(nodes[n]));
+            let d = Matrix2::from_columns(&[q - p, r - p]);
+            let area = 0.5 * d.determinant();
+            let inverse = d.try_inverse().filter(|_| area > 0.0 && area.is_finite()).ok_or(k)?;
+            if !inverse.iter().all(|v| v.is_finite()) {
+                return Err(k);
+            }
+            let (b1, b2) = (inverse.row(0).transpose(), inverse.row(1).transpose());
+            gradients.push([-b1 - b2, b1, b2]);
+            areas.push(area);
+        }
+        let weights = areas.iter().enumerate().map(|(k, a)| a * stiffness.map_or(1.0, |s| s[k])).collect();
+        Ok(Self { material, triangles: triangles.to_vec(), gradients, weights, areas })
+    }
+
+    pub fn triangles(&self) -> &[[usize; 3]] {
+        &self.triangles
+    }
+
+    /// Rest area of the body.
+    pub fn area(&self) -> f64 {
+        self.areas.iter().sum()
+    }
+
+    /// Rest area that belongs to each node: a third of its triangles'.
+    pub fn nodal_areas(&self, nodes: usize) -> Vec<f64> {
+        let mut out = vec![0.0; nodes];
+        for (t, a) in self.triangles.iter().zip(&self.areas) {
+            for &n in t {
+                out[n] += a / 3.0;
+            }
+        }
+        out
+    }
+
+    pub fn material(&self) -> &dyn Material {
+        self.material.as_ref()
+    }
+
+    /// `F` of triangle `k` at coordinates `x`.
+    #[inline]
+    pub fn deformation_gradient(&self, k: usize, x: &[f64]) -> Matrix2<f64> {
+        let b = &self.gradients[k];
+        let mut f = Matrix2::zeros();
+        for (a, &n) in self.triangles[k].iter().enumerate() {
+            let (px, py) = (x[2 * n], x[2 * n + 1]);
+            f[(0, 0)] += px * b[a][0];
+            f[(1, 0)] += py * b[a][0];
+            f[(0, 1)] += px * b[a][1];
+            f[(1, 1)] += py * b[a][1];
+        }
+        f
+    }
+
+    /// The smallest `det F`; positive for an uninverted state, NaN never.
+    pub fn smallest_determinant(&self, x: &[f64]) -> f64 {
+        (0..self.triangles.len())
+            .map(|k| self.deformation_gradient(k, x).determinant())
+            .fold(f64::INFINITY, |m, j| if j.is_nan() { f64::NEG_INFINITY } else { m.min(j) })
+    }
+}
+
+impl Energy for Body {
+    fn stencils(&self) -> usize {
+        self.triangles.len()
+    }
+
+    fn stencil(&self, k: usize) -> &[usize] {
+        &self.triangles[k]
+    }
+
+    fn value(&self, x: &[f64]) -> f64 {
+        let mut energy = 0.0;
+        for k in 0..self.triangles.len() {
+            energy += self.weights[k] * self.material.density(&self.deformation_gradient(k, x));
+        }
+        if energy.is_nan() { f64::INFINITY } else { energy }
+    }
+
+    fn add_gradient(&self, x: &[f64], gradient: &mut [f64]) {
+        for (k, t) in self.triangles.iter().enumerate() {
+            let p = self.material.stress(&self.deformation_gradient(k, x)) * self.weights[k];
+            for (a, &n) in t.iter().enumerate() {
+                let force = p * self.gradients[k][a];
+                gradient[2 * n] += force[0];
+                gradient[2 * n + 1] += force[1];
+            }
+        }
+    }
+
+    fn add_hessian(&self, x: &[f64], form: HessianForm, out: &mut Scatter) {
+        for k in 0..self.triangles.len() {
+            let mut c = self.material.tangent(&self.deformation_gradient(k, x));
+            if form == HessianForm::Projected {
+                c = project(c);
+            }
+            c *= self.weights[k];
+            let b = &self.gradients[k];
+            out.add(k, |p, q| {
+                let (g, h) = (b[p], b[q]);
+                let mut block = [0.0; 4];
+                for (i, row) in [0, 1].into_iter().enumerate() {
+                    for (j, column) in [0, 1].into_iter().enumerate() {
+                        block[2 * i + j] = g[0] * (c[(row, column)] * h[0] + c[(row, column + 2)] * h[1])
+                            + g[1] * (c[(row + 2, column)] * h[0] + c[(row + 2, column + 2)] * h[1]);
+                    }
+                }
+                block
+            });
+        }
+    }
+
+    /// `det(F + t dF) = J + t cof F : dF + t^2 det dF`; the cap is a fraction of its first positive root.
+    fn step_limit(&self, x: &[f64], dx: &[f64]) -> f64 {
+        let mut limit = 1.0_f64;
+        for k in 0..self.triangles.len() {
+            let f = self.deformation_gradient(k, x);
+            let df = self.deformation_gradient(k, dx);
+            let root = first_positive_root(df.determinant(), cofactor(&f).dot(&df), f.determinant());
+            limit = limit.min(INVERSION_MARGIN * root);
+        }
+        limit
+    }
+
+    /// The forces of a single triangle, before they balance with its neighbours', and the floor that rounding sets.
+    fn add_force_scale(&self, x: &[f64], scale: &mut [f64]) {
+        let floor = ROUNDING_STRAIN * self.material.shear_modulus();
+        for (k, t) in self.triangles.iter().enumerate() {
+            let p = self.material.stress(&self.deformation_gradient(k, x)) * self.weights[k];
+            for (a, &n) in t.iter().enumerate() {
+                let force = p * self.gradients[k][a];
+                let rounding = floor * self.weights[k] * self.gradients[k][a].norm();
+                scale[2 * n] += force[0].abs() + rounding;
+                scale[2 * n + 1] += force[1].abs() + rounding;
+            }
+        }
+    }
+}
+
+/// The smallest positive root of `a t^2 + b t + c` with `c > 0`, infinite if there is none. Free of cancellation.
+fn first_positive_root(a: f64, b: f64, c: f64) -> f64 {
+    let discriminant = b * b - 4.0 * a * c;
+    if discriminant.is_nan() || discriminant < 0.0 {
+        return f64::INFINITY;
+    }
+    let q = -0.5 * (b + b.signum() * discriminant.sqrt());
+    [q / a, c / q].into_iter().filter(|t| t.is_finite() && *t > 0.0).fold(f64::INFINITY, f64::min)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn roots_are_the_first_positive_ones() {
+        assert_eq!(first_positive_root(0.0, -2.0, 1.0), 0.5);
+        assert_eq!(first_positive_root(1.0, -3.0, 2.0), 1.0);
+        assert_eq!(first_positive_root(1.0, 3.0, 2.0), f64::INFINITY);
+        assert_eq!(first_positive_root(-1.0, 0.0, 4.0), 2.0);
+        assert_eq!(first_positive_root(1.0, 0.0, 4.0), f64::INFINITY);
+    }
+
+    #[test]
+    fn clockwise_and_flat_triangles_are_refused() {
+        let nodes = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [2.0, 0.0]];
+        let material = || Box::new(super::super::NeoHookean { mu: 1.0, kappa: 1.0 });
+        assert_eq!(Body::new(&nodes, &[[0, 1, 2], [0, 2, 1]], material(), None).err(), Some(1));
+        assert_eq!(Body::new(&nodes, &[[0, 1, 3]], material(), None).err(), Some(0));
+    }
+}

@@ -1,0 +1,306 @@
+//! Contractile elements: muscle fibres and tendons (sections 4.2 and 4.3).
+//!
+//! An element of routing `r_0 ... r_n` has the length `l(x) = sum |x_{r_i} - x_{r_{i+1}}|` (eq. 6) and, as a spring of rest
+//! length `alpha`, the unilateral energy `U(Gamma)`, `Gamma = l - alpha` (eq. 8, whose cubic is a perfect cube):
+//!
+//! ```text
+//! U = 0                                    Gamma <= -eps
+//! U = K/(6 eps) (Gamma + eps)^3     -eps < Gamma <= eps
+//! U = K Gamma^2 + K eps^2/3                Gamma > eps      (taut stiffness 2K)
+//! ```
+//!
+//! An element may instead carry a prescribed tension `tau`, with the energy `tau l`: the unknown of the fast posing method.
+//! Segments are convex in `x` and `tau >= 0`, so the Hessian `U'' G^T G + tau d2l` is always positive semi-definite.
+
+use super::energy::{Energy, HessianForm};
+use super::pattern::Scatter;
+
+/// A segment shorter than this fraction of the element's initial rest length has no direction: its force is taken as
+/// zero. Far below anything a mesh can resolve.
+const ZERO_SEGMENT: f64 = 1e-12;
+
+/// What never changes about an element.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Element {
+    /// Mesh nodes: attachment point, via points, attachment point.
+    pub routing: Vec<usize>,
+    /// `K` of eq. 8, force per length.
+    pub stiffness: f64,
+    /// `epsilon` of eq. 8, length.
+    pub epsilon: f64,
+    /// Initial rest length `alpha_0`.
+    pub alpha0: f64,
+}
+
+/// How an element pulls at present.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Law {
+    /// A unilateral spring of rest length `alpha`.
+    Spring { alpha: f64 },
+    /// A cable under constant tension, whatever its length.
+    Tension(f64),
+}
+
+impl Element {
+    /// `U(Gamma)`.
+    pub fn energy(&self, gamma: f64) -> f64 {
+        let (k, eps) = (self.stiffness, self.epsilon);
+        if gamma <= -eps {
+            0.0
+        } else if gamma <= eps {
+            k / (6.0 * eps) * (gamma + eps).powi(3)
+        } else {
+            k * gamma * gamma + k * eps * eps / 3.0
+        }
+    }
+
+    /// Tension `U'(Gamma)`.
+    pub fn tension(&self, gamma: f64) -> f64 {
+        let (k, eps) = (self.stiffness, self.epsilon);
+        if gamma <= -eps {
+            0.0
+        } else if gamma <= eps {
+            k / (2.0 * eps) * (gamma + eps).powi(2)
+        } else {
+            2.0 * k * gamma
+        }
+    }
+
+    /// Stiffness `U''(Gamma)`.
+    pub fn tangent(&self, gamma: f64) -> f64 {
+        let (k, eps) = (self.stiffness, self.epsilon);
+        if gamma <= -eps {
+            0.0
+        } else if gamma <= eps {
+            k / eps * (gamma + eps)
+        } else {
+            2.0 * k
+        }
+    }
+
+    /// The deformation `Gamma = U'^-1(tau)`; at zero tension the just-slack one, `-eps`.
+    pub fn deformation(&self, tension: f64) -> f64 {
+        let (k, eps) = (self.stiffness, self.epsilon);
+        if tension <= 2.0 * k * eps { (2.0 * eps * tension.max(0.0) / k).sqrt() - eps } else { tension / (2.0 * k) }
+    }
+
+    /// Length of the element at coordinates `x`.
+    pub fn length(&self, x: &[f64]) -> f64 {
+        self.routing.windows(2).map(|s| segment(x, s).2).sum()
+    }
+
+    /// Adds `factor * dl/dx` to `out`.
+    pub fn add_length_gradient(&self, x: &[f64], factor: f64, out: &mut [f64]) {
+        for s in self.routing.windows(2) {
+            let (dx, dy, length) = segment(x, s);
+            if length > ZERO_SEGMENT * self.alpha0 {
+                let (fx, fy) = (factor * dx / length, factor * dy / length);
+                out[2 * s[0]] -= fx;
+                out[2 * s[0] + 1] -= fy;
+                out[2 * s[1]] += fx;
+                out[2 * s[1] + 1] += fy;
+            }
+        }
+    }
+
+    /// `dl/dx . v`.
+    pub fn length_rate(&self, x: &[f64], v: &[f64]) -> f64 {
+        let mut rate = 0.0;
+        for s in self.routing.windows(2) {
+            let (dx, dy, length) = segment(x, s);
+            if length > ZERO_SEGMENT * self.alpha0 {
+                let (vx, vy) = (v[2 * s[1]] - v[2 * s[0]], v[2 * s[1] + 1] - v[2 * s[0] + 1]);
+                rate += (dx * vx + dy * vy) / length;
+            }
+        }
+        rate
+    }
+}
+
+fn segment(x: &[f64], s: &[usize]) -> (f64, f64, f64) {
+    let (dx, dy) = (x[2 * s[1]] - x[2 * s[0]], x[2 * s[1] + 1] - x[2 * s[0] + 1]);
+    (dx, dy, dx.hypot(dy))
+}
+
+/// All elements of a model and their present laws.
+pub struct Contractile {
+    pub elements: Vec<Element>,
+    pub laws: Vec<Law>,
+    stencils: Vec<Vec<usize>>,
+    /// For each element, the stencil position of each routing entry.
+    positions: Vec<Vec<usize>>,
+}
+
+impl Contractile {
+    /// Elements at zero contraction.
+    pub fn new(elements: Vec<Element>) -> Self {
+        let mut stencils = Vec::with_capacity(elements.len());
+        let mut positions = Vec::with_capacity(elements.len());
+        for e in &elements {
+            let mut nodes = e.routing.clone();
+            nodes.sort_unstable();
+            nodes.dedup();
+            positions.push(e.routing.iter().map(|n| nodes.partition_point(|m| m < n)).collect());
+            stencils.push(nodes);
+        }
+        let laws = elements.iter().map(|e| Law::Spring { alpha: e.alpha0 }).collect();
+        Self { elements, laws, stencils, positions }
+    }
+
+    /// Makes every element a spring at contraction `alpha_c`.
+    pub fn set_contractions(&mut self, contractions: &[f64]) {
+        for ((law, e), c) in self.laws.iter_mut().zip(&self.elements).zip(contractions) {
+            *law = Law::Spring { alpha: e.alpha0 - c };
+        }
+    }
+
+    /// Tension of every element at `x`.
+    pub fn tensions(&self, x: &[f64]) -> Vec<f64> {
+        self.elements.iter().zip(&self.laws).map(|(e, law)| law.tension_and_tangent(e, e.length(x)).0).collect()
+    }
+}
+
+impl Law {
+    /// `(tau, dtau/dl)` at length `l`.
+    pub fn tension_and_tangent(&self, element: &Element, length: f64) -> (f64, f64) {
+        match *self {
+            Law::Spring { alpha } => (element.tension(length - alpha), element.tangent(length - alpha)),
+            Law::Tension(tau) => (tau, 0.0),
+        }
+    }
+}
+
+impl Energy for Contractile {
+    fn stencils(&self) -> usize {
+        self.stencils.len()
+    }
+
+    fn stencil(&self, k: usize) -> &[usize] {
+        &self.stencils[k]
+    }
+
+    fn value(&self, x: &[f64]) -> f64 {
+        let mut energy = 0.0;
+        for (e, law) in self.elements.iter().zip(&self.laws) {
+            energy += match *law {
+                Law::Spring { alpha } => e.energy(e.length(x) - alpha),
+                Law::Tension(0.0) => 0.0,
+                Law::Tension(tau) => tau * e.length(x),
+            };
+        }
+        if energy.is_nan() { f64::INFINITY } else { energy }
+    }
+
+    fn add_gradient(&self, x: &[f64], gradient: &mut [f64]) {
+        for (e, law) in self.elements.iter().zip(&self.laws) {
+            let tau = match *law {
+                Law::Spring { alpha } => e.tension(e.length(x) - alpha),
+                Law::Tension(tau) => tau,
+            };
+            if tau != 0.0 {
+                e.add_length_gradient(x, tau, gradient);
+            }
+        }
+    }
+
+    fn add_hessian(&self, x: &[f64], _form: HessianForm, out: &mut Scatter) {
+        let mut g: Vec<[f64; 2]> = Vec::new();
+        let mut curvature: Vec<(usize, usize, [f64; 3])> = Vec::new();
+        for (k, (e, law)) in self.elements.iter().zip(&self.laws).enumerate() {
+            let (tau, tangent) = law.tension_and_tangent(e, e.length(x));
+            if tau == 0.0 && tangent == 0.0 {
+                continue;
+            }
+            g.clear();
+            g.resize(self.stencils[k].len(), [0.0; 2]);
+            curvature.clear();
+            for (s, p) in e.routing.windows(2).zip(self.positions[k].windows(2)) {
+                let (dx, dy, length) = segment(x, s);
+                if length <= ZERO_SEGMENT * e.alpha0 {
+                    continue;
+                }
+                let (ux, uy) = (dx / length, dy / length);
+                g[p[0]][0] -= ux;
+                g[p[0]][1] -= uy;
+                g[p[1]][0] += ux;
+                g[p[1]][1] += uy;
+                let s = tau / length;
+                // d2 of a distance: (I - u u^T) / length, with u u^T = I - n n^T for the normal n = (-uy, ux).
+                curvature.push((p[0], p[1], [s * uy * uy, -s * ux * uy, s * ux * ux]));
+            }
+            out.add(k, |a, b| {
+                let (ga, gb) = (g[a], g[b]);
+                let mut block = [
+                    tangent * ga[0] * gb[0],
+                    tangent * ga[0] * gb[1],
+                    tangent * ga[1] * gb[0],
+                    tangent * ga[1] * gb[1],
+                ];
+                for &(p, q, c) in &curvature {
+                    let sign = ((a == p) as i32 - (a == q) as i32) * ((b == p) as i32 - (b == q) as i32);
+                    if sign != 0 {
+                        let s = sign as f64;
+                        block[0] += s * c[0];
+                        block[1] += s * c[1];
+                        block[2] += s * c[1];
+                        block[3] += s * c[2];
+                    }
+                }
+                block
+            });
+        }
+    }
+
+    fn add_force_scale(&self, x: &[f64], scale: &mut [f64]) {
+        for (e, law) in self.elements.iter().zip(&self.laws) {
+            let (tau, _) = law.tension_and_tangent(e, e.length(x));
+            for &n in &e.routing {
+                scale[2 * n] += tau;
+                scale[2 * n + 1] += tau;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn element() -> Element {
+        Element { routing: vec![0, 1], stiffness: 3.0, epsilon: 0.02, alpha0: 1.0 }
+    }
+
+    #[test]
+    fn the_unilateral_energy_is_twice_continuously_differentiable() {
+        let e = element();
+        for at in [-e.epsilon, e.epsilon] {
+            let (low, high) = (at - 1e-12, at + 1e-12);
+            assert!((e.energy(low) - e.energy(high)).abs() < 1e-11);
+            assert!((e.tension(low) - e.tension(high)).abs() < 1e-9);
+            assert!((e.tangent(low) - e.tangent(high)).abs() < 1e-7);
+        }
+        assert_eq!(e.energy(-0.03), 0.0);
+        assert_eq!(e.tangent(0.5), 6.0);
+        assert!((e.tension(0.0) - 3.0 * 0.02 / 2.0).abs() < 1e-16);
+    }
+
+    #[test]
+    fn derivatives_decay_with_second_order_in_every_zone() {
+        let e = element();
+        for gamma in [-0.05, -0.01, 0.011, 0.3] {
+            let error = |h: f64| ((e.energy(gamma + h) - e.energy(gamma - h)) / (2.0 * h) - e.tension(gamma)).abs();
+            assert!(error(5e-4) < 1e-10 || error(1e-3) / error(5e-4) > 3.5);
+            let error = |h: f64| ((e.tension(gamma + h) - e.tension(gamma - h)) / (2.0 * h) - e.tangent(gamma)).abs();
+            assert!(error(5e-4) < 1e-10);
+        }
+    }
+
+    #[test]
+    fn deformation_inverts_tension() {
+        let e = element();
+        assert_eq!(e.deformation(0.0), -e.epsilon);
+        for tension in [1e-6, 0.05, 0.12, 0.5, 40.0] {
+            assert!((e.tension(e.deformation(tension)) - tension).abs() < 1e-12 * (1.0 + tension));
+        }
+    }
+}

@@ -1,0 +1,47 @@
+//! The one place where an energy term plugs in.
+
+use super::pattern::Scatter;
+
+/// Which second derivative is assembled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HessianForm {
+    /// The true Hessian: for Newton steps near a minimum and for every sensitivity.
+    Exact,
+    /// Each local block projected to positive semi-definite: a descent step where the exact one is not convex. Never
+    /// for sensitivities.
+    Projected,
+}
+
+/// A term of the total energy. Local stencils are node lists that never change while a model lives, so that the
+/// sparsity pattern is fixed.
+pub trait Energy: Send + Sync {
+    /// Number of stencils.
+    fn stencils(&self) -> usize;
+
+    /// The distinct nodes of stencil `k`.
+    fn stencil(&self, k: usize) -> &[usize];
+
+    /// The energy at `x`; infinite outside the term's domain, never NaN.
+    fn value(&self, x: &[f64]) -> f64;
+
+    /// Adds `dE/dx` to `gradient`.
+    fn add_gradient(&self, x: &[f64], gradient: &mut [f64]);
+
+    /// Adds `d2E/dx2`, one 2 x 2 block per pair of stencil nodes.
+    fn add_hessian(&self, x: &[f64], form: HessianForm, out: &mut Scatter);
+
+    /// Largest step `t <= 1` along `dx` that stays inside the domain with a margin.
+    fn step_limit(&self, x: &[f64], dx: &[f64]) -> f64 {
+        let _ = (x, dx);
+        1.0
+    }
+
+    /// Adds the magnitudes of this term's nodal forces, entry by entry: the scale against which a residual is small.
+    fn add_force_scale(&self, x: &[f64], scale: &mut [f64]) {
+        let mut gradient = vec![0.0; x.len()];
+        self.add_gradient(x, &mut gradient);
+        for (s, g) in scale.iter_mut().zip(&gradient) {
+            *s += g.abs();
+        }
+    }
+}

@@ -1,0 +1,40 @@
+//! Gravity, an optional term: `E = - sum_i m_i g . x_i`, the mass of each triangle lumped at its nodes.
+
+use super::energy::{Energy, HessianForm};
+use super::pattern::Scatter;
+
+#[derive(Clone, Debug)]
+pub struct Gravity {
+    /// `m_i g`, force on every node.
+    forces: Vec<[f64; 2]>,
+}
+
+impl Gravity {
+    /// `nodal_areas` (length^2), `surface_density` (mass per length^2), `acceleration`; units must give forces.
+    pub fn new(nodal_areas: &[f64], surface_density: f64, acceleration: [f64; 2]) -> Self {
+        Self { forces: nodal_areas.iter().map(|a| acceleration.map(|g| a * surface_density * g)).collect() }
+    }
+}
+
+impl Energy for Gravity {
+    fn stencils(&self) -> usize {
+        0
+    }
+
+    fn stencil(&self, _k: usize) -> &[usize] {
+        &[]
+    }
+
+    fn value(&self, x: &[f64]) -> f64 {
+        -self.forces.iter().zip(x.chunks_exact(2)).map(|(f, p)| f[0] * p[0] + f[1] * p[1]).sum::<f64>()
+    }
+
+    fn add_gradient(&self, _x: &[f64], gradient: &mut [f64]) {
+        for (f, g) in self.forces.iter().zip(gradient.chunks_exact_mut(2)) {
+            g[0] -= f[0];
+            g[1] -= f[1];
+        }
+    }
+
+    fn add_hessian(&self, _x: &[f64], _form: HessianForm, _out: &mut Scatter) {}
+}

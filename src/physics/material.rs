@@ -1,0 +1,127 @@
+//! Materials: energy densities of the deformation gradient.
+
+use nalgebra::{Matrix2, Matrix4};
+
+/// An isotropic, hyperelastic energy density per unit rest area.
+///
+/// `F` is the 2 x 2 deformation gradient. Second derivatives are 4 x 4 over `vec F = [F00, F10, F01, F11]` (column by
+/// column). Implementations return infinity (density) outside their domain and finite derivatives inside it.
+pub trait Material: Send + Sync {
+    /// `psi(F)`.
+    fn density(&self, f: &Matrix2<f64>) -> f64;
+    /// First Piola-Kirchhoff stress `P = dpsi/dF`.
+    fn stress(&self, f: &Matrix2<f64>) -> Matrix2<f64>;
+    /// `d2psi/dF2`.
+    fn tangent(&self, f: &Matrix2<f64>) -> Matrix4<f64>;
+    /// The shear modulus at rest: the unit of stress of this material.
+    fn shear_modulus(&self) -> f64;
+}
+
+/// The nearest positive semi-definite matrix: negative eigenvalues set to zero.
+pub fn project(m: Matrix4<f64>) -> Matrix4<f64> {
+    let eigen = m.symmetric_eigen();
+    let q = eigen.eigenvectors;
+    q * Matrix4::from_diagonal(&eigen.eigenvalues.map(|v| v.max(0.0))) * q.transpose()
+}
+
+/// The cofactor matrix `dJ/dF`; `F^-T = cof F / J`.
+pub fn cofactor(f: &Matrix2<f64>) -> Matrix2<f64> {
+    Matrix2::new(f[(1, 1)], -f[(1, 0)], -f[(0, 1)], f[(0, 0)])
+}
+
+/// `d2J/dF2` over `vec F`: constant in two dimensions.
+pub fn determinant_hessian() -> Matrix4<f64> {
+    let mut k = Matrix4::zeros();
+    k[(0, 3)] = 1.0;
+    k[(3, 0)] = 1.0;
+    k[(1, 2)] = -1.0;
+    k[(2, 1)] = -1.0;
+    k
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{NeoHookean, StVenantKirchhoff};
+    use super::*;
+    use nalgebra::{Rotation2, Vector4};
+
+    fn materials() -> Vec<(&'static str, Box<dyn Material>)> {
+        vec![
+            ("neo-Hookean", Box::new(NeoHookean { mu: 0.7, kappa: 1.3 })),
+            ("neo-Hookean, nearly incompressible", Box::new(NeoHookean { mu: 0.7, kappa: 700.0 })),
+            ("St. Venant-Kirchhoff", Box::new(StVenantKirchhoff { mu: 0.7, lambda: 1.3 })),
+        ]
+    }
+
+    fn states() -> Vec<Matrix2<f64>> {
+        vec![
+            Matrix2::identity(),
+            Matrix2::new(1.3, 0.2, -0.1, 0.85),
+            Matrix2::new(0.6, 0.5, -0.4, 0.9),
+            Matrix2::new(0.3, 0.0, 0.1, 2.0),
+        ]
+    }
+
+    /// Error of central differences at two steps: it must fall by about four when the step halves.
+    fn decays(error: impl Fn(f64) -> f64, scale: f64, what: &str) {
+        let (coarse, fine) = (error(2e-3), error(1e-3));
+        let noise = 1e-9 * scale;
+        assert!(fine <= noise || coarse / fine > 3.3, "{what}: {coarse:e} then {fine:e}");
+    }
+
+    #[test]
+    fn stress_and_tangent_are_the_derivatives_with_second_order_decay() {
+        for (name, material) in materials() {
+            for f in states() {
+                let direction = Matrix2::new(0.4, -0.3, 0.8, 0.5);
+                let p = material.stress(&f);
+                let along = p.dot(&direction);
+                let scale = along.abs() + material.tangent(&f).norm();
+                decays(
+                    |h| {
+                        let (plus, minus) = (f + direction * h, f - direction * h);
+                        ((material.density(&plus) - material.density(&minus)) / (2.0 * h) - along).abs()
+                    },
+                    scale,
+                    &format!("{name}: stress"),
+                );
+                let d = Vector4::from_column_slice(direction.as_slice());
+                let dp = material.tangent(&f) * d;
+                decays(
+                    |h| {
+                        let difference =
+                            (material.stress(&(f + direction * h)) - material.stress(&(f - direction * h))) / (2.0 * h);
+                        (Vector4::from_column_slice(difference.as_slice()) - dp).norm()
+                    },
+                    scale,
+                    &format!("{name}: tangent"),
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn energy_ignores_rotations_and_vanishes_at_rest() {
+        for (name, material) in materials() {
+            assert!(material.density(&Matrix2::identity()).abs() < 1e-15, "{name}");
+            assert!(material.stress(&Matrix2::identity()).norm() < 1e-14, "{name}");
+            for f in states() {
+                let (r, s) = (Rotation2::new(0.7).into_inner(), Rotation2::new(-1.9).into_inner());
+                let (a, b) = (material.density(&f), material.density(&(r * f * s)));
+                assert!((a - b).abs() <= 1e-12 * (1.0 + a.abs()), "{name}");
+            }
+        }
+    }
+
+    #[test]
+    fn projection_keeps_a_convex_tangent_and_repairs_the_rest() {
+        for (_, material) in materials() {
+            let rest = material.tangent(&Matrix2::identity());
+            assert!((project(rest) - rest).norm() < 1e-12 * rest.norm());
+            for f in states() {
+                let m = project(material.tangent(&f));
+                assert!(m.symmetric_eigenvalues().min() > -1e-10 * m.norm());
+            }
+        }
+    }
+}

@@ -1,0 +1,48 @@
+//! Compressible neo-Hookean material (eq. 5).
+//!
+//! `psi = mu/2 (tr F^T F - 2) - mu ln J + kappa/2 (ln J)^2`, infinite for `J <= 0`.
+//!
+//! With `c = kappa ln J - mu` and `C = cof F = dJ/dF`: `P = mu F + (c/J) C`, and
+//! `d2psi = mu I + (kappa - c)/J^2 C C^T + (c/J) d2J/dF2`.
+
+use super::material::{Material, cofactor, determinant_hessian};
+use nalgebra::{Matrix2, Matrix4, Vector4};
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NeoHookean {
+    /// Shear modulus, force per length.
+    pub mu: f64,
+    /// First Lame parameter, force per length.
+    pub kappa: f64,
+}
+
+impl Material for NeoHookean {
+    fn density(&self, f: &Matrix2<f64>) -> f64 {
+        let j = f.determinant();
+        if j.is_nan() || j <= 0.0 {
+            return f64::INFINITY;
+        }
+        let ln_j = j.ln();
+        let psi = 0.5 * self.mu * (f.norm_squared() - 2.0) - self.mu * ln_j + 0.5 * self.kappa * ln_j * ln_j;
+        if psi.is_nan() { f64::INFINITY } else { psi }
+    }
+
+    fn stress(&self, f: &Matrix2<f64>) -> Matrix2<f64> {
+        let j = f.determinant();
+        let c = self.kappa * j.ln() - self.mu;
+        f * self.mu + cofactor(f) * (c / j)
+    }
+
+    fn tangent(&self, f: &Matrix2<f64>) -> Matrix4<f64> {
+        let j = f.determinant();
+        let c = self.kappa * j.ln() - self.mu;
+        let g = Vector4::from_column_slice(cofactor(f).as_slice());
+        Matrix4::from_diagonal_element(self.mu)
+            + g * g.transpose() * ((self.kappa - c) / (j * j))
+            + determinant_hessian() * (c / j)
+    }
+
+    fn shear_modulus(&self) -> f64 {
+        self.mu
+    }
+}

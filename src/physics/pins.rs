@@ -1,0 +1,92 @@
+//! Pins: stiff zero-length springs from points of the body to world anchors (section 4.4).
+//!
+//! `E = sum K/2 |S x - p|^2`, `S x` the pinned point. A pin holds a node or any point of a triangle.
+
+use super::energy::{Energy, HessianForm};
+use super::pattern::Scatter;
+
+/// Part of `K |p|` that counts as force at work: rounding leaves 1e-16 of it.
+const ROUNDING: f64 = 1e-6;
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pin {
+    /// Distinct nodes and their weights, which sum to one.
+    pub nodes: Vec<usize>,
+    pub weights: Vec<f64>,
+    /// World anchor.
+    pub anchor: [f64; 2],
+    /// `K`, force per length.
+    pub stiffness: f64,
+}
+
+#[derive(Clone, Debug, Default)]
+pub struct Pins {
+    pub pins: Vec<Pin>,
+}
+
+impl Pin {
+    /// A pin on one node.
+    pub fn node(node: usize, anchor: [f64; 2], stiffness: f64) -> Self {
+        Self { nodes: vec![node], weights: vec![1.0], anchor, stiffness }
+    }
+
+    /// The force of the pin on the body, `K (p - S x)`.
+    pub fn force(&self, x: &[f64]) -> [f64; 2] {
+        let mut force = [0.0; 2];
+        for axis in 0..2 {
+            let at: f64 = self.nodes.iter().zip(&self.weights).map(|(n, w)| w * x[2 * n + axis]).sum();
+            force[axis] = self.stiffness * (self.anchor[axis] - at);
+        }
+        force
+    }
+}
+
+impl Energy for Pins {
+    fn stencils(&self) -> usize {
+        self.pins.len()
+    }
+
+    fn stencil(&self, k: usize) -> &[usize] {
+        &self.pins[k].nodes
+    }
+
+    fn value(&self, x: &[f64]) -> f64 {
+        let mut energy = 0.0;
+        for pin in self.pins.iter().filter(|p| p.stiffness > 0.0) {
+            let [fx, fy] = pin.force(x);
+            energy += 0.5 * (fx * fx + fy * fy) / pin.stiffness;
+        }
+        if energy.is_nan() { f64::INFINITY } else { energy }
+    }
+
+    fn add_gradient(&self, x: &[f64], gradient: &mut [f64]) {
+        for pin in &self.pins {
+            let force = pin.force(x);
+            for (&n, w) in pin.nodes.iter().zip(&pin.weights) {
+                gradient[2 * n] -= w * force[0];
+                gradient[2 * n + 1] -= w * force[1];
+            }
+        }
+    }
+
+    /// The force, and what rounding of the coordinates makes of a stiff spring.
+    fn add_force_scale(&self, x: &[f64], scale: &mut [f64]) {
+        for pin in &self.pins {
+            let force = pin.force(x);
+            for &n in &pin.nodes {
+                for axis in 0..2 {
+                    scale[2 * n + axis] += force[axis].abs() + ROUNDING * pin.stiffness * pin.anchor[axis].abs();
+                }
+            }
+        }
+    }
+
+    fn add_hessian(&self, _x: &[f64], _form: HessianForm, out: &mut Scatter) {
+        for (k, pin) in self.pins.iter().enumerate() {
+            out.add(k, |a, b| {
+                let s = pin.stiffness * pin.weights[a] * pin.weights[b];
+                [s, 0.0, 0.0, s]
+            });
+        }
+    }
+}

@@ -1,0 +1,121 @@
+//! The default: chooses and combines the methods.
+//!
+//! Fibres (every winch one element): the all-at-once method in tension space gives the answer to the tension-regularised
+//! objective; where the question's own objective differs (`lambda`), Gauss-Newton in contraction space ends the work.
+//! Winches: Gauss-Newton in contraction space, from several starts, since few cables leave real local minima.
+
+use super::contraction::GaussNewton;
+use super::tension::AllAtOnce;
+use super::{Answer, Budget, Method, Posture, Question};
+
+/// Beyond this many free winches the dense Gauss-Newton step (cost ~ winches^3) is not worth its time.
+const DENSE_LIMIT: usize = 700;
+/// Up to this many free winches, starts are combined winch by winch.
+const COMBINED_STARTS: usize = 4;
+
+/// Solves from rest: the activation start given (clamped), several others, the best answer.
+pub fn solve(question: &mut Question, beta_start: &[f64], budget: &Budget) -> Answer {
+    let rest = question.model.rest.clone();
+    let mut beta = beta_start.to_vec();
+    question.actuation.clamp(&mut beta);
+    let (start, factorizations) = question.settle(&beta, &rest, budget.stop);
+    let mut answer = Default.solve(question, &start, budget);
+    answer.factorizations += factorizations;
+    answer
+}
+
+pub struct Default;
+
+impl Method for Default {
+    fn name(&self) -> &'static str {
+        "default"
+    }
+
+    fn solve(&self, question: &mut Question, start: &Posture, budget: &Budget) -> Answer {
+        let own_objective = question.objective.contraction_weight > 0.0 || question.objective.tension_weight == 0.0;
+        let count = question.actuation.winches.len();
+        let mut best = Answer { posture: start.clone(), iterations: 0, factorizations: 0, converged: false };
+        if question.actuation.is_fibers_only() && count > COMBINED_STARTS {
+            absorb(&mut best, AllAtOnce::default().solve(question, start, budget));
+            if !own_objective || count > DENSE_LIMIT {
+                return best;
+            }
+            let from = best.posture.clone();
+            absorb(&mut best, GaussNewton::default().solve(question, &from, budget));
+            if (budget.stop)() {
+                return best;
+            }
+        }
+        for beta in starts(question, start) {
+            if (budget.stop)() {
+                break;
+            }
+            let (posture, factorizations) = question.settle(&beta, &start.x, budget.stop);
+            best.factorizations += factorizations;
+            if posture.in_equilibrium {
+                absorb(&mut best, GaussNewton::default().solve(question, &posture, budget));
+            }
+        }
+        let contractions = question.actuation.contractions(&best.posture.beta);
+        question.model.contractile.set_contractions(&contractions);
+        best
+    }
+}
+
+/// Takes the better posture and adds up the work.
+fn absorb(best: &mut Answer, other: Answer) {
+    best.iterations += other.iterations;
+    best.factorizations += other.factorizations;
+    if other.posture.objective <= best.posture.objective || !best.posture.in_equilibrium {
+        best.posture = other.posture;
+        best.converged = other.converged;
+    }
+}
+
+/// Starting activations: the given ones, all winches just taut, and parts of the range (all combinations for few winches).
+fn starts(question: &Question, start: &Posture) -> Vec<Vec<f64>> {
+    let elements = &question.model.contractile.elements;
+    let taut: Vec<f64> = question
+        .actuation
+        .winches
+        .iter()
+        .map(|w| {
+            w.members
+                .iter()
+                .map(|&(e, r)| (elements[e].alpha0 - elements[e].length(&start.x) + elements[e].epsilon) / r)
+                .fold(f64::NEG_INFINITY, f64::max)
+        })
+        .collect();
+    let upper: Vec<f64> = question
+        .actuation
+        .winches
+        .iter()
+        .zip(&taut)
+        .map(|(w, t)| {
+            if w.upper.is_finite() {
+                w.upper
+            } else {
+                let shortest = w.members.iter().map(|&(e, r)| elements[e].alpha0 / r).fold(f64::INFINITY, f64::min);
+                t.max(0.5 * shortest)
+            }
+        })
+        .collect();
+    let part = |j: usize, s: f64| taut[j] + s * (upper[j] - taut[j]).max(0.0);
+    let mut out = vec![start.beta.clone(), taut.clone()];
+    let count = taut.len();
+    if count <= COMBINED_STARTS {
+        let levels = [0.0, 0.35, 0.7];
+        for code in 1..levels.len().pow(count as u32) {
+            out.push((0..count).map(|j| part(j, levels[code / levels.len().pow(j as u32) % levels.len()])).collect());
+        }
+    } else {
+        for s in [0.15, 0.4, 0.7] {
+            out.push((0..count).map(|j| part(j, s)).collect());
+        }
+    }
+    for beta in &mut out {
+        question.actuation.clamp(beta);
+    }
+    out.dedup();
+    out
+}
