@@ -4,7 +4,7 @@ use super::error::CommandError;
 use super::output::{Staged, json, say};
 use super::place::Move;
 use super::render::picture;
-use super::{document, key, new, parts, pose, rig, table};
+use super::{document, export, key, new, pose, rig, table};
 use crate::design::animation::{activations_at, duration_s};
 use crate::design::{Design, Target};
 use crate::engine::rig::{RigOptions, TendonChoice};
@@ -90,9 +90,12 @@ impl Tour<'_> {
             self.pose(&design, name, "rigged")?;
         }
         self.animation(&design)?;
-        document::save(&self.folder.join("pig.plush"), &design, self.cancel)?;
+        let file = self.folder.join("pig.plush");
+        document::save(&file, &design, self.cancel)?;
         let figures = table::figures(&design, self.cancel)?;
-        parts::export(&design, &self.folder.join("blueprint"))?;
+        let manifest = export::export(&design, &file, &self.folder.join("blueprint"), self.cancel)?;
+        let files = manifest.files.len() + 1;
+        say(self.out, &format!("{:5.1} s  blueprint  {files} files", self.clock.elapsed().as_secs_f64()))?;
         self.report(&figures)
     }
 

@@ -13,7 +13,6 @@ mod export;
 mod key;
 mod new;
 mod output;
-mod parts;
 mod place;
 mod pose;
 mod render;
