@@ -433,3 +433,27 @@ fn any_valid_design_makes_a_blueprint() {
         }
     }
 }
+
+#[test]
+fn the_bundled_outlines_make_good_patterns() {
+    for name in ["e", "pig", "puppy", "robot", "s", "squid"] {
+        let svg = fs::read(format!("assets/{name}.svg")).expect(name);
+        let outline = plushwright::outline::svg::read(&svg, Some(250.0)).expect(name);
+        let mesh = plushwright::mesh::generate(&outline, 300).expect(name);
+        let mut design = Design::new(name, outline, mesh);
+        let mut random = Random(5);
+        design.networks = vec![random.network(&design.mesh), random.network(&design.mesh)];
+        let xml = text(&design, "pattern.svg");
+        let svg = Document::parse(&xml).expect("XML");
+        let outlines = paths(group(&svg, "cut"));
+        let largest = outlines.iter().map(|(p, _)| area(p)).fold(0.0, f64::max);
+        assert!(largest > design.outline.area(), "{name}");
+        let seams = paths(group(&svg, "stitch"));
+        let (first, last) = (seams[0].0[0], *seams[0].0.last().expect("points"));
+        let opening = (last[0] - first[0]).hypot(last[1] - first[1]);
+        assert!((49.0..50.001).contains(&opening), "{name}: the gap's ends are {opening} mm apart");
+        if let Ok(dir) = std::env::var("PLUSHWRIGHT_KEEP_BLUEPRINTS") {
+            export(&design, &Path::new(&dir).join(name)).expect("exported");
+        }
+    }
+}

@@ -3,15 +3,18 @@
 //! Both faces carry the same holes, because both are rigged alike; the back is the mirror image of the front, so that
 //! the pieces meet with their outer sides together.
 
-use super::drawing::{Anchor, BLUE, Drawing, GREEN, Group, Item, RED, Style, reference};
+use super::drawing::{Anchor, BLUE, Drawing, GREEN, Group, Item, RED, REFERENCE_MM, Style, reference};
 use super::routing::holes;
 use super::seam::{grown, seam};
 use crate::design::Design;
-use crate::outline::Point;
+use crate::outline::{Point, polygon::bounding_box};
 
 /// Space around and between the pieces, mm.
 const MARGIN_MM: f64 = 15.0;
 const TEXT_MM: f64 = 4.0;
+/// Line widths, mm: visible on paper, and below what lasers take for an area to engrave.
+const STITCH_MM: f64 = 0.1;
+const NOTE_MM: f64 = 0.15;
 /// Half the width of the cross that marks a pin, mm.
 const PIN_MARK_MM: f64 = 3.0;
 /// Half the length of the ticks at the ends of the turning gap, mm.
@@ -38,20 +41,19 @@ impl Placement {
 pub fn pattern_sheet(design: &Design) -> (Drawing, Vec<String>) {
     let made = &design.fabrication;
     let shapes = grown(&design.outline, made.seam_allowance_mm);
-    let outer = || shapes.iter().filter_map(|s| s.first()).flatten();
-    let low = [0, 1].map(|k| outer().map(|p| p[k]).fold(f64::INFINITY, f64::min));
-    let high = [0, 1].map(|k| outer().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max));
+    let outer: Vec<Point> = shapes.iter().filter_map(|s| s.first()).flatten().copied().collect();
+    let (low, high) = bounding_box(&outer);
     let size = [high[0] - low[0], high[1] - low[1]];
 
     let base = 2.0 * MARGIN_MM;
     let front = Placement { mirrored: false, shift: [MARGIN_MM - low[0], base - low[1]] };
     let back = Placement { mirrored: true, shift: [2.0 * MARGIN_MM + size[0] + high[0], base - low[1]] };
-    let width_mm = (3.0 * MARGIN_MM + 2.0 * size[0]).max(100.0 + 2.0 * MARGIN_MM);
+    let width_mm = (3.0 * MARGIN_MM + 2.0 * size[0]).max(REFERENCE_MM + 2.0 * MARGIN_MM);
     let height_mm = base + size[1] + MARGIN_MM + TEXT_MM;
 
     let mut cut = Group::new("cut", Style::hairline(RED));
-    let mut stitch = Group::new("stitch", Style::hairline(BLUE));
-    let mut note = Group::new("note", Style::hairline(GREEN));
+    let mut stitch = Group::new("stitch", Style::line(BLUE, STITCH_MM));
+    let mut note = Group::new("note", Style::line(GREEN, NOTE_MM));
     let nodes: Vec<Point> = holes(design).iter().map(|&n| design.mesh.nodes[n]).collect();
     let pins: Vec<Point> = design.pins.iter().map(|p| design.mesh.position(&p.at, &design.mesh.nodes)).collect();
     let obstacles: Vec<Point> = nodes.iter().chain(&pins).copied().collect();

@@ -1,16 +1,17 @@
 //! How the cables run: numbered holes, one line a tendon, and the same as a table.
 
-use super::drawing::{Anchor, BLACK, Color, Drawing, GREY, Group, Item, Style, YELLOW, reference};
-use super::seam::distance;
+use super::drawing::{Anchor, BLACK, Color, Drawing, GREY, Group, Item, REFERENCE_MM, Style, YELLOW, reference};
 use crate::design::{Design, Tendon};
-use crate::outline::Point;
+use crate::outline::{Point, polygon};
 use std::collections::HashSet;
 
 /// Space around the body and between the blocks of a sheet, mm.
 const MARGIN_MM: f64 = 15.0;
-/// Width of the list of tendons beside the body, mm.
+/// Least width of the list of tendons beside the body, mm.
 const LEGEND_MM: f64 = 90.0;
 const LEGEND_LINE_MM: f64 = 6.0;
+/// Width of a letter over its height, generously: programs choose their own fonts.
+const LETTER_WIDTH: f64 = 0.65;
 const WINCH_RADIUS_MM: f64 = 5.0;
 
 /// A name for each network that a table's header can hold: letters, digits, spaces and `-_.()`, each name once.
@@ -44,7 +45,7 @@ pub fn holes(design: &Design) -> Vec<usize> {
 /// Length of a tendon at assembly, mm: the polyline of its routing and its slack, from the winch to its end.
 pub fn tendon_length_mm(design: &Design, tendon: &Tendon) -> f64 {
     let points = points(design, tendon);
-    points.windows(2).map(|s| distance(s[0], s[1])).sum::<f64>() + tendon.slack_mm
+    points.windows(2).map(|s| polygon::length(s[0], s[1])).sum::<f64>() + tendon.slack_mm
 }
 
 /// `winch,tendon,length_mm,points`: tendons counted from 1 within each winch, points from the winch outward.
@@ -62,19 +63,16 @@ pub fn routing_csv(design: &Design) -> String {
 
 /// The routing on the front of the body, seen from the front; the back is rigged the same way.
 pub fn routing_sheet(design: &Design) -> Drawing {
-    let outer = &design.outline.outer;
-    let low = [0, 1].map(|k| outer.iter().map(|p| p[k]).fold(f64::INFINITY, f64::min));
-    let high = [0, 1].map(|k| outer.iter().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max));
+    let (low, high) = design.outline.bounding_box();
     let tendons: usize = design.networks.iter().map(|n| n.tendons.len()).sum();
     let legend_height = LEGEND_LINE_MM * (tendons + design.networks.len() + 2) as f64;
     let base = 2.0 * MARGIN_MM;
     let place = |p: Point| [p[0] - low[0] + MARGIN_MM, p[1] - low[1] + base];
     let legend_x = high[0] - low[0] + 2.0 * MARGIN_MM;
-    let width_mm = (legend_x + LEGEND_MM).max(100.0 + 2.0 * MARGIN_MM);
     let height_mm = base + (high[1] - low[1]).max(legend_height) + MARGIN_MM;
 
     let mut body = Group::new("body", Style::line(GREY, 0.3));
-    for polygon in std::iter::once(outer).chain(&design.outline.holes) {
+    for polygon in design.outline.polygons() {
         body.items.push(Item::Polygon(polygon.iter().map(|&p| place(p)).collect()));
     }
     let mut note = Group::new("note", Style { stroke: None, stroke_mm: 0.0, fill: Some(BLACK) });
@@ -83,7 +81,7 @@ pub fn routing_sheet(design: &Design) -> Drawing {
     let mut row = height_mm - MARGIN_MM;
     note.text([legend_x, row], 4.0, Anchor::Start, format!("{}: front, seen from the front", design.name));
     row -= LEGEND_LINE_MM;
-    note.text([legend_x, row], 3.5, Anchor::Start, "Rig the back in the same way (two cables a tendon).");
+    note.text([legend_x, row], 3.5, Anchor::Start, "Rig the back in the same way: two cables a tendon.");
     for (n, (network, label)) in design.networks.iter().zip(winch_labels(design)).enumerate() {
         row -= LEGEND_LINE_MM;
         note.text([legend_x, row], 4.0, Anchor::Start, label.clone());
@@ -108,8 +106,9 @@ pub fn routing_sheet(design: &Design) -> Drawing {
         marks.items.push(Item::Circle { center, radius: 0.5 * design.fabrication.tendon_hole_mm });
         note.text([center[0] + 1.5, center[1] + 1.5], 3.0, Anchor::Start, (i + 1).to_string());
     }
-    let mut groups = vec![body];
-    groups.push(winches);
+    let right = note.items.iter().map(right_end).fold(legend_x + LEGEND_MM, f64::max);
+    let width_mm = (right + MARGIN_MM).max(REFERENCE_MM + 2.0 * MARGIN_MM);
+    let mut groups = vec![body, winches];
     groups.extend(lines);
     groups.extend([marks, note, reference([MARGIN_MM, MARGIN_MM])]);
     Drawing { title: format!("{}: routing of the cables", design.name), width_mm, height_mm, groups }
@@ -128,6 +127,17 @@ fn legend(design: &Design, index: usize, tendon: &Tendon) -> String {
         text += &format!(", slack {} mm", tendon.slack_mm);
     }
     text
+}
+
+/// About how far to the right a text reaches, mm.
+fn right_end(item: &Item) -> f64 {
+    match item {
+        Item::Text { at, size_mm, anchor, text } => {
+            let width = LETTER_WIDTH * size_mm * text.chars().count() as f64;
+            at[0] + if *anchor == Anchor::Middle { 0.5 * width } else { width }
+        }
+        _ => f64::NEG_INFINITY,
+    }
 }
 
 fn points(design: &Design, tendon: &Tendon) -> Vec<Point> {

@@ -1,5 +1,6 @@
 //! The seam: where the felt is cut around it, and where it is left open to turn and stuff the body.
 
+use crate::outline::polygon::{bounding_box, distance_to_segment, length, lerp};
 use crate::outline::{Outline, Point};
 use i_overlay::mesh::float::outline::offset::OutlineOffset;
 use i_overlay::mesh::float::style::{LineJoin, OutlineStyle};
@@ -21,7 +22,7 @@ const GAP_LARGEST_PART: f64 = 0.25;
 /// The outline grown by a seam allowance, round at the corners. Each shape is an outer polygon (counter-clockwise)
 /// followed by what is cut out of it; the body's own holes shrink, and a notch narrower than twice the allowance closes.
 pub fn grown(outline: &Outline, allowance_mm: f64) -> Vec<Vec<Vec<Point>>> {
-    let contours: Vec<Vec<Point>> = std::iter::once(&outline.outer).chain(&outline.holes).cloned().collect();
+    let contours: Vec<Vec<Point>> = outline.polygons().map(Vec::from).collect();
     if allowance_mm <= 0.0 {
         return vec![contours];
     }
@@ -63,10 +64,10 @@ pub fn seam(polygon: &[Point], gap_mm: f64, obstacles: &[Point]) -> Seam {
 fn gap_cost(ring: &Ring, start: f64, gap_mm: f64, obstacles: &[Point]) -> f64 {
     let stretch = ring.stretch(start, gap_mm);
     let (a, b) = (stretch[0], stretch[stretch.len() - 1]);
-    let bulge = stretch.iter().map(|p| distance_to_segment(*p, a, b)).fold(0.0, f64::max);
-    let height = stretch.windows(2).map(|s| distance(s[0], s[1]) * 0.5 * (s[0][1] + s[1][1])).sum::<f64>() / gap_mm;
+    let bulge = stretch.iter().map(|p| distance_to_segment(a, b, *p)).fold(0.0, f64::max);
+    let height = stretch.windows(2).map(|s| length(s[0], s[1]) * 0.5 * (s[0][1] + s[1][1])).sum::<f64>() / gap_mm;
     let blocked =
-        obstacles.iter().any(|o| stretch.windows(2).any(|s| distance_to_segment(*o, s[0], s[1]) < GAP_CLEARANCE_MM));
+        obstacles.iter().any(|o| stretch.windows(2).any(|s| distance_to_segment(s[0], s[1], *o) < GAP_CLEARANCE_MM));
     GAP_STRAIGHTNESS * bulge / gap_mm
         + (height - ring.bottom) / (ring.top - ring.bottom)
         + if blocked { GAP_OBSTACLE } else { 0.0 }
@@ -97,11 +98,10 @@ impl<'a> Ring<'a> {
     fn new(points: &'a [Point]) -> Self {
         let mut at = vec![0.0];
         for i in 0..points.len() {
-            at.push(at[i] + distance(points[i], points[(i + 1) % points.len()]));
+            at.push(at[i] + length(points[i], points[(i + 1) % points.len()]));
         }
-        let bottom = points.iter().map(|p| p[1]).fold(f64::INFINITY, f64::min);
-        let top = points.iter().map(|p| p[1]).fold(f64::NEG_INFINITY, f64::max);
-        Self { points, at, bottom, top }
+        let (low, high) = bounding_box(points);
+        Self { points, at, bottom: low[1], top: high[1] }
     }
 
     fn length(&self) -> f64 {
@@ -132,38 +132,22 @@ impl<'a> Ring<'a> {
         let (a, b) = (self.points[i], self.points[(i + 1) % n]);
         let span = self.at[i + 1] - self.at[i];
         let t = if span > 0.0 { (s - self.at[i]) / span } else { 0.0 };
-        [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])]
+        lerp(a, b, t)
     }
-}
-
-pub(super) fn distance(a: Point, b: Point) -> f64 {
-    (b[0] - a[0]).hypot(b[1] - a[1])
-}
-
-fn distance_to_segment(p: Point, a: Point, b: Point) -> f64 {
-    let d = [b[0] - a[0], b[1] - a[1]];
-    let length2 = d[0] * d[0] + d[1] * d[1];
-    let t = if length2 > 0.0 { ((p[0] - a[0]) * d[0] + (p[1] - a[1]) * d[1]) / length2 } else { 0.0 };
-    let t = t.clamp(0.0, 1.0);
-    distance(p, [a[0] + t * d[0], a[1] + t * d[1]])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::outline::polygon::signed_area as area;
     use std::f64::consts::PI;
-
-    fn area(polygon: &[Point]) -> f64 {
-        let n = polygon.len();
-        (0..n).map(|i| (polygon[i], polygon[(i + 1) % n])).map(|(a, b)| 0.5 * (a[0] * b[1] - a[1] * b[0])).sum()
-    }
 
     fn square(side: f64) -> Vec<Point> {
         vec![[0.0, 0.0], [side, 0.0], [side, side], [0.0, side]]
     }
 
-    fn length(line: &[Point]) -> f64 {
-        line.windows(2).map(|s| distance(s[0], s[1])).sum()
+    fn along(line: &[Point]) -> f64 {
+        line.windows(2).map(|s| length(s[0], s[1])).sum()
     }
 
     /// Steiner's formula: a convex polygon of area A and perimeter P grows by r to A + P r + pi r^2.
@@ -192,7 +176,7 @@ mod tests {
     #[test]
     fn the_gap_lies_in_the_middle_of_the_bottom() {
         let seam = seam(&square(120.0), 50.0, &[]);
-        assert!((length(&seam.gap) - 50.0).abs() < 1e-9 && (length(&seam.stitches) - 430.0).abs() < 1e-9);
+        assert!((along(&seam.gap) - 50.0).abs() < 1e-9 && (along(&seam.stitches) - 430.0).abs() < 1e-9);
         let mid = 0.5 * (seam.gap[0][0] + seam.gap[1][0]);
         assert!(seam.gap.len() == 2 && (mid - 60.0).abs() < 0.5 && seam.gap[0][1].abs() < 1e-12, "{:?}", seam.gap);
         assert_eq!((seam.stitches.first(), seam.stitches.last()), (seam.gap.last(), seam.gap.first()));
@@ -202,11 +186,11 @@ mod tests {
     #[test]
     fn the_gap_keeps_away_from_obstacles_and_fits_small_bodies() {
         let blocked = seam(&square(120.0), 50.0, &[[40.0, 0.0], [80.0, 0.0]]);
-        let clear = |p: Point| blocked.gap.windows(2).all(|s| distance_to_segment(p, s[0], s[1]) >= GAP_CLEARANCE_MM);
+        let clear = |p: Point| blocked.gap.windows(2).all(|s| distance_to_segment(s[0], s[1], p) >= GAP_CLEARANCE_MM);
         assert!(clear([40.0, 0.0]) && clear([80.0, 0.0]), "{:?}", blocked.gap);
         assert_eq!(seam(&square(20.0), 50.0, &[]).gap_mm, 20.0);
         let closed = seam(&square(20.0), 0.0, &[]);
-        assert!(closed.gap.is_empty() && length(&closed.stitches) == 80.0);
+        assert!(closed.gap.is_empty() && along(&closed.stitches) == 80.0);
     }
 
     #[test]
