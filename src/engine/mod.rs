@@ -4,6 +4,7 @@
 //! add what is missing (section 3, design loop).
 
 pub mod compile;
+pub mod rig;
 pub mod solver;
 pub mod worker;
 

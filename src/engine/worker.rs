@@ -202,10 +202,7 @@ mod tests {
     use std::sync::mpsc;
 
     fn request(id: u64) -> Request {
-        let mesh = crate::mesh::Mesh {
-            nodes: vec![[0.0, 0.0], [10.0, 0.0], [0.0, 10.0]],
-            triangles: vec![[0, 1, 2]],
-        };
+        let mesh = crate::mesh::Mesh { nodes: vec![[0.0, 0.0], [10.0, 0.0], [0.0, 10.0]], triangles: vec![[0, 1, 2]] };
         let design = Design {
             version: 1,
             name: "triangle".to_owned(),
@@ -299,9 +296,8 @@ mod tests {
     #[test]
     fn a_panic_becomes_a_warning_and_the_worker_lives_on() {
         let (wake, woken) = waker();
-        let worker = Worker::with(wake, |request, _| {
-            if request.id == 1 { Err(Box::new("no good")) } else { Ok(rest(request)) }
-        });
+        let worker =
+            Worker::with(wake, |request, _| if request.id == 1 { Err(Box::new("no good")) } else { Ok(rest(request)) });
         worker.submit(request(1));
         woken.recv_timeout(LONG).unwrap();
         let shape = worker.take().unwrap().realizable.unwrap();

@@ -177,14 +177,7 @@ fn pins(items: &mut Vec<Item>, design: &Design, shape: &Shape, palette: &Palette
     }
 }
 
-fn draw_target(
-    items: &mut Vec<Item>,
-    mesh: &Mesh,
-    shape: &Shape,
-    palette: &Palette,
-    target: &Target,
-    selected: bool,
-) {
+fn draw_target(items: &mut Vec<Item>, mesh: &Mesh, shape: &Shape, palette: &Palette, target: &Target, selected: bool) {
     if target.at.triangle >= mesh.triangles.len() {
         return;
     }
@@ -196,14 +189,7 @@ fn draw_target(
     items.push(disc(at, size::TARGET, palette.target_fill, Some((2.0, color))));
 }
 
-fn draw_stage(
-    items: &mut Vec<Item>,
-    design: &Design,
-    shape: &Shape,
-    palette: &Palette,
-    stage: Stage,
-    stages: &Stages,
-) {
+fn draw_stage(items: &mut Vec<Item>, design: &Design, shape: &Shape, palette: &Palette, stage: Stage, stages: &Stages) {
     let edges = design.mesh.edges();
     let heaviest = stages.weights.iter().copied().fold(0.0, f64::max);
     let weighted = stage == Stage::Activation && stages.weights.len() == edges.len() && heaviest > 0.0;
@@ -323,7 +309,8 @@ mod tests {
         assert_eq!(lines_of(&scene, palette.seam), 1);
         assert_eq!(lines_of(&scene, palette.fiber_passive), 5);
         assert_eq!(lines_of(&scene, palette.winch(0)), 1);
-        let winches = scene.items.iter().filter(|i| matches!(i, Item::Disc { fill, .. } if *fill == palette.winch_fill));
+        let winches =
+            scene.items.iter().filter(|i| matches!(i, Item::Disc { fill, .. } if *fill == palette.winch_fill));
         assert_eq!(winches.count(), 1);
         let goals = scene.items.iter().filter(|i| matches!(i, Item::Disc { center, .. } if *center == [5.0, 20.0]));
         assert_eq!(goals.count(), 2);
