@@ -268,27 +268,12 @@ mod tests {
             triangles: vec![[0, 1, 2], [0, 2, 3]],
         };
         let at = BodyPoint { triangle: 0, weights: [1.0, 0.0, 0.0] };
-        Design {
-            version: 1,
-            name: "square".to_owned(),
-            outline: Outline { outer: mesh.nodes.clone(), holes: Vec::new() },
-            mesh,
-            material: Default::default(),
-            fibers: Default::default(),
-            tendons: Default::default(),
-            pins: vec![Pin { at, position: None, stiffness: 1.0 }],
-            poses: Vec::new(),
-            networks: vec![Network {
-                name: "A".to_owned(),
-                tendons: vec![Tendon { routing: vec![0, 2], ratio: 1.0, slack_mm: 0.0 }],
-            }],
-            keyframes: Vec::new(),
-            fabrication: Default::default(),
-            controller: Default::default(),
-            texture: None,
-            gravity: None,
-            stiffness_map: None,
-        }
+        let outline = Outline { outer: mesh.nodes.clone(), holes: Vec::new() };
+        let mut design = Design::new("square", outline, mesh);
+        design.pins.push(Pin { at, position: None, stiffness: 1.0 });
+        let tendon = Tendon { routing: vec![0, 2], ratio: 1.0, slack_mm: 0.0 };
+        design.networks.push(Network { name: "A".to_owned(), tendons: vec![tendon] });
+        design
     }
 
     fn rest(design: &Design) -> Shape {

@@ -21,7 +21,10 @@ pub enum Action {
     Undo,
     Redo,
     /// Begins to drag; `pointer` is where, mm.
-    Grab { what: Grab, pointer: Point },
+    Grab {
+        what: Grab,
+        pointer: Point,
+    },
     DragTo(Point),
     Release,
     /// Ends a drag or playback as if it had not been; otherwise clears the selection.
@@ -36,7 +39,11 @@ pub enum Action {
     ShowNetworks(bool),
     SetCamera(Camera),
     /// Moves the picture, unless the drag moves a target and not `always`.
-    Pan { from: Camera, delta: Vec2, always: bool },
+    Pan {
+        from: Camera,
+        delta: Vec2,
+        always: bool,
+    },
     Fit,
     Play,
     Pause,
@@ -74,7 +81,11 @@ pub enum FileAction {
     Save,
     OpenPath(PathBuf),
     OpenExample(usize),
-    ImportPath { path: PathBuf, height_mm: f64, fibers: usize },
+    ImportPath {
+        path: PathBuf,
+        height_mm: f64,
+        fibers: usize,
+    },
     SavePath(PathBuf),
     ExportPath(PathBuf),
     CloseDialog,

@@ -57,8 +57,8 @@ impl Studio {
     /// One frame.
     pub fn update(&mut self, ui: &mut egui::Ui) {
         let ctx = ui.ctx().clone();
-        let (now_s, passed_s, hands_off) =
-            ctx.input(|i| (i.time, f64::from(i.stable_dt), !i.pointer.any_down() && i.pointer.press_origin().is_none()));
+        let (now_s, passed_s, hands_off) = ctx
+            .input(|i| (i.time, f64::from(i.stable_dt), !i.pointer.any_down() && i.pointer.press_origin().is_none()));
         let typing = ctx.text_edit_focused();
         self.session.tick(now_s, passed_s, hands_off && !typing);
 
@@ -90,7 +90,8 @@ impl Studio {
         let status = Panel::bottom("status").frame(Frame::new()).exact_size(24.0).resizable(false).show(ui, |ui| {
             panels::status::show(ui, session);
         });
-        let timeline = Panel::bottom("timeline").frame(bar).default_size(132.0).size_range(96.0..=320.0).resizable(true);
+        let timeline =
+            Panel::bottom("timeline").frame(bar).default_size(132.0).size_range(96.0..=320.0).resizable(true);
         let timeline = timeline.show(ui, |ui| {
             panels::timeline::show(ui, session, &mut self.panels.timeline, actions);
         });

@@ -1,6 +1,6 @@
 //! A plushie to begin with where there is no other: a rounded cushion.
 
-use crate::design::{Design, FORMAT_VERSION};
+use crate::design::Design;
 use crate::mesh::Mesh;
 use crate::outline::{Outline, Point};
 
@@ -14,24 +14,7 @@ const UP: usize = 9;
 pub fn design() -> Design {
     let mesh = mesh();
     let outer = mesh.boundary().into_iter().next().unwrap_or_default().into_iter().map(|n| mesh.nodes[n]).collect();
-    Design {
-        version: FORMAT_VERSION,
-        name: "Cushion".to_owned(),
-        outline: Outline { outer, holes: Vec::new() },
-        mesh,
-        material: Default::default(),
-        fibers: Default::default(),
-        tendons: Default::default(),
-        pins: Vec::new(),
-        poses: Vec::new(),
-        networks: Vec::new(),
-        keyframes: Vec::new(),
-        fabrication: Default::default(),
-        controller: Default::default(),
-        texture: None,
-        gravity: None,
-        stiffness_map: None,
-    }
+    Design::new("Cushion", Outline { outer, holes: Vec::new() }, mesh)
 }
 
 /// A grid whose corners are drawn in.

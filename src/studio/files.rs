@@ -7,7 +7,7 @@ use super::action::FileAction;
 use super::jobs::Report;
 use super::session::Session;
 use crate::defaults;
-use crate::design::{Design, FORMAT_VERSION, bundled, file};
+use crate::design::{Design, bundled, file};
 use crate::{mesh, outline};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -327,22 +327,5 @@ fn read_outline(path: &Path, height_mm: f64, fibers: usize) -> Result<Design, St
     let outline = outline::svg::read(&bytes, Some(height_mm)).map_err(|e| e.to_string())?;
     let mesh = mesh::generate(&outline, fibers).map_err(|e| e.to_string())?;
     let name = path.file_stem().map_or_else(|| "plushie".to_owned(), |s| s.to_string_lossy().into_owned());
-    Ok(Design {
-        version: FORMAT_VERSION,
-        name,
-        outline,
-        mesh,
-        material: Default::default(),
-        fibers: Default::default(),
-        tendons: Default::default(),
-        pins: Vec::new(),
-        poses: Vec::new(),
-        networks: Vec::new(),
-        keyframes: Vec::new(),
-        fabrication: Default::default(),
-        controller: Default::default(),
-        texture: None,
-        gravity: None,
-        stiffness_map: None,
-    })
+    Ok(Design::new(name, outline, mesh))
 }

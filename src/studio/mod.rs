@@ -90,7 +90,9 @@ pub fn run(design: Option<Design>, path: Option<PathBuf>) -> Result<(), StudioEr
 pub fn services() -> Services {
     Services {
         propose: Arc::new(crate::engine::propose),
-        export: Arc::new(|_, _| Err("the export is not part of this build".to_owned())),
+        export: Arc::new(|design, folder| {
+            crate::fabrication::export(design, folder).map(|_| ()).map_err(|error| error.to_string())
+        }),
     }
 }
 

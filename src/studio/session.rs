@@ -550,7 +550,8 @@ impl Session {
                 }
                 self.discovery.running = None;
                 if proposals.is_empty() {
-                    self.messages.warning("No network was found for this pose. Try more seeds or longer joining paths.");
+                    self.messages
+                        .warning("No network was found for this pose. Try more seeds or longer joining paths.");
                 }
                 self.discovery.proposals = proposals.into_iter().map(Arc::new).collect();
                 self.discovery.shown = if self.discovery.proposals.is_empty() { None } else { Some(0) };

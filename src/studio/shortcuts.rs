@@ -6,13 +6,7 @@ use super::session::{Session, Tool};
 use crate::picture::palette::Theme;
 use eframe::egui::{Context, Key, KeyboardShortcut, Modifiers};
 
-pub fn collect(
-    ctx: &Context,
-    session: &Session,
-    panels: &mut panels::State,
-    typing: bool,
-    actions: &mut Vec<Action>,
-) {
+pub fn collect(ctx: &Context, session: &Session, panels: &mut panels::State, typing: bool, actions: &mut Vec<Action>) {
     for file in ctx.input(|i| i.raw.dropped_files.clone()) {
         actions.push(Action::File(FileAction::OpenPath(file.path().to_path_buf())));
     }

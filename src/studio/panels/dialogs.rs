@@ -4,9 +4,7 @@ use super::{Actions, primary};
 use crate::studio::action::{Action, FileAction};
 use crate::studio::files::{Dialog, PathDialog, Purpose};
 use crate::studio::session::Session;
-use eframe::egui::{
-    Align, Context, DragValue, Id, Key, Layout, Modal, RichText, TextEdit, Ui,
-};
+use eframe::egui::{Align, Context, DragValue, Id, Key, Layout, Modal, RichText, TextEdit, Ui};
 use std::path::Path;
 
 pub fn show(ctx: &Context, session: &Session, actions: &mut Actions) {
@@ -67,8 +65,12 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, actions: &mut Actio
     }
     let path = Path::new(edited.path.trim());
     let note = match dialog.purpose {
-        Purpose::Export => "Pattern, routings, winch tracks and controller program. The folder appears whole or not at all.",
-        Purpose::SaveAs if path.is_file() && session.path.as_deref() != Some(path) => "This file exists and will be replaced.",
+        Purpose::Export => {
+            "Pattern, routings, winch tracks and controller program. The folder appears whole or not at all."
+        }
+        Purpose::SaveAs if path.is_file() && session.path.as_deref() != Some(path) => {
+            "This file exists and will be replaced."
+        }
         Purpose::Import => "The filled shapes of the drawing are joined to one silhouette.",
         _ => "",
     };

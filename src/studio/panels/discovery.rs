@@ -84,8 +84,7 @@ fn parameters(ui: &mut Ui, session: &Session, actions: &mut Actions) {
 fn row(ui: &mut Ui, session: &Session, index: usize, proposal: &Proposal, actions: &mut Actions) {
     let tendons = proposal.network.tendons.len();
     let name = format!("{}  {tendons} tendon{}", index + 1, if tendons == 1 { "" } else { "s" });
-    let error =
-        format!("{:.1} % → {:.1} %", 100.0 * proposal.error_before, 100.0 * proposal.error_after);
+    let error = format!("{:.1} % → {:.1} %", 100.0 * proposal.error_before, 100.0 * proposal.error_after);
     let better = proposal.error_after < proposal.error_before;
     let color = if better { ui.visuals().text_color() } else { ui.visuals().warn_fg_color };
     let button = Button::selectable(session.discovery.shown == Some(index), name)

@@ -12,7 +12,8 @@ pub fn show(ctx: &Context, session: &Session, above: f32, actions: &mut Actions)
     if session.messages.list().is_empty() {
         return;
     }
-    let area = Area::new(Id::unique("messages")).order(Order::Foreground).anchor(Align2::CENTER_BOTTOM, [0.0, -above - 12.0]);
+    let area =
+        Area::new(Id::unique("messages")).order(Order::Foreground).anchor(Align2::CENTER_BOTTOM, [0.0, -above - 12.0]);
     area.show(ctx, |ui| {
         ui.set_max_width(460.0);
         for message in session.messages.list() {

@@ -74,7 +74,14 @@ fn body(ui: &mut Ui, session: &Session, actions: &mut Actions) {
 
 fn fibers(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     let mut f = session.design().fibers.clone();
-    number(ui, "Fibre stiffness", "N/mm", "K of a muscle fibre; the taut stiffness is twice that", &mut f.stiffness, 1e-3..=1e3);
+    number(
+        ui,
+        "Fibre stiffness",
+        "N/mm",
+        "K of a muscle fibre; the taut stiffness is twice that",
+        &mut f.stiffness,
+        1e-3..=1e3,
+    );
     number(ui, "Largest contraction", "", "As a fraction of the rest length", &mut f.max_contraction, 0.05..=0.95);
     if f != session.design().fibers {
         actions.push(Action::Live(Change::Fibers(f)));
@@ -83,7 +90,14 @@ fn fibers(ui: &mut Ui, session: &Session, actions: &mut Actions) {
 
 fn tendons(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     let mut t = session.design().tendons.clone();
-    number(ui, "Tendon stiffness", "N/mm", "K of a tendon; the taut stiffness is twice that", &mut t.stiffness, 1e-2..=1e4);
+    number(
+        ui,
+        "Tendon stiffness",
+        "N/mm",
+        "K of a tendon; the taut stiffness is twice that",
+        &mut t.stiffness,
+        1e-2..=1e4,
+    );
     number(ui, "Largest winding", "", "As a fraction of the tendon's rest length", &mut t.max_contraction, 0.05..=0.95);
     if t != session.design().tendons {
         actions.push(Action::Live(Change::Tendons(t)));
@@ -94,7 +108,14 @@ fn fabrication(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     let mut f = session.design().fabrication.clone();
     number(ui, "Seam allowance", "mm", "Felt beyond the seam", &mut f.seam_allowance_mm, 0.0..=50.0);
     number(ui, "Tendon hole", "mm", "Diameter of the hole a needle must pass", &mut f.tendon_hole_mm, 0.1..=10.0);
-    number(ui, "Turning gap", "mm", "Opening left in the seam to turn and stuff the body", &mut f.turning_gap_mm, 0.0..=500.0);
+    number(
+        ui,
+        "Turning gap",
+        "mm",
+        "Opening left in the seam to turn and stuff the body",
+        &mut f.turning_gap_mm,
+        0.0..=500.0,
+    );
     number(ui, "Spool radius", "mm", "Radius of the winch's core", &mut f.spool_radius_mm, 1.0..=100.0);
     if f != session.design().fabrication {
         actions.push(Action::Live(Change::Fabrication(f)));
@@ -103,11 +124,25 @@ fn fabrication(ui: &mut Ui, session: &Session, actions: &mut Actions) {
 
 fn controller(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     let mut c = session.design().controller.clone();
-    count(ui, "Encoder lines", "", "Per motor revolution; counts are four times as many", &mut c.encoder_lines, 1..=16383);
+    count(
+        ui,
+        "Encoder lines",
+        "",
+        "Per motor revolution; counts are four times as many",
+        &mut c.encoder_lines,
+        1..=16383,
+    );
     number(ui, "Gear ratio", ": 1", "Motor revolutions per turn of the spool", &mut c.gear_ratio, 0.1..=5000.0);
     number(ui, "Track rate", "Hz", "Samples a second in the winch tracks", &mut c.track_rate_hz, 1.0..=1000.0);
     count(ui, "Speed limit", "rpm", "Motor speed limit written to the controller", &mut c.speed_rpm, 1..=30000);
-    count(ui, "Acceleration", "rev/s²", "Motor acceleration limit written to the controller", &mut c.acceleration, 1..=30000);
+    count(
+        ui,
+        "Acceleration",
+        "rev/s²",
+        "Motor acceleration limit written to the controller",
+        &mut c.acceleration,
+        1..=30000,
+    );
     if c != session.design().controller {
         actions.push(Action::Live(Change::Controller(c)));
     }

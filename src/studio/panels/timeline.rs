@@ -203,7 +203,11 @@ fn keyframes(ui: &mut Ui, session: &Session, axis: &Axis, state: &mut State, act
         let response = ui.interact(hit, id, Sense::click_and_drag()).on_hover_cursor(CursorIcon::ResizeHorizontal);
         response.widget_info(|| WidgetInfo::selected(Role::Button, true, selected, format!("Keyframe {}", index + 1)));
         let hovered = response.hovered() || response.dragged();
-        let fill = if selected { style::accent(session.look.theme) } else { ui.visuals().widgets.noninteractive.fg_stroke.color };
+        let fill = if selected {
+            style::accent(session.look.theme)
+        } else {
+            ui.visuals().widgets.noninteractive.fg_stroke.color
+        };
         let stroke = Stroke::new(1.5, ui.visuals().window_fill);
         ui.painter().add(icons::diamond(center, if hovered { 8.0 } else { 6.5 }, fill, stroke));
         busy |= response.is_pointer_button_down_on() || response.dragged() || response.clicked();

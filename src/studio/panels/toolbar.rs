@@ -106,14 +106,25 @@ fn tools(ui: &mut Ui, session: &Session, actions: &mut Actions) {
 }
 
 fn shown(ui: &mut Ui, session: &Session, actions: &mut Actions) {
-    if icons::button(ui, Icon::Fit, "Fit view", "Fit the body into the views (F). Scroll to zoom, drag beside the body to pan")
-        .clicked()
+    if icons::button(
+        ui,
+        Icon::Fit,
+        "Fit view",
+        "Fit the body into the views (F). Scroll to zoom, drag beside the body to pan",
+    )
+    .clicked()
     {
         actions.push(Action::Fit);
     }
     let look = &session.look;
-    if icons::toggle(ui, Icon::Fibers, "Show fibres", "Show the muscle fibres of the idealized plushie (M)", look.fibers)
-        .clicked()
+    if icons::toggle(
+        ui,
+        Icon::Fibers,
+        "Show fibres",
+        "Show the muscle fibres of the idealized plushie (M)",
+        look.fibers,
+    )
+    .clicked()
     {
         actions.push(Action::ShowFibers(!look.fibers));
     }

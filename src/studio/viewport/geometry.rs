@@ -187,7 +187,8 @@ mod tests {
 
     #[test]
     fn painting_order_is_kept_and_runs_are_merged() {
-        let line = |closed| Item::Line { points: vec![[0.0; 2], [1.0, 0.0], [1.0, 1.0]], width: 2.0, color: RED, closed };
+        let line =
+            |closed| Item::Line { points: vec![[0.0; 2], [1.0, 0.0], [1.0, 1.0]], width: 2.0, color: RED, closed };
         let disc = Item::Disc { center: [0.0; 2], radius: 5.0, fill: RED, stroke: Some((2.0, RED)) };
         let geometry = Geometry::of(&Scene { items: vec![square(), line(false), line(true), disc, square()] });
         assert_eq!(geometry.capsules.len(), 2 + 3 + 2);

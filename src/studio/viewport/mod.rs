@@ -260,7 +260,11 @@ fn interact(
         ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
     } else if let Some(hit) = hit.filter(|hit| *hit != Hit::Nothing) {
         let over_body = matches!(hit, Hit::Body(_));
-        ui.ctx().set_cursor_icon(if session.tool == Tool::Pin && over_body { CursorIcon::Crosshair } else { CursorIcon::Grab });
+        ui.ctx().set_cursor_icon(if session.tool == Tool::Pin && over_body {
+            CursorIcon::Crosshair
+        } else {
+            CursorIcon::Grab
+        });
     }
     hit
 }
@@ -380,7 +384,9 @@ fn captions(ui: &Ui, session: &Session, plushie: Plushie, rect: Rect, camera: Ca
     let painter = ui.painter_at(rect);
     let (title, detail) = match (plushie, session.shown_proposal()) {
         (Plushie::Idealized, Some(_)) => ("Idealized", stage_name(session.discovery.stage).to_owned()),
-        (Plushie::Realizable, Some(p)) => ("Realizable", format!("with the proposal, error {:.1} %", 100.0 * p.error_after)),
+        (Plushie::Realizable, Some(p)) => {
+            ("Realizable", format!("with the proposal, error {:.1} %", 100.0 * p.error_after))
+        }
         (Plushie::Idealized, None) => ("Idealized", "muscle fibres".to_owned()),
         (Plushie::Realizable, None) => ("Realizable", networks_text(session)),
     };
@@ -388,7 +394,13 @@ fn captions(ui: &Ui, session: &Session, plushie: Plushie, rect: Rect, camera: Ca
     let text = ui.visuals().strong_text_color();
     let weak = ui.visuals().weak_text_color();
     let title = painter.text(corner, Align2::LEFT_TOP, title, FontId::proportional(15.0), text);
-    painter.text(title.right_bottom() + Vec2::new(8.0, -1.5), Align2::LEFT_BOTTOM, detail, FontId::proportional(12.0), weak);
+    painter.text(
+        title.right_bottom() + Vec2::new(8.0, -1.5),
+        Align2::LEFT_BOTTOM,
+        detail,
+        FontId::proportional(12.0),
+        weak,
+    );
     scale_bar(ui, rect, camera);
 }
 
@@ -427,5 +439,11 @@ fn scale_bar(ui: &Ui, rect: Rect, camera: Camera) {
         painter.line_segment([p - Vec2::new(0.0, 3.0), p + Vec2::new(0.0, 3.0)], stroke);
     }
     let text = format!("{length_mm:.0} mm");
-    painter.text(start.lerp(end, 0.5) - Vec2::new(0.0, 4.0), Align2::CENTER_BOTTOM, text, FontId::proportional(11.0), weak);
+    painter.text(
+        start.lerp(end, 0.5) - Vec2::new(0.0, 4.0),
+        Align2::CENTER_BOTTOM,
+        text,
+        FontId::proportional(11.0),
+        weak,
+    );
 }
