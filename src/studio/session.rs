@@ -174,6 +174,44 @@ impl Session {
         self.history.current()
     }
 
+    pub fn history(&self) -> &History {
+        &self.history
+    }
+
+    /// The current pose; `None` is the rest shape.
+    pub fn pose(&self) -> Option<usize> {
+        self.pose
+    }
+
+    pub fn selection(&self) -> Selection {
+        self.selection
+    }
+
+    pub fn playback(&self) -> &Playback {
+        &self.playback
+    }
+
+    pub fn discovery(&self) -> &Discovery {
+        &self.discovery
+    }
+
+    pub fn shapes(&self) -> &Shapes {
+        &self.shapes
+    }
+
+    pub fn messages(&self) -> &Messages {
+        &self.messages
+    }
+
+    pub fn look(&self) -> &Look {
+        &self.look
+    }
+
+    /// Whether a thread is busy with a file.
+    pub fn is_working(&self) -> bool {
+        self.files.working.is_some()
+    }
+
     /// Targets of the current pose; none at rest and while the animation is shown.
     pub fn targets(&self) -> &[Target] {
         match (self.mode, self.pose.and_then(|pose| self.design().poses.get(pose))) {

@@ -1,6 +1,6 @@
 //! Proposing networks: parameters, progress, the proposals and their stages (fig. 6).
 
-use super::{Actions, heading, primary};
+use super::{Actions, heading, primary, wide};
 use crate::engine::Proposal;
 use crate::picture::scene::Stage;
 use crate::studio::action::Action;
@@ -84,7 +84,7 @@ fn parameters(ui: &mut Ui, session: &Session, actions: &mut Actions) {
 fn row(ui: &mut Ui, session: &Session, index: usize, proposal: &Proposal, actions: &mut Actions) {
     let tendons = proposal.network.tendons.len();
     let name = format!("{}  {tendons} tendon{}", index + 1, if tendons == 1 { "" } else { "s" });
-    let error = format!("{:.1} % → {:.1} %", 100.0 * proposal.error_before, 100.0 * proposal.error_after);
+    let error = format!("{:.1} % to {:.1} %", 100.0 * proposal.error_before, 100.0 * proposal.error_after);
     let better = proposal.error_after < proposal.error_before;
     let color = if better { ui.visuals().text_color() } else { ui.visuals().warn_fg_color };
     let button = Button::selectable(session.discovery.shown == Some(index), name)
@@ -107,10 +107,8 @@ fn stages(ui: &mut Ui, session: &Session, actions: &mut Actions) {
             (Stage::Tree, "Tree", "Winch tree: components, and joining paths in blue"),
             (Stage::Result, "Result", "The winch and its tendons"),
         ] {
-            let button = Button::selectable(session.discovery.stage == stage, name)
-                .frame_when_inactive(true)
-                .min_size(vec2(width, 24.0));
-            if ui.add(button).on_hover_text(tip).clicked() {
+            let button = Button::selectable(session.discovery.stage == stage, name).frame_when_inactive(true);
+            if ui.add_sized([width, 24.0], button).on_hover_text(tip).clicked() {
                 actions.push(Action::ShowStage(stage));
             }
         }
@@ -123,7 +121,7 @@ fn verdict(ui: &mut Ui, index: usize, actions: &mut Actions) {
         if primary(ui, true, "Accept", width).on_hover_text("Build this network in (Enter)").clicked() {
             actions.push(Action::Accept(index));
         }
-        let reject = ui.add(Button::new("Reject").min_size(vec2(width, 30.0)));
+        let reject = wide(ui, true, Button::new("Reject"), width);
         if reject.on_hover_text("Drop this proposal (Backspace)").clicked() {
             actions.push(Action::Reject(index));
         }

@@ -44,7 +44,8 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Act
                     .right_text(RichText::new(detail).small().weak())
                     .truncate()
                     .min_size(vec2(ui.available_width(), 24.0));
-                let response = ui.add(button).on_hover_text("Cable wound now. Double-click to rename");
+                let response = ui.add(button).accessible_name(format!("Network {}", network.name));
+                let response = response.on_hover_text("Cable wound now. Double-click to rename");
                 if response.double_clicked() {
                     state.renaming = Some((Renamed::Network(index), network.name.clone()));
                 } else if response.clicked() {

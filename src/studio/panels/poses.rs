@@ -75,7 +75,8 @@ fn list(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actions
             .right_text(RichText::new(detail).small().weak())
             .truncate()
             .min_size(vec2(ui.available_width(), 26.0));
-        ui.add(button)
+        // Without the detail, which is for the eye.
+        ui.add(button).accessible_name(name)
     };
     let rest = row(ui, "Rest", "", in_pose && session.pose.is_none());
     if rest.on_hover_text("The body as it was cut").clicked() {
