@@ -14,17 +14,16 @@ const BOUNDARY_GAP: f64 = 0.42;
 /// Preference for triangles between boundary nodes alone, as a factor on that ratio: a limb is to be two across before
 /// the trunk is filled evenly.
 const LIMB_FIRST: f64 = 1.35;
-/// Largest wanted edge length, in boundary spacings: the trunk may be coarser than the limbs.
-const COARSEST: f64 = 1.25;
 /// Smallest ratio of circumradius to wanted edge length that takes a node, from round to round: an equilateral triangle
 /// of the wanted size has 0.577.
 const RATIOS: [f64; 12] = [1.2, 1.0, 0.9, 0.8, 0.75, 0.7, 0.66, 0.62, 0.58, 0.54, 0.5, 0.45];
 
-/// Boundary nodes, then `count` interior nodes, for edges about `h` long inside. `None` where so many find no room.
+/// Boundary nodes, then `count` interior nodes, for edges about `h` long near the boundary and up to `coarsest` times that
+/// away from it. `None` where so many find no room.
 ///
 /// Each round triangulates, and puts nodes at the circumcentres of the triangles largest for their place. The first
 /// ones so fall on the middle lines of limbs, where they let the limbs bend.
-pub(super) fn fill(boundary: &Boundary, count: usize, h: f64) -> Option<Vec<Point>> {
+pub(super) fn fill(boundary: &Boundary, count: usize, h: f64, coarsest: f64) -> Option<Vec<Point>> {
     let mut cdt = triangulate::cdt(&boundary.nodes, &boundary.segments)?;
     let mut sizes = boundary_sizes(boundary, h);
     let mut nodes = boundary.nodes.clone();
@@ -33,7 +32,10 @@ pub(super) fn fill(boundary: &Boundary, count: usize, h: f64) -> Option<Vec<Poin
         // Insertions change their surroundings: a ratio is done when it finds no more.
         while nodes.len() < wanted {
             let before = nodes.len();
-            let taken = accept(candidates(&cdt, &nodes, &sizes, boundary.nodes.len(), h, ratio), wanted - nodes.len());
+            let taken = accept(
+                candidates(&cdt, &nodes, &sizes, boundary.nodes.len(), coarsest * h, ratio),
+                wanted - nodes.len(),
+            );
             for (point, size) in taken {
                 cdt.insert(Point2::new(point[0], point[1])).ok()?;
                 nodes.push(point);
@@ -69,7 +71,7 @@ fn boundary_sizes(boundary: &Boundary, h: f64) -> Vec<f64> {
 
 /// Circumcentres of triangles whose circumradius is more than `least` wanted edge lengths, the largest first. The first
 /// `rim` nodes are those of the boundary.
-fn candidates(cdt: &Cdt, nodes: &[Point], sizes: &[f64], rim: usize, h: f64, least: f64) -> Vec<Candidate> {
+fn candidates(cdt: &Cdt, nodes: &[Point], sizes: &[f64], rim: usize, longest: f64, least: f64) -> Vec<Candidate> {
     let inside = triangulate::inside_faces(cdt);
     let mut found = Vec::new();
     for face in cdt.inner_faces().filter(|face| inside[face.fix().index()]) {
@@ -77,7 +79,7 @@ fn candidates(cdt: &Cdt, nodes: &[Point], sizes: &[f64], rim: usize, h: f64, lea
         let at = [centre.x, centre.y];
         let radius = radius2.sqrt();
         let corners = face.vertices().map(|v| v.fix().index());
-        let size = corners.iter().map(|&v| sizes[v] + GRADATION * radius).fold(COARSEST * h, f64::min);
+        let size = corners.iter().map(|&v| sizes[v] + GRADATION * radius).fold(longest, f64::min);
         let limb = if corners.iter().all(|&v| v < rim) { LIMB_FIRST } else { 1.0 };
         let ratio = limb * radius / size;
         if ratio <= least || !centre.x.is_finite() || !centre.y.is_finite() {

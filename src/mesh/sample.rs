@@ -15,8 +15,10 @@ const CORNER_TURN: f64 = std::f64::consts::FRAC_PI_4;
 const CORNER_GAP: f64 = 0.55;
 /// Weights `a` of curvature in the density, tried in turn until the area is kept.
 const CURVATURE_WEIGHTS: [f64; 4] = [0.4, 0.7, 1.0, 1.4];
-/// Farthest that a chord may stray from the outline, in spacings.
+/// Farthest that a chord may stray from the outline, in spacings, and as a fraction of the longer side of the box (4.5 mm
+/// on 300 mm): however few fibres are asked for, a limb is not left out.
 const STRAY: f64 = 0.12;
+const STRAY_FRACTION: f64 = 0.015;
 /// Area that the polygon of boundary nodes may lose or win, as a fraction of the outline's.
 const AREA_FRACTION: f64 = 0.0095;
 
@@ -33,6 +35,8 @@ pub(super) struct Boundary {
 pub(super) fn sample(outline: &Outline, h: f64, extra: usize) -> Option<Boundary> {
     let curves: Vec<Curve> = outline.polygons().map(Curve::new).collect();
     let area = outline.area();
+    let (low, high) = outline.bounding_box();
+    let stray = (STRAY * h).min(STRAY_FRACTION * (high[0] - low[0]).max(high[1] - low[1]));
     let lost = |rings: &[Vec<f64>]| {
         let sampled: f64 = curves.iter().zip(rings).map(|(c, ring)| polygon::signed_area(&c.points(ring))).sum();
         1.0 - sampled / area
@@ -40,7 +44,11 @@ pub(super) fn sample(outline: &Outline, h: f64, extra: usize) -> Option<Boundary
     let mut rings = Vec::new();
     for weight in CURVATURE_WEIGHTS {
         // The outer polygon takes the extra nodes.
-        rings = curves.iter().enumerate().map(|(k, c)| c.sample(h, weight, if k == 0 { extra } else { 0 })).collect();
+        rings = curves
+            .iter()
+            .enumerate()
+            .map(|(k, c)| c.sample(h, weight, stray, if k == 0 { extra } else { 0 }))
+            .collect();
         if lost(&rings).abs() < AREA_FRACTION {
             break;
         }
@@ -178,7 +186,7 @@ impl<'a> Curve<'a> {
     }
 
     /// Ascending arc lengths of the nodes.
-    fn sample(&self, h: f64, weight: f64, extra: usize) -> Vec<f64> {
+    fn sample(&self, h: f64, weight: f64, stray: f64, extra: usize) -> Vec<f64> {
         let corners = self.corners(h);
         let starts = if corners.is_empty() { vec![0.0] } else { corners };
         let window = (WINDOW * h).min(self.length() / 8.0);
@@ -225,7 +233,7 @@ impl<'a> Curve<'a> {
         }
         nodes.sort_by(f64::total_cmp);
         nodes.dedup();
-        self.keep_features(nodes, STRAY * h)
+        self.keep_features(nodes, stray)
     }
 
     /// Adds the farthest vertex of every arc that strays from its chord by more than `stray`, again and again.

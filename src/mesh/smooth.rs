@@ -20,9 +20,9 @@ pub(super) fn smooth(nodes: &mut [Point], fixed: usize, segments: &[[usize; 2]])
     let mut triangles = triangulate::triangles(nodes, segments)?;
     for _ in 0..ROUNDS {
         let stars = stars(nodes.len(), &triangles);
-        for node in fixed..nodes.len() {
-            let Some(goal) = circumcentre_mean(nodes, &triangles, &stars[node]) else { continue };
-            step(nodes, &triangles, &stars[node], node, goal);
+        for (node, star) in stars.iter().enumerate().skip(fixed) {
+            let Some(goal) = circumcentre_mean(nodes, &triangles, star) else { continue };
+            step(nodes, &triangles, star, node, goal);
         }
         triangles = triangulate::triangles(nodes, segments)?;
     }

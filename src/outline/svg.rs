@@ -183,7 +183,7 @@ mod tests {
 
     #[test]
     fn the_asked_height_wins_and_y_points_up() {
-        let wedge = svg("width='10mm' height='20mm' viewBox='0 0 10 20'", "<path d='M2 2h6l-6 12z'/>");
+        let wedge = svg("width='10mm' height='20mm' viewBox='0 0 10 20'", "<path d='M2 2h6l-3 12z'/>");
         let outline = read(&wedge, Some(240.0)).unwrap();
         let (_, high) = outline.bounding_box();
         assert!((high[1] - 240.0).abs() < 1e-9 && (high[0] - 120.0).abs() < 1e-3);
