@@ -129,7 +129,12 @@ impl History {
     fn change<T>(&mut self, change: impl FnOnce(&mut Design) -> Result<T, EditError>) -> Result<T, EditError> {
         let mut design = Design::clone(&self.current);
         let result = change(&mut design)?;
-        design.validate()?;
+        let same_body = design.mesh == self.current.mesh && design.outline == self.current.outline;
+        if same_body {
+            design.validate_beside_body()?
+        } else {
+            design.validate()?
+        }
         // A change that changes nothing keeps the snapshot, so that whoever watches it has nothing to do.
         if design != *self.current {
             self.current = Arc::new(design);

@@ -4,8 +4,8 @@
 //! (`pins[1].at.triangle`), 0-based, and what is wrong there.
 
 use super::{Design, FORMAT_VERSION, FiberSet, Keyframe, Material, Network, Pin, Pose, Target, Tendon};
-use crate::mesh::{BodyPoint, Mesh};
-use crate::outline::Point;
+use crate::mesh::{BodyPoint, Mesh, MeshError};
+use crate::outline::{Point, polygon::signed_area};
 use std::collections::HashSet;
 use thiserror::Error;
 
@@ -48,8 +48,8 @@ pub enum Problem {
     OuterPolygon(f64),
     #[error("area {0} mm^2: a hole must run clockwise around a positive area")]
     HolePolygon(f64),
-    #[error("node {0} belongs to no triangle")]
-    LooseNode(usize),
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
     #[error("node {0} stands twice in a row")]
     RepeatedNode(usize),
     #[error("starts at node {found}, the network's winch is at node {winch}")]
@@ -69,13 +69,18 @@ pub enum Problem {
 type Check = Result<(), DesignError>;
 
 impl Design {
-    /// Checks the whole document; the first fault found, in the order of the file. Linear in the document's size.
+    /// Checks the whole document; the first fault found, the body first. The cost is that of [`Mesh::validate`].
     pub fn validate(&self) -> Result<(), DesignError> {
         if self.version == 0 || self.version > FORMAT_VERSION {
             return fail("version", Problem::Version { found: self.version });
         }
         outline(self)?;
         mesh(&self.mesh)?;
+        self.validate_beside_body()
+    }
+
+    /// Everything but outline and mesh, which hardly any edit touches. Linear in the document's size.
+    pub(super) fn validate_beside_body(&self) -> Result<(), DesignError> {
         settings(self)?;
         for (i, p) in self.pins.iter().enumerate() {
             pin(&format!("pins[{i}]"), &self.mesh, p)?;
@@ -105,13 +110,7 @@ fn polygon(at: &str, points: &[Point]) -> Result<f64, DesignError> {
     for (i, p) in points.iter().enumerate() {
         point(&format!("{at}[{i}]"), p)?;
     }
-    let twice: f64 = (0..points.len())
-        .map(|i| {
-            let (a, b) = (points[i], points[(i + 1) % points.len()]);
-            a[0] * b[1] - a[1] * b[0]
-        })
-        .sum();
-    Ok(0.5 * twice)
+    Ok(signed_area(points))
 }
 
 fn mesh(mesh: &Mesh) -> Check {
@@ -120,21 +119,17 @@ fn mesh(mesh: &Mesh) -> Check {
     for (i, p) in mesh.nodes.iter().enumerate() {
         point(&format!("mesh.nodes[{i}]"), p)?;
     }
-    let mut used = vec![false; mesh.nodes.len()];
     for (i, corners) in mesh.triangles.iter().enumerate() {
         let at = format!("mesh.triangles[{i}]");
         for &n in corners {
             node(&at, mesh, n)?;
-            used[n] = true;
         }
         let [a, b, c] = corners.map(|n| mesh.nodes[n]);
         let area = 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
         require(area > 0.0 && area.is_finite(), &at, || Problem::Triangle(area))?;
     }
-    match used.iter().position(|used| !used) {
-        Some(n) => fail("mesh.nodes", Problem::LooseNode(n)),
-        None => Ok(()),
-    }
+    // What the mesh as a whole must be: one piece, no overlaps, every node used.
+    mesh.validate().or_else(|error| fail("mesh", Problem::Mesh(error)))
 }
 
 /// Everything about a design's settings; used by the edits as well.

@@ -4,7 +4,9 @@
 //! add what is missing (section 3, design loop).
 
 pub mod compile;
+pub mod rig;
 pub mod solver;
+pub mod worker;
 
 pub use solver::{Effort, Solver};
 

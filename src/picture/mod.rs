@@ -3,6 +3,10 @@
 //! A [`Scene`] is a list of primitives in painting order, coordinates in mm (y up). Line widths and disc radii are in
 //! logical pixels, so that they stay crisp at every zoom.
 
+pub mod palette;
+pub mod raster;
+pub mod scene;
+
 use crate::outline::Point;
 
 /// Straight (not premultiplied) sRGB colour with alpha.

@@ -1,0 +1,30 @@
+//! `check`: the figures of a design.
+
+use super::error::CommandError;
+use super::output::say_json;
+use super::{document, table};
+use clap::Args;
+use std::io::Write;
+use std::path::PathBuf;
+use std::sync::atomic::AtomicBool;
+
+/// Print sizes, and how close both plushies come to each pose
+///
+/// Target errors are rms distances in body lengths (the longer side of the rest silhouette's box); times are in ms.
+#[derive(Debug, Args)]
+#[command(after_help = "Example: plushwright check pig.plush --json")]
+pub struct Check {
+    /// Design file to read
+    pub design: PathBuf,
+    /// Print JSON; errors as fractions of the body length
+    #[arg(long)]
+    pub json: bool,
+}
+
+impl Check {
+    pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
+        let design = document::load(&self.design)?;
+        let figures = table::figures(&design, cancel)?;
+        if self.json { say_json(out, &figures) } else { table::print(&figures, out) }
+    }
+}

@@ -1,0 +1,195 @@
+//! `demo`: one plushie from bare outline to blueprint, headless, with a picture of every step.
+
+use super::error::CommandError;
+use super::output::{Staged, json, say};
+use super::place::Move;
+use super::render::picture;
+use super::{document, export, key, new, pose, rig, table};
+use crate::design::animation::{activations_at, duration_s};
+use crate::design::{Design, Target};
+use crate::engine::rig::{RigOptions, TendonChoice};
+use crate::engine::{Question, Shape};
+use crate::mesh::Mesh;
+use crate::outline::Point;
+use crate::picture::palette::{Palette, Theme};
+use crate::picture::{Item, Scene, raster};
+use clap::Args;
+use serde::Serialize;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
+use std::time::Instant;
+
+/// Make the pig from bare outline to blueprint, with pictures and figures of every step
+///
+/// Needs no display, no graphics adapter and no other file. Ends in less than a minute.
+#[derive(Debug, Args)]
+#[command(after_help = "Example: plushwright demo --out demo")]
+pub struct Demo {
+    /// Folder to write; one made by an earlier `demo` is replaced
+    #[arg(long, value_name = "DIR", default_value = "demo")]
+    pub out: PathBuf,
+}
+
+const OUTLINE: &[u8] = include_bytes!("../../assets/pig.svg");
+const FIBERS: usize = 571;
+/// Both feet on the ground: the hind legs and one front leg.
+const PINS: [Point; 3] = [[146.0, 4.0], [196.0, 4.0], [248.0, 4.0]];
+/// The ear folds forward and the front leg steps out: places of the body at rest and where they go, mm.
+const POSES: [(&str, [Move; 2]); 1] =
+    [("greet", [Move { from: [67.0, 215.0], to: [14.0, 186.0] }, Move { from: [84.0, 6.0], to: [34.0, 28.0] }])];
+/// Pictures of the animation.
+const FRAMES: usize = 5;
+const SIZE: (u32, u32) = (1280, 720);
+/// The file by which a folder is known to be an earlier result that may be replaced.
+const MARK: &str = "figures.json";
+
+impl Demo {
+    pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
+        if self.out.exists() && !self.out.join(MARK).is_file() {
+            return Err(CommandError::Usage(format!(
+                "{} exists and is not the result of an earlier demo; choose another --out",
+                self.out.display()
+            )));
+        }
+        let staged = Staged::beside(&self.out)?;
+        Tour { folder: staged.folder(), out, cancel, clock: Instant::now(), pictures: Vec::new() }.make()?;
+        staged.commit(cancel)?;
+        say(out, &format!("Pictures, design, blueprint and figures are in {}", self.out.display()))
+    }
+}
+
+/// Everything `figures.json` holds.
+#[derive(Serialize)]
+struct Report<'a> {
+    #[serde(flatten)]
+    figures: &'a table::Figures,
+    seconds: f64,
+    pictures: &'a [String],
+}
+
+struct Tour<'a> {
+    folder: &'a Path,
+    out: &'a mut dyn Write,
+    cancel: &'a AtomicBool,
+    clock: Instant,
+    pictures: Vec<String>,
+}
+
+impl Tour<'_> {
+    fn make(mut self) -> Result<(), CommandError> {
+        let mut design = new::design(OUTLINE, None, FIBERS, "pig").map_err(CommandError::Failed)?;
+        self.outline(&design)?;
+        self.mesh(&design)?;
+        for (name, targets) in POSES {
+            pose::add(&mut design, name, &PINS, &targets)?;
+            self.pose(&design, name, "before rigging")?;
+        }
+        let design = self.rig(&design)?;
+        for (name, _) in POSES {
+            self.pose(&design, name, "rigged")?;
+        }
+        self.animation(&design)?;
+        let file = self.folder.join("pig.plush");
+        document::save(&file, &design, self.cancel)?;
+        let figures = table::figures(&design, self.cancel)?;
+        let manifest = export::export(&design, &file, &self.folder.join("blueprint"), self.cancel)?;
+        let files = manifest.files.len() + 1;
+        say(self.out, &format!("{:5.1} s  blueprint  {files} files", self.clock.elapsed().as_secs_f64()))?;
+        self.report(&figures)
+    }
+
+    fn outline(&mut self, design: &Design) -> Result<(), CommandError> {
+        let palette = Palette::of(Theme::Light);
+        let loops = std::iter::once(&design.outline.outer).chain(&design.outline.holes);
+        let items =
+            loops.map(|points| Item::Line { points: points.clone(), width: 3.0, color: palette.seam, closed: true });
+        let scene = Scene { items: items.collect() };
+        let bytes =
+            raster::png(&scene, &scene, SIZE, palette.background).map_err(|e| CommandError::Failed(e.to_string()))?;
+        self.save("outline", &bytes, &format!("{} points", design.outline.outer.len()))
+    }
+
+    fn mesh(&mut self, design: &Design) -> Result<(), CommandError> {
+        let Mesh { nodes, triangles } = &design.mesh;
+        let text =
+            format!("{} fibers, {} nodes, {} triangles", design.mesh.edges().len(), nodes.len(), triangles.len());
+        self.plushies("mesh", &text, design, Question::Targets(Vec::new()))
+    }
+
+    fn pose(&mut self, design: &Design, name: &str, when: &str) -> Result<(), CommandError> {
+        let targets = key::targets(design, name)?;
+        self.plushies(&format!("{name}, {when}"), "", design, Question::Targets(targets))
+    }
+
+    fn rig(&mut self, design: &Design) -> Result<Design, CommandError> {
+        let options = RigOptions {
+            max_winches: 1,
+            tendons: TendonChoice::PerWinch(vec![2]),
+            seed_num: None,
+            join_depth: None,
+            join_len: None,
+            phi: None,
+        };
+        let mut printed = Ok(());
+        let out = &mut *self.out;
+        let mut progress = |line: &str| {
+            if printed.is_ok() {
+                printed = say(out, &format!("     {line}"));
+            }
+        };
+        let rigged = rig::rigged(design, &options, &mut progress, self.cancel)?;
+        printed?;
+        Ok(rigged)
+    }
+
+    fn animation(&mut self, design: &Design) -> Result<(), CommandError> {
+        for frame in 0..FRAMES {
+            let time = duration_s(design) * frame as f64 / (FRAMES - 1) as f64;
+            let activations = activations_at(design, time);
+            self.plushies(&format!("animation {time:.2} s"), "", design, Question::Activations(activations))?;
+        }
+        Ok(())
+    }
+
+    fn report(&mut self, figures: &table::Figures) -> Result<(), CommandError> {
+        let mut text = Vec::new();
+        table::print(figures, &mut text)?;
+        let path = self.folder.join("figures.txt");
+        std::fs::write(&path, &text).map_err(|e| CommandError::write(&path, e))?;
+        self.out.write_all(&text).map_err(CommandError::Print)?;
+        let report = Report { figures, seconds: self.clock.elapsed().as_secs_f64(), pictures: &self.pictures };
+        let path = self.folder.join(MARK);
+        std::fs::write(&path, json(&report)? + "\n").map_err(|e| CommandError::write(&path, e))
+    }
+
+    /// A picture of both plushies, solved for a question.
+    fn plushies(&mut self, title: &str, text: &str, design: &Design, question: Question) -> Result<(), CommandError> {
+        let targets: Vec<Target> = match &question {
+            Question::Targets(targets) => targets.clone(),
+            Question::Activations(_) => Vec::new(),
+        };
+        let shapes = key::solve(design, question, [true, true], self.cancel)?;
+        let bytes = picture(design, &shapes, &targets, SIZE)?;
+        let text = if targets.is_empty() { text.to_owned() } else { errors(&shapes) };
+        self.save(title, &bytes, &text)
+    }
+
+    fn save(&mut self, title: &str, bytes: &[u8], text: &str) -> Result<(), CommandError> {
+        let words: Vec<String> = title.split([' ', ',']).filter(|w| !w.is_empty()).map(str::to_lowercase).collect();
+        let name = format!("{:02}-{}.png", self.pictures.len() + 1, words.join("-"));
+        let path = self.folder.join(&name);
+        std::fs::write(&path, bytes).map_err(|e| CommandError::write(&path, e))?;
+        say(self.out, &format!("{:5.1} s  {name}  {text}", self.clock.elapsed().as_secs_f64()))?;
+        self.pictures.push(name);
+        Ok(())
+    }
+}
+
+fn errors([idealized, realizable]: &[Shape; 2]) -> String {
+    format!(
+        "target error: idealized {:.2} %, realizable {:.2} % of the body length",
+        100.0 * idealized.target_error,
+        100.0 * realizable.target_error
+    )
+}

@@ -1,0 +1,47 @@
+//! `discover`: network discovery on a given activation graph, as JSON.
+
+use super::error::CommandError;
+use super::output::{json, read_text, say, write_file};
+use crate::problem::network::{self, NetworkError};
+use clap::Args;
+use std::io::Write;
+use std::path::PathBuf;
+use std::sync::atomic::AtomicBool;
+
+/// Answer a network file (JSON, SI units: contractions in m)
+#[derive(Debug, Args)]
+#[command(after_help = "Example: plushwright discover network.json -o answer.json")]
+pub struct Discover {
+    /// Network file (`plushwright-network/1`)
+    pub network: PathBuf,
+    /// Answer file to write [default: standard output]
+    #[arg(short, long, value_name = "OUT.json")]
+    pub output: Option<PathBuf>,
+}
+
+impl Discover {
+    pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
+        let text = read_text(&self.network)?;
+        let (answer, failure) = match network::answer(&text) {
+            Ok(answer) => (answer, None),
+            Err(error) => {
+                let line = error.to_string();
+                match error {
+                    NetworkError::NoNetwork { answer, .. } => (answer, Some(CommandError::NotConverged(line))),
+                    NetworkError::Json { .. } | NetworkError::Key { .. } => {
+                        return Err(CommandError::input(&self.network, line));
+                    }
+                }
+            }
+        };
+        let mut text = json(&answer)?;
+        match &self.output {
+            Some(path) => {
+                text.push('\n');
+                write_file(path, text.as_bytes(), cancel)?;
+            }
+            None => say(out, &text)?,
+        }
+        failure.map_or(Ok(()), Err)
+    }
+}

@@ -1,0 +1,68 @@
+//! Places on the command line, `X,Y` and `X,Y=X2,Y2` in mm, and where on the body they are.
+
+use super::error::CommandError;
+use crate::mesh::{BodyPoint, Mesh};
+use crate::outline::Point;
+
+/// How far beside the body a typed place may lie and still mean the nearest point of the body, in body lengths: what a
+/// reading off a picture misses by.
+const REACH: f64 = 0.02;
+
+/// A target as typed: a point of the body at rest and where it should go, mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Move {
+    pub from: Point,
+    pub to: Point,
+}
+
+/// Reads `X,Y`.
+pub fn parse_point(text: &str) -> Result<Point, String> {
+    let explain = || format!("expected X,Y in mm, found `{text}`");
+    let (x, y) = text.split_once(',').ok_or_else(explain)?;
+    let number = |part: &str| part.trim().parse::<f64>().ok().filter(|v| v.is_finite()).ok_or_else(explain);
+    Ok([number(x)?, number(y)?])
+}
+
+/// Reads `X,Y=X2,Y2`.
+pub fn parse_move(text: &str) -> Result<Move, String> {
+    let explain = || format!("expected X,Y=X2,Y2 in mm, found `{text}`");
+    let (from, to) = text.split_once('=').ok_or_else(explain)?;
+    Ok(Move { from: parse_point(from).map_err(|_| explain())?, to: parse_point(to).map_err(|_| explain())? })
+}
+
+/// The point of the body at rest that `p` means.
+pub fn body_point(mesh: &Mesh, p: Point) -> Result<BodyPoint, CommandError> {
+    match mesh.locate_nearest(p, &mesh.nodes) {
+        Some((at, distance)) if distance <= REACH * mesh.body_length() => Ok(at),
+        Some((at, _)) => {
+            let q = mesh.position(&at, &mesh.nodes);
+            Err(CommandError::Usage(format!(
+                "{},{} mm is not on the body at rest; the nearest point of the body is {:.1},{:.1}",
+                p[0], p[1], q[0], q[1]
+            )))
+        }
+        None => Err(CommandError::Usage(format!("{},{} mm is not on the body: the design has no mesh", p[0], p[1]))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_and_moves_read_back() {
+        assert_eq!(parse_point("3,-4.5"), Ok([3.0, -4.5]));
+        assert_eq!(parse_point("-1e1, 2"), Ok([-10.0, 2.0]));
+        assert_eq!(parse_move("1,2=-3,4"), Ok(Move { from: [1.0, 2.0], to: [-3.0, 4.0] }));
+    }
+
+    #[test]
+    fn bad_text_is_quoted() {
+        for bad in ["", "1", "1;2", "1,2,3", "a,b", "nan,1", "1,inf"] {
+            assert!(parse_point(bad).unwrap_err().contains(&format!("`{bad}`")), "{bad}");
+        }
+        for bad in ["1,2", "1,2=3", "1,2=3,4=5,6", "=1,2"] {
+            assert!(parse_move(bad).unwrap_err().contains(&format!("`{bad}`")), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! `render`: a picture of both plushies.
+
+use super::error::CommandError;
+use super::output::{say, write_file};
+use super::{document, key};
+use crate::design::animation::activations_at;
+use crate::design::{Design, Target};
+use crate::engine::{Question, Shape};
+use crate::picture::palette::Palette;
+use crate::picture::raster;
+use crate::picture::scene::{self, Options};
+use clap::Args;
+use std::io::Write;
+use std::path::PathBuf;
+use std::sync::atomic::AtomicBool;
+
+/// Draw both plushies, idealized left and realizable right, as PNG
+#[derive(Debug, Args)]
+#[command(after_help = "Example: plushwright render pig.plush -o pig.png --pose wave --size 1280x720")]
+pub struct Render {
+    /// Design file to read
+    pub design: PathBuf,
+    /// Picture to write (PNG)
+    #[arg(short, long, value_name = "OUT.png")]
+    pub output: PathBuf,
+    /// Solve both plushies for this pose [default: at rest]
+    #[arg(long, value_name = "P", conflicts_with = "time")]
+    pub pose: Option<String>,
+    /// Show the animation at this time in s
+    #[arg(long, value_name = "S")]
+    pub time: Option<f64>,
+    /// Width and height in pixels, each 16 to 8192
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = parse_size)]
+    pub size: (u32, u32),
+}
+
+impl Render {
+    pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
+        let design = document::load(&self.design)?;
+        let question = match (&self.pose, self.time) {
+            (Some(pose), _) => Question::Targets(key::targets(&design, pose)?),
+            (None, Some(time)) => {
+                if design.keyframes.is_empty() {
+                    return Err(CommandError::input(&self.design, "the design has no keyframes to show"));
+                }
+                Question::Activations(activations_at(&design, time))
+            }
+            (None, None) => Question::Targets(Vec::new()),
+        };
+        let targets = match &question {
+            Question::Targets(targets) => targets.clone(),
+            Question::Activations(_) => Vec::new(),
+        };
+        let shapes = key::solve(&design, question, [true, true], cancel)?;
+        let bytes = picture(&design, &shapes, &targets, self.size)?;
+        write_file(&self.output, &bytes, cancel)?;
+        say(out, &format!("{}: {} x {} pixels", self.output.display(), self.size.0, self.size.1))
+    }
+}
+
+/// Both plushies side by side as PNG.
+pub fn picture(
+    design: &Design,
+    [idealized, realizable]: &[Shape; 2],
+    targets: &[Target],
+    size: (u32, u32),
+) -> Result<Vec<u8>, CommandError> {
+    let left = Options { targets, ..Options::default() };
+    // The realizable plushie has no fibres.
+    let right = Options { fibers: false, ..left };
+    let background = Palette::of(left.theme).background;
+    let left = scene::scene(design, idealized, &left);
+    let right = scene::scene(design, realizable, &right);
+    raster::png(&left, &right, size, background).map_err(|e| CommandError::Failed(e.to_string()))
+}
+
+/// Reads `WxH`.
+fn parse_size(text: &str) -> Result<(u32, u32), String> {
+    let explain = || format!("expected WxH in pixels, each from 16 to 8192, found `{text}`");
+    let number = |part: &str| part.parse::<u32>().ok().filter(|n| (16..=8192).contains(n)).ok_or_else(explain);
+    let (width, height) = text.split_once('x').ok_or_else(explain)?;
+    Ok((number(width)?, number(height)?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_read_back() {
+        assert_eq!(parse_size("1280x720"), Ok((1280, 720)));
+        for bad in ["", "1280", "0x10", "-3x40", "1e3x20", "99999x20"] {
+            assert!(parse_size(bad).unwrap_err().contains(&format!("`{bad}`")), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,104 @@
+//! `solve`: one numerical question, as JSON.
+
+use super::error::{CommandError, check_cancel};
+use super::output::{json, read_text, say, write_file};
+use crate::problem::{self, Answered, Options, Problem, Quality};
+use crate::soft_ik;
+use clap::builder::PossibleValuesParser;
+use clap::{Args, ValueEnum};
+use std::io::Write;
+use std::path::PathBuf;
+use std::sync::atomic::AtomicBool;
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::time::Duration;
+
+/// How often a running answer looks for an interrupt.
+const CANCEL_INTERVAL: Duration = Duration::from_millis(20);
+
+/// Answer a problem file (JSON, SI units: m, N, J)
+///
+/// The format is described in examples/problem-format.md. An answer that did not converge is written all the same, with
+/// the reason in it, and the exit code is 3.
+#[derive(Debug, Args)]
+#[command(after_help = "Example: plushwright solve problem.json -o answer.json --quality accurate")]
+pub struct Solve {
+    /// Problem file (`plushwright-problem/1`)
+    pub problem: PathBuf,
+    /// Answer file to write [default: standard output]
+    #[arg(short, long, value_name = "OUT.json")]
+    pub output: Option<PathBuf>,
+    /// How contractions are found; `gradient` is Algorithm 1 of the paper
+    #[arg(long, default_value = "default", value_parser = PossibleValuesParser::new(soft_ik::METHODS))]
+    pub method: String,
+    /// How much work each frame of a drag may take
+    #[arg(long, value_enum, default_value_t = Effort::Balanced)]
+    pub quality: Effort,
+    /// Answer statics and Soft IK too where the file has a drag
+    #[arg(long)]
+    pub all: bool,
+    /// Name ignored keys of the file on standard error
+    #[arg(long)]
+    pub verbose: bool,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum Effort {
+    Draft,
+    Balanced,
+    Accurate,
+}
+
+impl Solve {
+    pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
+        let text = read_text(&self.problem)?;
+        let (problem, unknown) = problem::read(&text).map_err(|e| CommandError::input(&self.problem, e))?;
+        if self.verbose && !unknown.is_empty() {
+            eprintln!("plushwright: {}: ignored: {}", self.problem.display(), unknown.join(", "));
+        }
+        let answered = self.answer(problem, cancel)?;
+        let mut text = json(&answered.document)?;
+        match &self.output {
+            Some(path) => {
+                text.push('\n');
+                write_file(path, text.as_bytes(), cancel)?;
+            }
+            None => say(out, &text)?,
+        }
+        if answered.converged {
+            return Ok(());
+        }
+        let reason = answered.document.get("error").and_then(|e| e.as_str()).unwrap_or("no reason given");
+        Err(CommandError::NotConverged(reason.to_owned()))
+    }
+
+    /// The answer, computed on a thread of its own that an interrupt leaves behind.
+    fn answer(&self, problem: Problem, cancel: &AtomicBool) -> Result<Answered, CommandError> {
+        let options = Options {
+            method: self.method.clone(),
+            quality: match self.quality {
+                Effort::Draft => Quality::Draft,
+                Effort::Balanced => Quality::Balanced,
+                Effort::Accurate => Quality::Accurate,
+            },
+            all: self.all,
+            ..Options::default()
+        };
+        let (send, receive) = channel();
+        let worker = move || {
+            // Nobody is listening any more after an interrupt.
+            let _ = send.send(problem::solve(&problem, &options));
+        };
+        std::thread::Builder::new()
+            .spawn(worker)
+            .map_err(|e| CommandError::Failed(format!("cannot start a thread: {e}")))?;
+        loop {
+            match receive.recv_timeout(CANCEL_INTERVAL) {
+                Ok(answered) => return answered.map_err(|e| CommandError::input(&self.problem, e)),
+                Err(RecvTimeoutError::Timeout) => check_cancel(cancel)?,
+                Err(RecvTimeoutError::Disconnected) => {
+                    return Err(CommandError::Failed("the solver broke down; please report this problem file".into()));
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! Figures of a design: sizes, and how close each pose comes to its targets.
+
+use super::error::CommandError;
+use super::key::solve;
+use super::output::say;
+use crate::design::Design;
+use crate::engine::Question;
+use crate::engine::solver::target_error;
+use serde::Serialize;
+use std::io::Write;
+use std::sync::atomic::AtomicBool;
+
+/// What `check` reports. Errors are rms distances of the targets in body lengths.
+#[derive(Clone, Debug, Serialize)]
+pub struct Figures {
+    pub name: String,
+    pub fibers: usize,
+    pub nodes: usize,
+    pub triangles: usize,
+    pub winches: usize,
+    pub tendons: usize,
+    pub body_length_mm: f64,
+    pub poses: Vec<PoseFigures>,
+}
+
+#[derive(Clone, Debug, Serialize)]
+pub struct PoseFigures {
+    pub name: String,
+    pub targets: usize,
+    pub error_rest: f64,
+    pub error_idealized: f64,
+    pub error_realizable: f64,
+    pub milliseconds_idealized: f64,
+    pub milliseconds_realizable: f64,
+    /// What the solver had to say; shown in the table only.
+    #[serde(skip)]
+    pub warnings: Vec<String>,
+}
+
+/// Solves every pose from rest.
+pub fn figures(design: &Design, cancel: &AtomicBool) -> Result<Figures, CommandError> {
+    let mut poses = Vec::with_capacity(design.poses.len());
+    for pose in &design.poses {
+        let [idealized, realizable] = solve(design, Question::Targets(pose.targets.clone()), [true, true], cancel)?;
+        let note =
+            |view: &str, warning: &Option<String>| warning.as_ref().map(|w| format!("{}, {view}: {w}", pose.name));
+        poses.push(PoseFigures {
+            name: pose.name.clone(),
+            targets: pose.targets.len(),
+            error_rest: target_error(design, &pose.targets, &design.mesh.nodes),
+            error_idealized: idealized.target_error,
+            error_realizable: realizable.target_error,
+            milliseconds_idealized: idealized.milliseconds,
+            milliseconds_realizable: realizable.milliseconds,
+            warnings: [note("idealized", &idealized.warning), note("realizable", &realizable.warning)]
+                .into_iter()
+                .flatten()
+                .collect(),
+        });
+    }
+    Ok(Figures {
+        name: design.name.clone(),
+        fibers: design.fiber_routings().len(),
+        nodes: design.mesh.nodes.len(),
+        triangles: design.mesh.triangles.len(),
+        winches: design.networks.len(),
+        tendons: design.networks.iter().map(|n| n.tendons.len()).sum(),
+        body_length_mm: design.body_length_mm(),
+        poses,
+    })
+}
+
+/// Prints the figures as a table.
+pub fn print(figures: &Figures, out: &mut dyn Write) -> Result<(), CommandError> {
+    say(
+        out,
+        &format!(
+            "{}: {} fibers, {} nodes, {} triangles, {} winches, {} tendons, {:.1} mm long",
+            figures.name,
+            figures.fibers,
+            figures.nodes,
+            figures.triangles,
+            figures.winches,
+            figures.tendons,
+            figures.body_length_mm
+        ),
+    )?;
+    if figures.poses.is_empty() {
+        return Ok(());
+    }
+    let width = figures.poses.iter().map(|p| p.name.chars().count()).max().unwrap_or(0).max(4);
+    say(out, "")?;
+    say(out, &format!("{:width$}           rms target error (% of body length)     solved in (ms)", ""))?;
+    say(out, &format!("{:width$}  targets     rest  idealized  realizable  idealized  realizable", "pose"))?;
+    for p in &figures.poses {
+        say(
+            out,
+            &format!(
+                "{:width$}  {:7}  {:7.2}  {:9.2}  {:10.2}  {:9.1}  {:10.1}",
+                p.name,
+                p.targets,
+                100.0 * p.error_rest,
+                100.0 * p.error_idealized,
+                100.0 * p.error_realizable,
+                p.milliseconds_idealized,
+                p.milliseconds_realizable
+            ),
+        )?;
+    }
+    for warning in figures.poses.iter().flat_map(|p| &p.warnings) {
+        say(out, &format!("note: {warning}"))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,97 @@
+//! Winch tracks: how much cable each spool has wound at each step of the animation.
+
+use super::ExportError;
+use super::routing::winch_labels;
+use crate::design::{Design, animation};
+use std::f64::consts::PI;
+
+/// Most steps of a track: over five hours at the default rate. A guard against a file of many gigabytes.
+pub const MAX_STEPS: f64 = 1e6;
+/// Largest position the classic controllers take, counts (unconfirmed, from their manuals' command list).
+pub const MAX_COUNTS: f64 = 1.8e9;
+
+/// Positions of all winches over the animation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Track {
+    /// Names of the winches, in the order of the networks: the columns of the rows below.
+    pub winches: Vec<String>,
+    pub times_s: Vec<f64>,
+    /// Cable wound on a spool of ratio 1, mm, rounded to the six decimals of the table; 0 is the just-slack rest state.
+    pub lengths_mm: Vec<Vec<f64>>,
+    /// The same as encoder counts, from the rounded lengths.
+    pub counts: Vec<Vec<i64>>,
+}
+
+/// `4 * encoder_lines * gear_ratio / (2 pi * spool_radius)`, counts per mm of cable.
+pub fn counts_per_mm(design: &Design) -> f64 {
+    let lines = f64::from(design.controller.encoder_lines);
+    4.0 * lines * design.controller.gear_ratio / (2.0 * PI * design.fabrication.spool_radius_mm)
+}
+
+/// The whole animation at the track rate; a single step of zeros without keyframes.
+pub fn track(design: &Design) -> Result<Track, ExportError> {
+    let steps = animation::track_steps(design);
+    if steps.is_nan() || steps > MAX_STEPS {
+        return Err(ExportError::TooLong { steps });
+    }
+    let winches = winch_labels(design);
+    let scale = counts_per_mm(design);
+    let times_s = animation::track_times(design);
+    let mut lengths_mm = Vec::with_capacity(times_s.len());
+    let mut counts = Vec::with_capacity(times_s.len());
+    for &time in &times_s {
+        let lengths: Vec<f64> = animation::activations_at(design, time).into_iter().map(six_decimals).collect();
+        let mut row = Vec::with_capacity(lengths.len());
+        for (winch, length) in winches.iter().zip(&lengths) {
+            let position = (scale * length).round();
+            if position.is_nan() || position.abs() > MAX_COUNTS {
+                return Err(ExportError::TooFar { winch: winch.clone(), counts: position });
+            }
+            row.push(position as i64);
+        }
+        lengths_mm.push(lengths);
+        counts.push(row);
+    }
+    Ok(Track { winches, times_s, lengths_mm, counts })
+}
+
+impl Track {
+    /// The table `tracks.csv`: settings as comments, then `time_s` and, winch by winch, `<winch>_mm` and
+    /// `<winch>_counts`.
+    pub fn to_csv(&self, design: &Design) -> String {
+        let mut csv = format!(
+            "# encoder_lines={}\n# gear_ratio={}\n# spool_radius_mm={}\ntime_s",
+            design.controller.encoder_lines, design.controller.gear_ratio, design.fabrication.spool_radius_mm
+        );
+        for winch in &self.winches {
+            csv += &format!(",{winch}_mm,{winch}_counts");
+        }
+        csv.push('\n');
+        for ((time, lengths), counts) in self.times_s.iter().zip(&self.lengths_mm).zip(&self.counts) {
+            csv += &format!("{time:.6}");
+            for (length, count) in lengths.iter().zip(counts) {
+                csv += &format!(",{length:.6},{count}");
+            }
+            csv.push('\n');
+        }
+        csv
+    }
+
+    /// Lowest and highest position of a winch, counts.
+    pub fn range(&self, winch: usize) -> (i64, i64) {
+        let positions = || self.counts.iter().map(|row| row[winch]);
+        (positions().min().unwrap_or(0), positions().max().unwrap_or(0))
+    }
+
+    /// Fastest motor speed that the track asks of a winch, rpm.
+    pub fn peak_rpm(&self, winch: usize, encoder_lines: u32) -> f64 {
+        let steps = self.times_s.windows(2).zip(self.counts.windows(2));
+        let speeds = steps.map(|(t, c)| (c[1][winch] - c[0][winch]).abs() as f64 / (t[1] - t[0]));
+        speeds.fold(0.0, f64::max) * 60.0 / (4.0 * f64::from(encoder_lines))
+    }
+}
+
+/// Rounds as the table prints, so that the counts beside a length are those of that length; never a negative zero.
+fn six_decimals(v: f64) -> f64 {
+    format!("{v:.6}").parse::<f64>().unwrap_or(v) + 0.0
+}

@@ -1,0 +1,236 @@
+//! Scenes to PNG, without a graphics adapter.
+
+use super::{Color, Item, Scene};
+use crate::outline::Point;
+use tiny_skia::{
+    FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, PixmapMut, Rect, Stroke, StrokeDash, Transform,
+};
+
+/// Empty border around each view, as a fraction of the picture's smaller side.
+const MARGIN: f64 = 0.06;
+/// Height of the picture at which a logical pixel (line widths, disc radii) is one pixel; others scale along, so that
+/// a picture looks the same at every size.
+const REFERENCE_HEIGHT: f64 = 720.0;
+const DIVIDER: Color = Color(0, 0, 0, 40);
+
+/// Why there is no picture.
+#[derive(Debug, thiserror::Error)]
+pub enum RasterError {
+    #[error("a picture of {0} x {1} pixels is empty or does not fit in memory")]
+    Size(u32, u32),
+    #[error("cannot encode the picture: {0}")]
+    Encode(String),
+}
+
+/// Two views side by side as PNG, `size` in pixels. Both have the same scale and the same place in their half.
+pub fn png(left: &Scene, right: &Scene, size: (u32, u32), background: Color) -> Result<Vec<u8>, RasterError> {
+    let mut pixmap = Pixmap::new(size.0, size.1).ok_or(RasterError::Size(size.0, size.1))?;
+    pixmap.fill(color(background));
+    let half = f64::from(size.0) / 2.0;
+    let bounds = Bounds::of([left, right]);
+    for (scene, x0) in [(left, 0.0), (right, half)] {
+        let view = View::fit(&bounds, x0, half, f64::from(size.1));
+        paint_scene(&mut pixmap.as_mut(), scene, &view);
+    }
+    paint_divider(&mut pixmap.as_mut(), size);
+    pixmap.encode_png().map_err(|e| RasterError::Encode(e.to_string()))
+}
+
+/// The box around everything that is drawn, mm.
+struct Bounds {
+    low: Point,
+    high: Point,
+}
+
+impl Bounds {
+    fn of<'a>(scenes: impl IntoIterator<Item = &'a Scene>) -> Self {
+        let mut bounds = Self { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
+        for item in scenes.into_iter().flat_map(|scene| &scene.items) {
+            match item {
+                Item::Mesh { points, .. } | Item::Line { points, .. } => points.iter().for_each(|p| bounds.add(p)),
+                Item::Disc { center, .. } => bounds.add(center),
+            }
+        }
+        if bounds.low[0] > bounds.high[0] { Self { low: [0.0; 2], high: [1.0; 2] } } else { bounds }
+    }
+
+    fn add(&mut self, p: &Point) {
+        if p.iter().all(|v| v.is_finite()) {
+            for axis in 0..2 {
+                self.low[axis] = self.low[axis].min(p[axis]);
+                self.high[axis] = self.high[axis].max(p[axis]);
+            }
+        }
+    }
+}
+
+/// mm (y up) to pixels (y down): `(x0 + scale x, y0 - scale y)`.
+struct View {
+    x0: f64,
+    y0: f64,
+    /// Pixels a mm.
+    scale: f64,
+    /// Pixels a logical pixel.
+    unit: f32,
+}
+
+impl View {
+    /// `bounds` as large as a margin allows, in the middle of the column at `x` that is `width` wide.
+    fn fit(bounds: &Bounds, x: f64, width: f64, height: f64) -> Self {
+        let margin = MARGIN * width.min(height);
+        let extent = |axis: usize| (bounds.high[axis] - bounds.low[axis]).max(f64::MIN_POSITIVE);
+        let scale = ((width - 2.0 * margin) / extent(0)).min((height - 2.0 * margin) / extent(1));
+        let center = |axis: usize| 0.5 * (bounds.low[axis] + bounds.high[axis]);
+        Self {
+            x0: x + 0.5 * width - scale * center(0),
+            y0: 0.5 * height + scale * center(1),
+            scale,
+            unit: (height / REFERENCE_HEIGHT) as f32,
+        }
+    }
+
+    fn place(&self, p: &Point) -> (f32, f32) {
+        ((self.x0 + self.scale * p[0]) as f32, (self.y0 - self.scale * p[1]) as f32)
+    }
+}
+
+fn paint_scene(pixmap: &mut PixmapMut, scene: &Scene, view: &View) {
+    for item in &scene.items {
+        match item {
+            Item::Mesh { points, triangles, color } => {
+                if let Some(path) = mesh_path(points, triangles, view) {
+                    pixmap.fill_path(&path, &paint(*color), FillRule::Winding, Transform::identity(), None);
+                }
+            }
+            Item::Line { points, width, color, closed } => {
+                if let Some(path) = line_path(points, *closed, view) {
+                    stroke(pixmap, &path, width * view.unit, *color);
+                }
+            }
+            Item::Disc { center, radius, fill, stroke: edge } => {
+                let (x, y) = view.place(center);
+                if let Some(path) = PathBuilder::from_circle(x, y, radius * view.unit) {
+                    pixmap.fill_path(&path, &paint(*fill), FillRule::Winding, Transform::identity(), None);
+                    if let Some((width, color)) = edge {
+                        stroke(pixmap, &path, width * view.unit, *color);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// All triangles as one path, all turning the same way: painted together they leave no seams between them.
+fn mesh_path(points: &[Point], triangles: &[[usize; 3]], view: &View) -> Option<Path> {
+    let mut path = PathBuilder::new();
+    for triangle in triangles {
+        let [a, b, c] = triangle.map(|n| points.get(n));
+        let (Some(a), Some(b), Some(c)) = (a, b, c) else { continue };
+        let turn = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+        let (second, third) = if turn < 0.0 { (c, b) } else { (b, c) };
+        for (index, p) in [a, second, third].into_iter().enumerate() {
+            let (x, y) = view.place(p);
+            if index == 0 { path.move_to(x, y) } else { path.line_to(x, y) }
+        }
+        path.close();
+    }
+    path.finish()
+}
+
+fn line_path(points: &[Point], closed: bool, view: &View) -> Option<Path> {
+    let mut path = PathBuilder::new();
+    for (index, p) in points.iter().enumerate() {
+        let (x, y) = view.place(p);
+        if index == 0 { path.move_to(x, y) } else { path.line_to(x, y) }
+    }
+    if closed {
+        path.close();
+    }
+    path.finish()
+}
+
+fn stroke(pixmap: &mut PixmapMut, path: &Path, width: f32, line: Color) {
+    let stroke = Stroke { width, line_cap: LineCap::Round, line_join: LineJoin::Round, ..Stroke::default() };
+    pixmap.stroke_path(path, &paint(line), &stroke, Transform::identity(), None);
+}
+
+/// A thin dashed line between the two views.
+fn paint_divider(pixmap: &mut PixmapMut, (width, height): (u32, u32)) {
+    let (x, height) = (width as f32 / 2.0, height as f32);
+    let unit = height / REFERENCE_HEIGHT as f32;
+    let Some(rect) = Rect::from_ltrb(x, height * MARGIN as f32, x, height * (1.0 - MARGIN as f32)) else { return };
+    let mut path = PathBuilder::new();
+    path.move_to(rect.left(), rect.top());
+    path.line_to(rect.left(), rect.bottom());
+    let Some(path) = path.finish() else { return };
+    let stroke =
+        Stroke { width: unit.max(1.0), dash: StrokeDash::new(vec![6.0 * unit, 6.0 * unit], 0.0), ..Stroke::default() };
+    pixmap.stroke_path(&path, &paint(DIVIDER), &stroke, Transform::identity(), None);
+}
+
+fn paint(c: Color) -> Paint<'static> {
+    let mut paint = Paint { anti_alias: true, ..Paint::default() };
+    paint.set_color(color(c));
+    paint
+}
+
+fn color(Color(r, g, b, a): Color) -> tiny_skia::Color {
+    tiny_skia::Color::from_rgba8(r, g, b, a)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WHITE: Color = Color(255, 255, 255, 255);
+    const RED: Color = Color(255, 0, 0, 255);
+
+    fn square() -> Scene {
+        let points = vec![[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0]];
+        // One triangle turns the other way round, as in a body folded over itself.
+        Scene { items: vec![Item::Mesh { points, triangles: vec![[0, 1, 2], [0, 3, 2]], color: RED }] }
+    }
+
+    fn pixel(png: &[u8], x: u32, y: u32) -> [u8; 3] {
+        let pixmap = Pixmap::decode_png(png).unwrap();
+        let p = pixmap.pixel(x, y).unwrap();
+        [p.red(), p.green(), p.blue()]
+    }
+
+    #[test]
+    fn both_views_fill_their_half_and_nothing_else() {
+        let bytes = png(&square(), &Scene::default(), (400, 200), WHITE).unwrap();
+        for (x, y) in [(100, 100), (30, 20), (170, 180), (60, 140), (140, 60)] {
+            assert_eq!(pixel(&bytes, x, y), [255, 0, 0], "{x} {y}");
+        }
+        for (x, y) in [(2, 100), (300, 100), (100, 2)] {
+            assert_eq!(pixel(&bytes, x, y), [255, 255, 255], "{x} {y}");
+        }
+    }
+
+    #[test]
+    fn neighbouring_triangles_leave_no_seam() {
+        let bytes = png(&square(), &Scene::default(), (401, 203), WHITE).unwrap();
+        let pixmap = Pixmap::decode_png(&bytes).unwrap();
+        let pink = (30..170).flat_map(|x| (30..170).map(move |y| (x, y))).filter(|&(x, y)| {
+            let p = pixmap.pixel(x, y).unwrap();
+            p.green() > 0
+        });
+        assert_eq!(pink.count(), 0);
+    }
+
+    #[test]
+    fn y_points_up() {
+        let mark = Item::Disc { center: [5.0, 9.0], radius: 8.0, fill: Color(0, 0, 255, 255), stroke: None };
+        let mut scene = square();
+        scene.items.push(mark);
+        let bytes = png(&Scene::default(), &scene, (400, 200), WHITE).unwrap();
+        assert_eq!(pixel(&bytes, 300, 30), [0, 0, 255]);
+        assert_eq!(pixel(&bytes, 300, 170), [255, 0, 0]);
+    }
+
+    #[test]
+    fn an_impossible_size_is_refused() {
+        assert!(matches!(png(&square(), &square(), (0, 10), WHITE), Err(RasterError::Size(0, 10))));
+    }
+}

@@ -1,0 +1,83 @@
+//! What panels and viewports ask for. They borrow the session, read only, and return these; the session alone acts.
+
+use super::change::Change;
+use super::session::{Selection, Tool};
+use super::viewport::camera::Camera;
+use crate::discovery::Parameters;
+use crate::mesh::BodyPoint;
+use crate::outline::Point;
+use crate::picture::palette::Theme;
+use crate::picture::scene::Stage;
+use std::path::PathBuf;
+
+#[derive(Clone, Debug, PartialEq)]
+pub enum Action {
+    /// One undo step.
+    Change(Change),
+    /// Part of a gesture (a slider, a dragged keyframe): one undo step when the hand is off the controls.
+    Live(Change),
+    Undo,
+    Redo,
+    /// Begins to drag; `pointer` is where, mm.
+    Grab { what: Grab, pointer: Point },
+    DragTo(Point),
+    Release,
+    /// Ends a drag or playback as if it had not been; otherwise clears the selection.
+    Escape,
+    SelectPose(Option<usize>),
+    Select(Selection),
+    /// Whatever is selected.
+    DeleteSelected,
+    SetTool(Tool),
+    SetTheme(Theme),
+    ShowFibers(bool),
+    ShowNetworks(bool),
+    SetCamera(Camera),
+    Fit,
+    Play,
+    Pause,
+    SetLooping(bool),
+    Scrub(f64),
+    /// Puts the realizable activations of the current pose on the timeline.
+    AddKeyframe,
+    SetParameters(Parameters),
+    Propose,
+    CancelPropose,
+    ShowProposal(Option<usize>),
+    ShowStage(Stage),
+    Accept(usize),
+    Reject(usize),
+    File(FileAction),
+    DismissMessage(u64),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Grab {
+    /// A target of the current pose.
+    Target(usize),
+    /// A point of the body, and where it is in that view: becomes a new target.
+    Body(BodyPoint, Point),
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub enum FileAction {
+    /// Asks where.
+    Open,
+    Import,
+    SaveAs,
+    Export,
+    /// To where it came from, or asks.
+    Save,
+    OpenPath(PathBuf),
+    OpenExample(usize),
+    ImportPath { path: PathBuf, height_mm: f64, fibers: usize },
+    SavePath(PathBuf),
+    ExportPath(PathBuf),
+    /// Answers to the dialogs.
+    CloseDialog,
+    SaveAndGoOn,
+    DiscardAndGoOn,
+    /// Opens the desktop's own dialog for the dialog that is shown.
+    Browse,
+    Quit,
+}

@@ -1,0 +1,140 @@
+//! The changes that the window makes to the document, as data.
+
+use crate::design::edit::{self, EditError};
+use crate::design::{
+    ControllerSettings, Design, Easing, FabricationSettings, FiberSettings, Keyframe, Material, Network, Pin, Pose,
+    Target, TendonSettings,
+};
+use crate::mesh::BodyPoint;
+use crate::outline::Point;
+
+#[derive(Clone, Debug, PartialEq)]
+pub enum Change {
+    AddPose,
+    DuplicatePose(usize),
+    RenamePose(usize, String),
+    RemovePose(usize),
+    /// A target of a pose; without one, of a new pose.
+    AddTarget { pose: Option<usize>, target: Target },
+    MoveTarget { pose: usize, index: usize, to: Point },
+    WeighTarget { pose: usize, index: usize, weight: f64 },
+    RemoveTarget { pose: usize, index: usize },
+    ClearTargets(usize),
+    AddPin(BodyPoint),
+    RemovePin(usize),
+    AcceptNetwork(Network),
+    RenameNetwork(usize, String),
+    RemoveNetwork(usize),
+    SetKeyframe(Keyframe),
+    MoveKeyframe { index: usize, time_s: f64 },
+    EaseKeyframe(usize, Easing),
+    RemoveKeyframe(usize),
+    Rename(String),
+    Material(Material),
+    Fibers(FiberSettings),
+    Tendons(TendonSettings),
+    Fabrication(FabricationSettings),
+    Controller(ControllerSettings),
+}
+
+/// What a change brought about and should be picked out now.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Made {
+    Nothing,
+    Pose(usize),
+    Target { pose: usize, index: usize },
+    Keyframe(usize),
+    Network(usize),
+}
+
+impl Change {
+    /// Its name in the undo history.
+    pub fn label(&self) -> &'static str {
+        match self {
+            Self::AddPose => "Add pose",
+            Self::DuplicatePose(_) => "Duplicate pose",
+            Self::RenamePose(..) => "Rename pose",
+            Self::RemovePose(_) => "Delete pose",
+            Self::AddTarget { .. } => "Add target",
+            Self::MoveTarget { .. } => "Move target",
+            Self::WeighTarget { .. } => "Target weight",
+            Self::RemoveTarget { .. } => "Remove target",
+            Self::ClearTargets(_) => "Remove all targets",
+            Self::AddPin(_) => "Add pin",
+            Self::RemovePin(_) => "Remove pin",
+            Self::AcceptNetwork(_) => "Accept network",
+            Self::RenameNetwork(..) => "Rename network",
+            Self::RemoveNetwork(_) => "Delete network",
+            Self::SetKeyframe(_) => "Set keyframe",
+            Self::MoveKeyframe { .. } => "Move keyframe",
+            Self::EaseKeyframe(..) => "Keyframe easing",
+            Self::RemoveKeyframe(_) => "Delete keyframe",
+            Self::Rename(_) => "Rename plushie",
+            Self::Material(_) => "Body settings",
+            Self::Fibers(_) => "Fibre settings",
+            Self::Tendons(_) => "Tendon settings",
+            Self::Fabrication(_) => "Fabrication settings",
+            Self::Controller(_) => "Controller settings",
+        }
+    }
+
+    pub fn apply(self, design: &mut Design) -> Result<Made, EditError> {
+        Ok(match self {
+            Self::AddPose => Made::Pose(add_pose(design)?),
+            Self::DuplicatePose(index) => Made::Pose(edit::duplicate_pose(design, index)?),
+            Self::RenamePose(index, name) => nothing(edit::rename_pose(design, index, &name)?),
+            Self::RemovePose(index) => nothing(edit::remove_pose(design, index)?),
+            Self::AddTarget { pose, target } => {
+                let pose = match pose {
+                    Some(pose) => pose,
+                    None => add_pose(design)?,
+                };
+                Made::Target { pose, index: edit::add_target(design, pose, target)? }
+            }
+            Self::MoveTarget { pose, index, to } => nothing(edit::move_target(design, pose, index, to)?),
+            Self::WeighTarget { pose, index, weight } => {
+                if let Some(target) = design.poses.get(pose).and_then(|p| p.targets.get(index)).copied() {
+                    edit::set_target(design, pose, index, Target { weight, ..target })?;
+                }
+                Made::Nothing
+            }
+            Self::RemoveTarget { pose, index } => nothing(edit::remove_target(design, pose, index)?),
+            Self::ClearTargets(pose) => {
+                while design.poses.get(pose).is_some_and(|p| !p.targets.is_empty()) {
+                    edit::remove_target(design, pose, 0)?;
+                }
+                Made::Nothing
+            }
+            Self::AddPin(at) => {
+                let stiffness = crate::defaults::PIN_STIFFNESS;
+                nothing(edit::add_pin(design, Pin { at, position: None, stiffness })?)
+            }
+            Self::RemovePin(index) => nothing(edit::remove_pin(design, index)?),
+            Self::AcceptNetwork(network) => Made::Network(edit::accept_network(design, network)?),
+            Self::RenameNetwork(index, name) => nothing(edit::rename_network(design, index, &name)?),
+            Self::RemoveNetwork(index) => nothing(edit::remove_network(design, index)?),
+            Self::SetKeyframe(keyframe) => Made::Keyframe(edit::set_keyframe(design, keyframe)?),
+            Self::MoveKeyframe { index, time_s } => Made::Keyframe(edit::move_keyframe(design, index, time_s)?),
+            Self::EaseKeyframe(index, easing) => match design.keyframes.get(index).cloned() {
+                Some(keyframe) => Made::Keyframe(edit::set_keyframe(design, Keyframe { easing, ..keyframe })?),
+                None => Made::Nothing,
+            },
+            Self::RemoveKeyframe(index) => nothing(edit::remove_keyframe(design, index)?),
+            Self::Rename(name) => nothing(edit::rename(design, &name)?),
+            Self::Material(material) => nothing(edit::set_material(design, material)?),
+            Self::Fibers(fibers) => nothing(edit::set_fibers(design, fibers)?),
+            Self::Tendons(tendons) => nothing(edit::set_tendons(design, tendons)?),
+            Self::Fabrication(fabrication) => nothing(edit::set_fabrication(design, fabrication)?),
+            Self::Controller(controller) => nothing(edit::set_controller(design, controller)?),
+        })
+    }
+}
+
+fn add_pose(design: &mut Design) -> Result<usize, EditError> {
+    let name = edit::unused_pose_name(design, &format!("Pose {}", design.poses.len() + 1));
+    edit::add_pose(design, Pose { name, targets: Vec::new() })
+}
+
+fn nothing<T>(_: T) -> Made {
+    Made::Nothing
+}

@@ -1,0 +1,94 @@
+//! What the window has to say, shown in a corner without stopping anybody.
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Level {
+    /// Goes away by itself.
+    Info,
+    /// Stays until dismissed.
+    Warning,
+    /// Stays until dismissed.
+    Error,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Message {
+    pub id: u64,
+    pub level: Level,
+    pub text: String,
+    /// Time of the window's clock at which it goes away, s.
+    pub until: Option<f64>,
+}
+
+/// How long an information stays, s: enough to read two lines.
+const INFO_STAYS_S: f64 = 6.0;
+/// More than this many cover the picture: the oldest go.
+const AT_MOST: usize = 4;
+
+#[derive(Clone, Debug, Default)]
+pub struct Messages {
+    list: Vec<Message>,
+    next_id: u64,
+    now: f64,
+}
+
+impl Messages {
+    pub fn info(&mut self, text: impl Into<String>) {
+        self.add(Level::Info, text.into(), Some(self.now + INFO_STAYS_S));
+    }
+
+    pub fn warning(&mut self, text: impl Into<String>) {
+        self.add(Level::Warning, text.into(), None);
+    }
+
+    pub fn error(&mut self, text: impl Into<String>) {
+        self.add(Level::Error, text.into(), None);
+    }
+
+    pub fn dismiss(&mut self, id: u64) {
+        self.list.retain(|m| m.id != id);
+    }
+
+    pub fn list(&self) -> &[Message] {
+        &self.list
+    }
+
+    /// Moves the clock on and drops what is over.
+    pub fn tick(&mut self, now: f64) {
+        self.now = now;
+        self.list.retain(|m| m.until.is_none_or(|until| until > now));
+    }
+
+    /// Seconds until the next one goes away.
+    pub fn next_change_s(&self) -> Option<f64> {
+        self.list.iter().filter_map(|m| m.until).map(|until| until - self.now).min_by(f64::total_cmp)
+    }
+
+    fn add(&mut self, level: Level, text: String, until: Option<f64>) {
+        // Said again: once is enough, but it stays longer.
+        self.list.retain(|m| m.text != text);
+        self.list.push(Message { id: self.next_id, level, text, until });
+        self.next_id += 1;
+        if self.list.len() > AT_MOST {
+            self.list.remove(0);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn information_goes_away_and_errors_stay() {
+        let mut messages = Messages::default();
+        messages.info("saved");
+        messages.error("no");
+        messages.error("no");
+        assert_eq!(messages.list().len(), 2);
+        messages.tick(INFO_STAYS_S + 1.0);
+        assert_eq!(messages.list().len(), 1);
+        let id = messages.list()[0].id;
+        messages.dismiss(id);
+        assert!(messages.list().is_empty());
+    }
+}

@@ -1,0 +1,616 @@
+//! The state of the window, and everything that changes it.
+
+use super::action::{Action, FileAction, Grab};
+use super::change::{Change, Made};
+use super::files::Files;
+use super::jobs::{Jobs, Report, Wake};
+use super::messages::Messages;
+use super::viewport::camera::Camera;
+use crate::defaults;
+use crate::design::history::History;
+use crate::design::{Design, Keyframe, Target, animation, edit};
+use crate::discovery::Parameters;
+use crate::engine::worker::Worker;
+use crate::engine::{Proposal, Question, Request, Shape};
+use crate::outline::Point;
+use crate::picture::palette::Theme;
+use crate::picture::scene::Stage;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+/// What a press on the body does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tool {
+    Drag,
+    Pin,
+}
+
+/// What is picked out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Selection {
+    Nothing,
+    /// Of the current pose.
+    Target(usize),
+    Pin(usize),
+    Keyframe(usize),
+    Network(usize),
+}
+
+/// Whether the views show a pose or the animation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mode {
+    Pose,
+    Animation,
+}
+
+pub struct Playback {
+    pub time_s: f64,
+    pub playing: bool,
+    pub looping: bool,
+}
+
+pub struct Look {
+    pub theme: Theme,
+    pub fibers: bool,
+    pub networks: bool,
+    /// `None`: fits the body.
+    pub camera: Option<Camera>,
+}
+
+/// Network discovery: what was asked, and what came of it.
+pub struct Discovery {
+    pub parameters: Parameters,
+    pub running: Option<Running>,
+    pub proposals: Vec<Arc<Proposal>>,
+    /// Which proposal the views show.
+    pub shown: Option<usize>,
+    pub stage: Stage,
+    serial: u64,
+}
+
+pub struct Running {
+    pub started: Instant,
+    cancel: Arc<AtomicBool>,
+}
+
+/// The newest good shapes.
+#[derive(Default)]
+pub struct Shapes {
+    pub idealized: Option<Arc<Shape>>,
+    pub realizable: Option<Arc<Shape>>,
+}
+
+struct Drag {
+    pose: usize,
+    target: usize,
+    /// From the pointer to the goal, mm.
+    offset: Point,
+}
+
+/// Asked of the worker last.
+struct Asked {
+    id: u64,
+    design: Arc<Design>,
+    question: Question,
+}
+
+/// How proposals are made; tests put their own in.
+pub type Propose = Arc<dyn Fn(&Design, &[Target], &Parameters, &AtomicBool) -> Vec<Proposal> + Send + Sync>;
+
+pub struct Session {
+    pub(super) history: History,
+    pub(super) path: Option<PathBuf>,
+    pub(super) pose: Option<usize>,
+    pub(super) selection: Selection,
+    pub(super) tool: Tool,
+    pub(super) mode: Mode,
+    pub(super) playback: Playback,
+    pub(super) look: Look,
+    pub(super) discovery: Discovery,
+    pub(super) shapes: Shapes,
+    pub(super) messages: Messages,
+    pub(super) files: Files,
+    pub(super) jobs: Jobs,
+    propose: Propose,
+    worker: Worker,
+    drag: Option<Drag>,
+    asked: Option<Asked>,
+    /// Outcomes before this one belong to another document.
+    first_id: u64,
+    answered_id: Option<u64>,
+    /// A keyframe to be set once the solver has settled.
+    key_wanted: bool,
+    warning: Option<String>,
+}
+
+impl Session {
+    pub fn new(design: Design, path: Option<PathBuf>, wake: Wake, propose: Propose) -> Self {
+        let on_outcome = wake.clone();
+        Self {
+            pose: first_pose(&design),
+            history: History::new(design),
+            path,
+            selection: Selection::Nothing,
+            tool: Tool::Drag,
+            mode: Mode::Pose,
+            playback: Playback { time_s: 0.0, playing: false, looping: true },
+            look: Look { theme: Theme::Light, fibers: true, networks: true, camera: None },
+            discovery: Discovery {
+                parameters: Parameters::default(),
+                running: None,
+                proposals: Vec::new(),
+                shown: None,
+                stage: Stage::Result,
+                serial: 0,
+            },
+            shapes: Shapes::default(),
+            messages: Messages::default(),
+            files: Files::default(),
+            jobs: Jobs::new(wake),
+            propose,
+            worker: Worker::spawn(Box::new(move || on_outcome())),
+            drag: None,
+            asked: None,
+            first_id: 0,
+            answered_id: None,
+            key_wanted: false,
+            warning: None,
+        }
+    }
+
+    /// The document as it is now.
+    pub fn design(&self) -> &Arc<Design> {
+        self.history.current()
+    }
+
+    /// Targets of the current pose; none at rest and while the animation is shown.
+    pub fn targets(&self) -> &[Target] {
+        match (self.mode, self.pose.and_then(|pose| self.design().poses.get(pose))) {
+            (Mode::Pose, Some(pose)) => &pose.targets,
+            _ => &[],
+        }
+    }
+
+    pub fn is_dragging(&self) -> bool {
+        self.drag.is_some()
+    }
+
+    /// Whether the shapes answer the newest question.
+    pub fn is_settled(&self) -> bool {
+        self.asked.as_ref().is_some_and(|asked| self.answered_id == Some(asked.id))
+    }
+
+    /// The proposal that the views show.
+    pub fn shown_proposal(&self) -> Option<&Arc<Proposal>> {
+        self.discovery.shown.and_then(|index| self.discovery.proposals.get(index))
+    }
+
+    /// What the solver has to say about the newest shapes.
+    pub fn solver_warning(&self) -> Option<&str> {
+        self.warning.as_deref()
+    }
+
+    /// Why networks cannot be proposed now, if so.
+    pub fn cannot_propose(&self) -> Option<&'static str> {
+        if self.discovery.running.is_some() {
+            Some("Discovery is running")
+        } else if self.mode == Mode::Animation || self.targets().is_empty() {
+            Some("Choose a pose with at least one target first: drag a point of the body")
+        } else {
+            None
+        }
+    }
+
+    /// Replaces the document; undo starts anew.
+    pub(super) fn open(&mut self, design: Design, path: Option<PathBuf>) {
+        self.cancel_propose();
+        self.pose = first_pose(&design);
+        self.history = History::new(design);
+        if path.is_none() {
+            self.history.mark_unsaved();
+        }
+        self.path = path;
+        self.selection = Selection::Nothing;
+        self.mode = Mode::Pose;
+        self.playback.time_s = 0.0;
+        self.playback.playing = false;
+        self.look.camera = None;
+        self.discovery.proposals.clear();
+        self.discovery.shown = None;
+        self.shapes = Shapes::default();
+        self.drag = None;
+        self.key_wanted = false;
+        self.warning = None;
+        self.first_id = self.asked.as_ref().map_or(0, |asked| asked.id + 1);
+        self.answered_id = None;
+    }
+
+    pub fn apply(&mut self, action: Action) {
+        match action {
+            Action::Change(change) => self.change(change),
+            Action::Live(change) => self.live(change),
+            Action::Undo => self.travel("Undone", History::undo),
+            Action::Redo => self.travel("Redone", History::redo),
+            Action::Grab { what, pointer } => self.grab(what, pointer),
+            Action::DragTo(pointer) => self.drag_to(pointer),
+            Action::Release => self.release(),
+            Action::Escape => self.escape(),
+            Action::SelectPose(pose) => self.select_pose(pose),
+            Action::Select(selection) => self.selection = selection,
+            Action::DeleteSelected => self.delete_selected(),
+            Action::SetTool(tool) => self.tool = tool,
+            Action::SetTheme(theme) => self.look.theme = theme,
+            Action::ShowFibers(shown) => self.look.fibers = shown,
+            Action::ShowNetworks(shown) => self.look.networks = shown,
+            Action::SetCamera(camera) => self.look.camera = Some(camera),
+            Action::Fit => self.look.camera = None,
+            Action::Play => self.play(),
+            Action::Pause => self.playback.playing = false,
+            Action::SetLooping(looping) => self.playback.looping = looping,
+            Action::Scrub(time_s) => self.scrub(time_s),
+            Action::AddKeyframe => self.key_wanted = true,
+            Action::SetParameters(parameters) => self.discovery.parameters = parameters,
+            Action::Propose => self.start_propose(),
+            Action::CancelPropose => self.cancel_propose(),
+            Action::ShowProposal(index) => self.discovery.shown = index,
+            Action::ShowStage(stage) => self.discovery.stage = stage,
+            Action::Accept(index) => self.accept(index),
+            Action::Reject(index) => self.reject(index),
+            Action::File(action) => self.file(action),
+            Action::DismissMessage(id) => self.messages.dismiss(id),
+        }
+    }
+
+    /// Once a frame: takes what the threads have to report, moves the playhead, asks for what should be seen next.
+    /// `hands_off`: nobody holds a button or types, so gestures are over.
+    pub fn tick(&mut self, now_s: f64, passed_s: f64, hands_off: bool) {
+        self.messages.tick(now_s);
+        while let Some(report) = self.jobs.next() {
+            self.take_report(report);
+        }
+        self.take_outcome();
+        if hands_off {
+            self.history.commit();
+        }
+        if self.playback.playing {
+            self.advance(passed_s);
+        }
+        if self.key_wanted && self.mode == Mode::Pose && self.is_settled() {
+            self.key_wanted = false;
+            self.set_keyframe();
+        }
+        self.clamp();
+        self.ask();
+    }
+
+    fn change(&mut self, change: Change) {
+        let label = change.label();
+        match self.history.edit(label, |design| change.apply(design)) {
+            Ok(made) => self.pick_out(made),
+            Err(error) => self.messages.error(format!("{label}: {error}")),
+        }
+    }
+
+    fn live(&mut self, change: Change) {
+        let label = change.label();
+        if self.history.undo_label() != Some(label) || !self.history.in_gesture() {
+            self.history.begin(label);
+        }
+        match self.history.preview(|design| change.apply(design)) {
+            Ok(made) => self.pick_out(made),
+            // On the way through a refused value: the last good one stays, and the control shows it.
+            Err(edit::EditError::TimeTaken(_)) => {}
+            Err(error) => self.messages.error(format!("{label}: {error}")),
+        }
+    }
+
+    fn pick_out(&mut self, made: Made) {
+        match made {
+            Made::Nothing => {}
+            Made::Pose(pose) => self.select_pose(Some(pose)),
+            Made::Target { pose, index } => {
+                self.pose = Some(pose);
+                self.selection = Selection::Target(index);
+            }
+            Made::Keyframe(index) => self.selection = Selection::Keyframe(index),
+            Made::Network(index) => self.selection = Selection::Network(index),
+        }
+        self.clamp();
+    }
+
+    fn travel(&mut self, done: &str, step: impl FnOnce(&mut History) -> Option<String>) {
+        self.drag = None;
+        if let Some(label) = step(&mut self.history) {
+            self.messages.info(format!("{done}: {label}"));
+        }
+        self.discovery.shown = None;
+        self.clamp();
+    }
+
+    /// After any change of the document: nothing may point beyond it.
+    fn clamp(&mut self) {
+        let design = self.history.current();
+        if self.pose.is_some_and(|pose| pose >= design.poses.len()) {
+            self.pose = design.poses.len().checked_sub(1);
+        }
+        let targets = self.pose.and_then(|p| design.poses.get(p)).map_or(0, |p| p.targets.len());
+        let gone = match self.selection {
+            Selection::Nothing => false,
+            Selection::Target(i) => i >= targets,
+            Selection::Pin(i) => i >= design.pins.len(),
+            Selection::Keyframe(i) => i >= design.keyframes.len(),
+            Selection::Network(i) => i >= design.networks.len(),
+        };
+        if gone {
+            self.selection = Selection::Nothing;
+        }
+    }
+
+    fn select_pose(&mut self, pose: Option<usize>) {
+        self.pose = pose;
+        self.mode = Mode::Pose;
+        self.playback.playing = false;
+        self.selection = Selection::Nothing;
+        self.discovery.shown = None;
+        self.clamp();
+    }
+
+    fn delete_selected(&mut self) {
+        match (self.selection, self.pose) {
+            (Selection::Target(index), Some(pose)) => self.change(Change::RemoveTarget { pose, index }),
+            (Selection::Pin(index), _) => self.change(Change::RemovePin(index)),
+            (Selection::Keyframe(index), _) => self.change(Change::RemoveKeyframe(index)),
+            (Selection::Network(index), _) => self.change(Change::RemoveNetwork(index)),
+            _ => return,
+        }
+        self.selection = Selection::Nothing;
+    }
+
+    fn escape(&mut self) {
+        if self.drag.take().is_some() || self.history.in_gesture() {
+            self.history.cancel();
+        } else if self.files.dialog.is_some() {
+            self.file(FileAction::CloseDialog);
+        } else if self.mode == Mode::Animation {
+            self.playback.playing = false;
+            self.mode = Mode::Pose;
+        } else {
+            self.selection = Selection::Nothing;
+            self.discovery.shown = None;
+        }
+        self.clamp();
+    }
+
+    fn grab(&mut self, what: Grab, pointer: Point) {
+        self.playback.playing = false;
+        self.mode = Mode::Pose;
+        self.discovery.shown = None;
+        let from = |p: Point| [p[0] - pointer[0], p[1] - pointer[1]];
+        match what {
+            Grab::Target(index) => {
+                let Some(pose) = self.pose else { return };
+                let Some(target) = self.targets().get(index).copied() else { return };
+                self.history.begin("Move target");
+                self.selection = Selection::Target(index);
+                self.drag = Some(Drag { pose, target: index, offset: from(target.to) });
+            }
+            Grab::Body(at, position) => {
+                self.history.begin("Add target");
+                let target = Target { at, to: position, weight: 1.0 };
+                let change = Change::AddTarget { pose: self.pose, target };
+                match self.history.preview(|design| change.apply(design)) {
+                    Ok(made) => {
+                        self.pick_out(made);
+                        if let Made::Target { pose, index } = made {
+                            self.drag = Some(Drag { pose, target: index, offset: from(position) });
+                        }
+                    }
+                    Err(error) => {
+                        self.history.cancel();
+                        self.messages.error(error.to_string());
+                    }
+                }
+            }
+        }
+    }
+
+    fn drag_to(&mut self, pointer: Point) {
+        let Some(drag) = &self.drag else { return };
+        let to = [pointer[0] + drag.offset[0], pointer[1] + drag.offset[1]];
+        let change = Change::MoveTarget { pose: drag.pose, index: drag.target, to };
+        if let Err(error) = self.history.preview(|design| change.apply(design)) {
+            self.messages.error(error.to_string());
+        }
+    }
+
+    fn release(&mut self) {
+        if self.drag.take().is_some() {
+            self.history.commit();
+        }
+    }
+
+    fn play(&mut self) {
+        let end = animation::duration_s(self.design());
+        if end <= 0.0 {
+            self.messages.info("Put at least two keyframes on the timeline to play an animation.");
+            return;
+        }
+        if self.playback.time_s >= end {
+            self.playback.time_s = 0.0;
+        }
+        self.mode = Mode::Animation;
+        self.discovery.shown = None;
+        self.playback.playing = true;
+    }
+
+    fn advance(&mut self, passed_s: f64) {
+        let end = animation::duration_s(self.design());
+        let time = self.playback.time_s + passed_s.max(0.0);
+        self.playback.time_s = if time < end {
+            time
+        } else if self.playback.looping && end > 0.0 {
+            time % end
+        } else {
+            self.playback.playing = false;
+            end
+        };
+    }
+
+    fn scrub(&mut self, time_s: f64) {
+        self.playback.playing = false;
+        self.playback.time_s = time_s.max(0.0);
+        self.discovery.shown = None;
+        self.mode = if self.design().keyframes.is_empty() { Mode::Pose } else { Mode::Animation };
+    }
+
+    /// At the playhead, or a step after the last keyframe where the playhead has one already.
+    fn set_keyframe(&mut self) {
+        let design = self.design().clone();
+        let Some(shape) = &self.shapes.realizable else { return };
+        if design.networks.is_empty() {
+            self.messages.warning("Without networks there is nothing to animate: propose and accept one first.");
+            return;
+        }
+        let mut time_s = self.playback.time_s;
+        if edit::keyframe_at(&design, time_s).is_some() {
+            time_s = animation::duration_s(&design) + defaults::KEYFRAME_SPACING_S;
+        }
+        let mut activations_mm = shape.activations_mm.clone();
+        activations_mm.resize(design.networks.len(), 0.0);
+        let pose = self.pose.and_then(|p| design.poses.get(p)).map(|p| p.name.clone());
+        let easing = Default::default();
+        self.change(Change::SetKeyframe(Keyframe { time_s, activations_mm, pose, easing }));
+        self.playback.time_s = time_s;
+    }
+
+    fn start_propose(&mut self) {
+        if let Some(why) = self.cannot_propose() {
+            self.messages.info(why);
+            return;
+        }
+        let cancel = Arc::new(AtomicBool::new(false));
+        self.discovery.serial += 1;
+        self.discovery.running = Some(Running { started: Instant::now(), cancel: cancel.clone() });
+        self.discovery.proposals.clear();
+        self.discovery.shown = None;
+        let (serial, design) = (self.discovery.serial, self.design().clone());
+        let (targets, parameters) = (self.targets().to_vec(), self.discovery.parameters.clone());
+        let propose = self.propose.clone();
+        self.jobs.start("Network discovery", move || {
+            let proposals = propose(&design, &targets, &parameters, &cancel);
+            Report::Proposed { serial, proposals }
+        });
+    }
+
+    fn cancel_propose(&mut self) {
+        if let Some(running) = self.discovery.running.take() {
+            running.cancel.store(true, Ordering::Relaxed);
+            // Whatever it still reports is not wanted.
+            self.discovery.serial += 1;
+        }
+    }
+
+    fn accept(&mut self, index: usize) {
+        if let Some(proposal) = self.discovery.proposals.get(index).cloned() {
+            self.discovery.proposals.clear();
+            self.discovery.shown = None;
+            self.change(Change::AcceptNetwork(proposal.network.clone()));
+        }
+    }
+
+    fn reject(&mut self, index: usize) {
+        if index < self.discovery.proposals.len() {
+            self.discovery.proposals.remove(index);
+            let left = self.discovery.proposals.len();
+            self.discovery.shown = self.discovery.shown.and(left.checked_sub(1)).map(|last| index.min(last));
+        }
+    }
+
+    fn take_report(&mut self, report: Report) {
+        match report {
+            Report::Proposed { serial, proposals } => {
+                if serial != self.discovery.serial {
+                    return;
+                }
+                self.discovery.running = None;
+                if proposals.is_empty() {
+                    self.messages.warning("No network was found for this pose. Try more seeds or longer joining paths.");
+                }
+                self.discovery.proposals = proposals.into_iter().map(Arc::new).collect();
+                self.discovery.shown = if self.discovery.proposals.is_empty() { None } else { Some(0) };
+                self.discovery.stage = Stage::Result;
+            }
+            Report::Broken { job, why } => {
+                self.discovery.running = None;
+                self.files.working = None;
+                self.messages.error(format!("{job} failed: {why}"));
+            }
+            other => self.take_file_report(other),
+        }
+    }
+
+    fn take_outcome(&mut self) {
+        let Some(outcome) = self.worker.take() else { return };
+        if outcome.id < self.first_id {
+            return;
+        }
+        let nodes = self.design().mesh.nodes.len();
+        let fits = |shape: &Shape| {
+            shape.nodes.len() == nodes && shape.nodes.iter().flatten().all(|coordinate| coordinate.is_finite())
+        };
+        let warning = |shape: &Option<Shape>| shape.as_ref().and_then(|s| s.warning.clone());
+        self.warning = warning(&outcome.realizable).or_else(|| warning(&outcome.idealized));
+        self.answered_id = Some(outcome.id);
+        if let Some(shape) = outcome.idealized.filter(fits) {
+            self.shapes.idealized = Some(Arc::new(shape));
+        }
+        if let Some(shape) = outcome.realizable.filter(fits) {
+            self.shapes.realizable = Some(Arc::new(shape));
+        }
+    }
+
+    /// Submits what should be seen, if that is not what was asked last.
+    fn ask(&mut self) {
+        let design = self.design().clone();
+        let question = match self.mode {
+            Mode::Pose => Question::Targets(self.targets().to_vec()),
+            Mode::Animation => Question::Activations(animation::activations_at(&design, self.playback.time_s)),
+        };
+        if let Some(asked) = &self.asked
+            && asked.id >= self.first_id
+            && Arc::ptr_eq(&asked.design, &design)
+            && same(&asked.question, &question)
+        {
+            return;
+        }
+        let id = self.asked.as_ref().map_or(0, |asked| asked.id + 1);
+        self.worker.submit(Request {
+            id,
+            design: design.clone(),
+            question: question.clone(),
+            show_idealized: true,
+            show_realizable: true,
+        });
+        self.asked = Some(Asked { id, design, question });
+    }
+}
+
+impl Drop for Session {
+    fn drop(&mut self) {
+        self.cancel_propose();
+    }
+}
+
+fn same(a: &Question, b: &Question) -> bool {
+    match (a, b) {
+        (Question::Targets(a), Question::Targets(b)) => a == b,
+        (Question::Activations(a), Question::Activations(b)) => a == b,
+        _ => false,
+    }
+}
+
+fn first_pose(design: &Design) -> Option<usize> {
+    (!design.poses.is_empty()).then_some(0)
+}

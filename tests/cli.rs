@@ -1,0 +1,243 @@
+//! The built program, from outside: help, exit codes, one-line errors, outputs that appear whole or not at all.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+const COMMANDS: [&str; 10] = ["demo", "new", "pose", "rig", "key", "check", "export", "render", "solve", "discover"];
+
+/// A bar that is wide enough for a few dozen fibres.
+const OUTLINE: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" width="120mm" height="40mm" viewBox="0 0 120 40">
+<rect width="120" height="40"/></svg>"#;
+
+fn plushwright(folder: &Path, args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_plushwright"))
+        .args(args)
+        .current_dir(folder)
+        // A window would need a display; the tests below never want one.
+        .env_remove("DISPLAY")
+        .env_remove("WAYLAND_DISPLAY")
+        .output()
+        .unwrap()
+}
+
+fn stdout(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+#[track_caller]
+fn succeed(folder: &Path, args: &[&str]) -> String {
+    let output = plushwright(folder, args);
+    assert_eq!(output.status.code(), Some(0), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
+    assert!(output.stderr.is_empty(), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
+    stdout(&output)
+}
+
+/// The one line on standard error.
+#[track_caller]
+fn fail(folder: &Path, code: i32, args: &[&str]) -> String {
+    let output = plushwright(folder, args);
+    let error = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(code), "{args:?}: {error}");
+    assert_eq!(error.lines().count(), 1, "{args:?}: {error}");
+    assert!(error.starts_with("plushwright: ") && error.ends_with('\n'), "{args:?}: {error}");
+    error
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let mut names: Vec<String> =
+        fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    names
+}
+
+/// A folder with `bar.svg` and its design `bar.plush`.
+fn bar() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("bar.svg"), OUTLINE).unwrap();
+    let text = succeed(folder.path(), &["new", "bar.svg", "-o", "bar.plush", "--fibers", "60"]);
+    assert!(text.contains("60 fibers") && text.contains("120.0 mm long"), "{text}");
+    folder
+}
+
+#[test]
+fn every_command_explains_itself_with_an_example() {
+    let here = Path::new(".");
+    let overview = succeed(here, &["--help"]);
+    for command in COMMANDS {
+        assert!(overview.contains(&format!("\n  {command} ")), "{command} is not listed");
+        let help = succeed(here, &[command, "--help"]);
+        assert!(
+            help.contains("Usage: plushwright ") && help.contains(&format!("Example: plushwright {command}")),
+            "{help}"
+        );
+    }
+    assert_eq!(succeed(here, &["--version"]), format!("plushwright {}\n", env!("CARGO_PKG_VERSION")));
+}
+
+#[test]
+fn wrong_usage_is_one_line_and_code_2() {
+    let folder = bar();
+    let f = folder.path();
+    for args in [
+        &["new"][..],
+        &["chekc"],
+        &["check"],
+        &["check", "none.plush"],
+        &["check", "bar.svg"],
+        &["check", "bar.plush", "--frob"],
+        &["new", "bar.svg", "-o", "x.plush", "--height", "-3"],
+        &["new", "bar.svg", "-o", "x.plush", "--fibers", "many"],
+        &["new", "none.svg", "-o", "x.plush"],
+        &["pose", "bar.plush", "--name", " ", "-o", "x.plush"],
+        &["pose", "bar.plush", "--name", "p", "--pin", "1;2", "-o", "x.plush"],
+        &["pose", "bar.plush", "--name", "p", "--target", "1,2=3", "-o", "x.plush"],
+        &["pose", "bar.plush", "--name", "p", "--pin", "-60,10", "-o", "x.plush"],
+        &["rig", "bar.plush", "-o", "x.plush", "--tendons", "3..1"],
+        &["rig", "bar.plush", "-o", "x.plush"],
+        &["key", "bar.plush", "--pose", "p", "--time", "0", "-o", "x.plush"],
+        &["export", "bar.plush", "-o", "x"],
+        &["render", "bar.plush", "-o", "x.png", "--pose", "none"],
+        &["render", "bar.plush", "-o", "x.png", "--time", "1"],
+        &["render", "bar.plush", "-o", "x.png", "--size", "0x9"],
+        &["solve", "none.json"],
+        &["solve", "bar.svg", "-o", "x.json"],
+        &["solve", "bar.svg", "--method", "guess"],
+        &["discover", "bar.svg", "-o", "x.json"],
+        &["demo", "--out", "."],
+    ] {
+        fail(f, 2, args);
+    }
+    assert_eq!(names(f), ["bar.plush", "bar.svg"], "something was written on failure");
+}
+
+#[test]
+fn errors_quote_the_bad_text() {
+    let folder = bar();
+    for bad in ["7", "1,2,3", "--name", "nan,0"] {
+        let error = fail(folder.path(), 2, &["pose", "bar.plush", "--name", "p", "-o", "x.plush", "--pin", bad]);
+        assert!(error.contains(&format!("`{bad}`")), "{error}");
+    }
+    let error = fail(folder.path(), 2, &["render", "bar.plush", "-o", "x.png", "--pose", "wave"]);
+    assert!(error.contains("`wave`"), "{error}");
+}
+
+#[test]
+fn an_output_that_cannot_be_written_is_code_1() {
+    let folder = bar();
+    fail(folder.path(), 1, &["new", "bar.svg", "-o", "none/bar.plush"]);
+    fs::create_dir(folder.path().join("taken.png")).unwrap();
+    fail(folder.path(), 1, &["render", "bar.plush", "-o", "taken.png", "--size", "64x32"]);
+    assert_eq!(names(folder.path()), ["bar.plush", "bar.svg", "taken.png"]);
+}
+
+#[test]
+fn a_pose_travels_from_the_command_line_to_the_check() {
+    let folder = bar();
+    let f = folder.path();
+    let pose = ["pose", "bar.plush", "--name", "bend", "-o", "bar.plush"];
+    // Half a millimetre beside the body still means its edge.
+    let bend = [&pose[..], &["--pin", "-0.5,5", "--pin", "0,35", "--target", "115,20=105,38"]].concat();
+    assert!(succeed(f, &bend).contains("pose bend has 1 targets; 2 pins, 1 poses"));
+    // The same point again replaces its target and its pin; another point adds one.
+    let again = [&pose[..], &["--pin", "0,35", "--target", "115,20=105,44", "--target", "60,20=60,24"]].concat();
+    assert!(succeed(f, &again).contains("pose bend has 2 targets; 2 pins, 1 poses"));
+
+    let json: serde_json::Value = serde_json::from_str(&succeed(f, &["check", "bar.plush", "--json"])).unwrap();
+    let keys = |value: &serde_json::Value| {
+        let mut keys: Vec<String> = value.as_object().unwrap().keys().cloned().collect();
+        keys.sort();
+        keys
+    };
+    assert_eq!(keys(&json), ["body_length_mm", "fibers", "name", "nodes", "poses", "tendons", "triangles", "winches"]);
+    let bend = &json["poses"][0];
+    assert_eq!(
+        keys(bend),
+        [
+            "error_idealized",
+            "error_realizable",
+            "error_rest",
+            "milliseconds_idealized",
+            "milliseconds_realizable",
+            "name",
+            "targets"
+        ]
+    );
+    assert_eq!((json["name"].as_str(), json["fibers"].as_u64()), (Some("bar"), Some(60)));
+    assert_eq!(bend["targets"].as_u64(), Some(2));
+    // sqrt((10^2 + 24^2 + 4^2) / 2) mm over a body of 120 mm.
+    let rest = bend["error_rest"].as_f64().unwrap();
+    assert!((rest - (692.0_f64 / 2.0).sqrt() / 120.0).abs() < 1e-6, "{rest}");
+    assert!(bend["error_idealized"].as_f64().unwrap() < 0.5 * rest);
+    // Without winches the realizable plushie stays where it is.
+    assert!((bend["error_realizable"].as_f64().unwrap() - rest).abs() < 1e-3);
+
+    let table = succeed(f, &["check", "bar.plush"]);
+    assert!(table.contains("60 fibers") && table.contains("bend"), "{table}");
+}
+
+#[test]
+fn a_picture_has_the_size_asked_for() {
+    let folder = bar();
+    succeed(folder.path(), &["render", "bar.plush", "-o", "bar.png", "--size", "320x180"]);
+    let bytes = fs::read(folder.path().join("bar.png")).unwrap();
+    assert_eq!(&bytes[..8], b"\x89PNG\r\n\x1a\n");
+    let number = |at: usize| u32::from_be_bytes(bytes[at..at + 4].try_into().unwrap());
+    assert_eq!((number(16), number(20)), (320, 180));
+    assert_eq!(names(folder.path()), ["bar.plush", "bar.png", "bar.svg"]);
+}
+
+/// One right triangle, one fibre on its long side, contracted by a tenth of a metre.
+const PROBLEM: &str = r#"{"format": "plushwright-problem/1",
+  "mesh": {"nodes": [[0,0],[1,0],[0,1]], "triangles": [[0,1,2]]},
+  "material": {"mu": 1.0, "kappa": 1.0},
+  "elements": [{"routing": [1,2], "K": 1.0, "epsilon": 0.001, "alpha0": 1.4142135623730951, "winch": 0}],
+  "pins": [{"node": 0, "target": [0,0], "K": 100.0}, {"node": 1, "target": [1,0], "K": 100.0}],
+  "contractions": [0.1]}"#;
+
+#[test]
+fn a_problem_is_answered_on_standard_output_or_in_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let f = folder.path();
+    fs::write(f.join("p.json"), PROBLEM).unwrap();
+    let answer: serde_json::Value = serde_json::from_str(&succeed(f, &["solve", "p.json"])).unwrap();
+    assert_eq!(answer["format"], "plushwright-answer/1");
+    assert_eq!(answer["converged"], true);
+    assert!(answer["tensions"][0].as_f64().unwrap() > 0.0);
+    assert_eq!(succeed(f, &["solve", "p.json", "-o", "a.json"]), "");
+    let written: serde_json::Value = serde_json::from_slice(&fs::read(f.join("a.json")).unwrap()).unwrap();
+    assert_eq!(written["x"], answer["x"]);
+
+    fs::write(f.join("bad.json"), PROBLEM.replace("[0,1,2]", "[0,1,3]")).unwrap();
+    let error = fail(f, 2, &["solve", "bad.json", "-o", "b.json"]);
+    assert!(error.contains("mesh.triangles[0]"), "{error}");
+    fs::write(f.join("cut.json"), &PROBLEM[..40]).unwrap();
+    let error = fail(f, 2, &["solve", "cut.json", "-o", "b.json"]);
+    assert!(error.contains("line"), "{error}");
+    assert!(!f.join("b.json").exists());
+}
+
+/// A star of three contracted edges: the winch sits in its middle.
+const NETWORK: &str = r#"{"format": "plushwright-network/1",
+  "nodes": [[0,0],[1,0],[0,1],[-1,0]], "edges": [[0,1],[0,2],[0,3]], "weights": [0.3,0.2,0.1],
+  "parameters": {"SEED_NUM": 3, "JOIN_DEPTH": 0, "JOIN_LEN": 1, "TENDON_NUM": TENDONS, "PHI": 1.0}}"#;
+
+#[test]
+fn a_network_without_an_answer_is_written_with_code_3() {
+    let folder = tempfile::tempdir().unwrap();
+    let f = folder.path();
+    fs::write(f.join("two.json"), NETWORK.replace("TENDONS", "2")).unwrap();
+    let answer: serde_json::Value = serde_json::from_str(&succeed(f, &["discover", "two.json"])).unwrap();
+    assert_eq!(answer["winch"], 0);
+    assert_eq!(answer["tendons"].as_array().unwrap().len(), 2);
+    fs::write(f.join("four.json"), NETWORK.replace("TENDONS", "4")).unwrap();
+    fail(f, 3, &["discover", "four.json", "-o", "answer.json"]);
+    let written: serde_json::Value = serde_json::from_slice(&fs::read(f.join("answer.json")).unwrap()).unwrap();
+    assert_eq!(written["converged"], false);
+}
+
+#[test]
+fn without_a_display_the_studio_says_so() {
+    let folder = bar();
+    fail(folder.path(), 4, &["bar.plush"]);
+}
