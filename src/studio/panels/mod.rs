@@ -12,6 +12,7 @@ pub mod toolbar;
 
 use super::action::Action;
 use super::style;
+use super::viewport::thumbnail::Thumbnails;
 use eframe::egui::{Button, Frame, Margin, Response, RichText, Ui};
 
 /// What belongs to the controls alone: half-typed text, which tab is open.
@@ -21,6 +22,9 @@ pub struct State {
     /// A name being typed, and what it is for.
     pub renaming: Option<(Renamed, String)>,
     pub timeline: timeline::State,
+    pub thumbnails: Thumbnails,
+    /// Whether pictures can be drawn.
+    pub gpu: bool,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -104,7 +104,11 @@ fn list(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actions
 }
 
 fn targets(ui: &mut Ui, session: &Session, actions: &mut Actions) {
-    let (Some(pose), Mode::Pose) = (session.pose, session.mode) else {
+    if session.mode == Mode::Animation {
+        hint(ui, "The views show the animation. Choose a pose, or drag the body, to go on posing.");
+        return;
+    }
+    let Some(pose) = session.pose else {
         hint(ui, "Drag any point of the body, in either view, to begin a pose.");
         return;
     };

@@ -4,6 +4,7 @@ pub mod camera;
 pub mod geometry;
 pub mod hit;
 pub mod renderer;
+pub mod thumbnail;
 
 use super::action::{Action, Grab};
 use super::change::Change;
@@ -165,6 +166,12 @@ fn displayed(session: &Session, plushie: Plushie) -> Option<&Shape> {
 }
 
 fn fit(design: &Design, size: Vec2) -> Camera {
+    let (low, high) = bounds(design);
+    Camera::fit(low, high, size)
+}
+
+/// The box around the rest shape, mm.
+fn bounds(design: &Design) -> (Point, Point) {
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     for p in &design.mesh.nodes {
         for axis in 0..2 {
@@ -172,7 +179,7 @@ fn fit(design: &Design, size: Vec2) -> Camera {
             high[axis] = high[axis].max(p[axis]);
         }
     }
-    Camera::fit(low, high, size)
+    (low, high)
 }
 
 fn paint(ui: &Ui, session: &Session, view: &mut View, plushie: Plushie, rect: Rect, camera: Camera, shape: &Shape) {
