@@ -329,3 +329,34 @@ fn links_and_permissions_survive_saving() {
     assert_eq!(file::read(&real).expect("read").name, "through the link");
     assert_eq!(fs::metadata(&real).expect("a file").permissions().mode() & 0o777, 0o640);
 }
+
+#[test]
+fn edits_carry_along_what_refers_to_them() {
+    let mut design = rigged();
+    let network = design.networks[0].clone();
+    assert_eq!(edit::accept_network(&mut design, network), Ok(2));
+    assert_eq!(design.networks[2].name, "left 2");
+    assert_eq!(design.keyframes[1].activations_mm, [10.0, 4.0, 0.0]);
+    edit::remove_network(&mut design, 0).expect("removed");
+    assert_eq!(design.keyframes[1].activations_mm, [4.0, 0.0]);
+
+    let frame =
+        Keyframe { time_s: 0.5, activations_mm: vec![1.0, 2.0], pose: Some("lean".into()), easing: Easing::Hold };
+    assert_eq!(edit::set_keyframe(&mut design, frame.clone()), Ok(1));
+    assert_eq!(edit::set_keyframe(&mut design, frame), Ok(1), "the same time is replaced");
+    assert_eq!(design.keyframes.len(), 4);
+    assert_eq!(edit::move_keyframe(&mut design, 1, 1.0), Err(EditError::TimeTaken(1.0)));
+    assert_eq!(edit::move_keyframe(&mut design, 1, 1.25), Ok(2), "past its neighbour");
+
+    assert_eq!(edit::duplicate_pose(&mut design, 0), Ok(1));
+    assert_eq!(design.poses[1].name, "lean 2");
+    let taken = EditError::NameTaken { what: "pose", name: "lean 2".into() };
+    assert_eq!(edit::rename_pose(&mut design, 0, " lean 2 "), Err(taken));
+    edit::rename_pose(&mut design, 0, "bow").expect("renamed");
+    assert_eq!(design.keyframes[2].pose.as_deref(), Some("bow"));
+    edit::remove_pose(&mut design, 0).expect("removed");
+    assert_eq!(design.keyframes[2].pose, None);
+    let missing = EditError::Missing { what: "pose", index: 4, len: 1 };
+    assert_eq!(edit::remove_pose(&mut design, 4), Err(missing));
+    design.validate().expect("sound");
+}

@@ -170,6 +170,16 @@ fn a_narrow_notch_is_remarked() {
 }
 
 #[test]
+fn holes_on_the_seam_are_remarked() {
+    let mut design = rigged();
+    let (_, manifest) = blueprint(&design).expect("a blueprint");
+    assert!(!manifest.remarks.iter().any(|r| r.contains("seam or next")), "{:?}", manifest.remarks);
+    design.networks[0].tendons[0].routing = vec![10, 0];
+    let (_, manifest) = blueprint(&design).expect("a blueprint");
+    assert!(manifest.remarks.iter().any(|r| r.contains("next to it: hole 2.")), "{:?}", manifest.remarks);
+}
+
+#[test]
 fn routings_are_drawn_and_tabled() {
     let mut design = rigged();
     design.networks[1].tendons[0].slack_mm = 2.5;

@@ -39,6 +39,9 @@ pub enum TextError {
     FutureVersion { found: u64 },
     #[error(transparent)]
     Invalid(#[from] DesignError),
+    /// The design could not be put into words.
+    #[error("{0}")]
+    Unwritable(String),
 }
 
 /// Reads and validates a design file.
@@ -123,8 +126,7 @@ pub fn to_text(design: &Design) -> Result<String, ron::Error> {
 pub fn write(path: &Path, design: &Design) -> Result<(), FileError> {
     let content = |error: TextError| FileError::Content { path: path.into(), error };
     design.validate().map_err(|e| content(e.into()))?;
-    let text =
-        to_text(design).map_err(|e| content(TextError::Syntax { line: 0, column: 0, message: e.to_string() }))?;
+    let text = to_text(design).map_err(|e| content(TextError::Unwritable(e.to_string())))?;
     replace(path, text.as_bytes()).map_err(|source| FileError::Write { path: path.into(), source })
 }
 

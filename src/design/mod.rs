@@ -8,6 +8,7 @@ pub mod animation;
 pub mod edit;
 pub mod file;
 pub mod history;
+mod problem;
 mod settings;
 #[cfg(test)]
 pub(crate) mod testing;
@@ -16,10 +17,10 @@ mod validate;
 pub use edit::EditError;
 pub use file::{FORMAT_VERSION, FileError};
 pub use history::History;
+pub use problem::{DesignError, Problem};
 pub use settings::{
     ControllerSettings, FabricationSettings, FiberSet, FiberSettings, Gravity, Material, TendonSettings,
 };
-pub use validate::{DesignError, Problem};
 
 use crate::defaults;
 use crate::mesh::{BodyPoint, Mesh};

@@ -15,6 +15,8 @@ const TEXT_MM: f64 = 4.0;
 /// Line widths, mm: visible on paper, and below what lasers take for an area to engrave.
 const STITCH_MM: f64 = 0.1;
 const NOTE_MM: f64 = 0.15;
+/// A tendon hole this near to the seam tears out or gets sewn over, mm.
+const SEAM_CLEARANCE_MM: f64 = 3.0;
 /// Half the width of the cross that marks a pin, mm.
 const PIN_MARK_MM: f64 = 3.0;
 /// Half the length of the ticks at the ends of the turning gap, mm.
@@ -92,6 +94,14 @@ fn remarks(design: &Design, shapes: &[Vec<Vec<Point>>], gap_mm: f64) -> Vec<Stri
     let cut_outs: usize = shapes.iter().map(|s| s.len().saturating_sub(1)).sum();
     if cut_outs > design.outline.holes.len() {
         remarks.push("Seam allowances meet in a narrow notch: snip between the seams after sewing.".into());
+    }
+    let near = |&(_, &node): &(usize, &usize)| design.outline.distance(design.mesh.nodes[node]) < SEAM_CLEARANCE_MM;
+    let on_seam: Vec<String> =
+        holes(design).iter().enumerate().filter(near).map(|(i, _)| (i + 1).to_string()).collect();
+    if !on_seam.is_empty() {
+        let which = on_seam.join(", ");
+        remarks
+            .push(format!("On the seam or next to it: hole {which}. Sew first, then lead the cable through the seam."));
     }
     remarks
 }

@@ -121,10 +121,10 @@ fn legend(design: &Design, index: usize, tendon: &Tendon) -> String {
     let through: Vec<String> = tendon.routing.iter().map(number).collect();
     let mut text = format!("{}: {:.1} mm, holes {}", index + 1, tendon_length_mm(design, tendon), through.join("-"));
     if tendon.ratio != 1.0 {
-        text += &format!(", spool x {}", tendon.ratio);
+        text += &format!(", spool x {:.3}", tendon.ratio);
     }
     if tendon.slack_mm != 0.0 {
-        text += &format!(", slack {} mm", tendon.slack_mm);
+        text += &format!(", slack {:.1} mm", tendon.slack_mm);
     }
     text
 }

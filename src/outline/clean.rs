@@ -34,14 +34,16 @@ pub(super) fn outline(shapes: Shapes, size: Size) -> Result<Outline, OutlineErro
     let (low, high) = polygon::bounding_box(outer);
     let longer = (high[0] - low[0]).max(high[1] - low[1]);
     let area: f64 = rings.iter().map(|ring| polygon::signed_area(ring)).sum();
+    if area.is_nan() || area <= DEGENERATE_FRACTION * longer * longer {
+        return Err(OutlineError::Degenerate);
+    }
+    let rings = simplified(rings, SIMPLIFY_FRACTION * longer);
+    // The height is that of what is left: simplification may have shaved a rounded top.
+    let (low, high) = polygon::bounding_box(rings.first().map_or(&[], Vec::as_slice));
     let scale = match size {
         Size::UnitMm(mm) => mm,
         Size::HeightMm(mm) => mm / (high[1] - low[1]),
     };
-    if !(area > DEGENERATE_FRACTION * longer * longer && scale.is_finite() && scale > 0.0) {
-        return Err(OutlineError::Degenerate);
-    }
-    let rings = simplified(rings, SIMPLIFY_FRACTION * longer);
     place(rings, scale)
 }
 

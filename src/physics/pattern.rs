@@ -202,8 +202,8 @@ mod tests {
         let v: Vec<f64> = (0..8).map(|i| (i as f64).sin() + 0.3).collect();
         let mut y = vec![0.0; 8];
         pattern.multiply(&values, &v, &mut y);
-        for i in 0..8 {
-            let expected: f64 = (0..8).map(|j| dense[i][j] * v[j]).sum();
+        for (i, row) in dense.iter().enumerate() {
+            let expected: f64 = row.iter().zip(&v).map(|(d, v)| d * v).sum();
             assert!((y[i] - expected).abs() < 1e-12, "row {i}: {} is not {expected}", y[i]);
         }
     }

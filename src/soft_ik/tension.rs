@@ -56,6 +56,16 @@ struct Fiber {
     held: Option<Held>,
 }
 
+impl Fiber {
+    /// The rest length at a bound.
+    fn goal(&self, bound: Bound) -> f64 {
+        match bound {
+            Bound::Shortest => self.shortest,
+            Bound::Longest => self.longest,
+        }
+    }
+}
+
 #[derive(Clone, Copy, PartialEq)]
 struct Held {
     rest: f64,
@@ -266,7 +276,8 @@ impl Run {
                 *a += weight * y;
             }
         }
-        let changed = self.update_bounds(question, &p, &linear, &jacobian, &q);
+        let by_tension = &linear + jacobian.tr_mul(&q);
+        let changed = self.update_bounds(question, &p, &by_tension);
         let settled = !limited && !changed && step >= 0.5;
         if step >= 0.5 {
             self.pull *= 2.0;
@@ -315,18 +326,15 @@ impl Run {
         0.0
     }
 
-    /// Holds elements that left their bounds and releases those that the objective calls back. Whether any changed.
-    fn update_bounds(
-        &mut self,
-        question: &Question,
-        p: &[f64],
-        linear: &DVector<f64>,
-        jacobian: &DMatrix<f64>,
-        q: &DVector<f64>,
-    ) -> bool {
-        let by_tension = linear + jacobian.tr_mul(q);
+    /// Holds elements that left their bounds, moves held ones to their bound, and releases those that the objective calls
+    /// back. Whether any changed.
+    fn update_bounds(&mut self, question: &mut Question, p: &[f64], by_tension: &DVector<f64>) -> bool {
         let margin = RELEASE_MARGIN * by_tension.amax();
-        let mut changed = false;
+        let released = self.released(question, p, margin);
+        let mut changed = !released.is_empty();
+        for k in released {
+            self.fibers[k].held = None;
+        }
         for (fiber, tau) in self.fibers.iter_mut().zip(&mut self.tension) {
             let element = &question.model.contractile.elements[fiber.element];
             let length = element.length(&self.x);
@@ -345,30 +353,61 @@ impl Run {
                     changed = true;
                 }
                 Some(Held { rest, bound }) => {
-                    let goal = if bound == Bound::Shortest { fiber.shortest } else { fiber.longest };
-                    *tau = element.tension(length - rest);
-                    // Derivative of O by this element's tension; by contraction it has the same sign.
-                    let slope = self.rho * *tau - element.length_rate(&self.x, p);
-                    let release = match bound {
-                        Bound::Shortest => slope > margin || *tau == 0.0,
-                        Bound::Longest => slope < -margin,
-                    };
-                    if release {
-                        fiber.held = None;
-                        changed = true;
-                    } else if rest != goal {
-                        let mut next = rest + BOUND_APPROACH * (goal - rest);
-                        if (next - goal).abs() < 1e-3 * element.alpha0 {
-                            next = goal;
-                        }
-                        fiber.held = Some(Held { rest: next, bound });
-                        *tau = element.tension(length - next);
-                        changed = true;
+                    let goal = fiber.goal(bound);
+                    let mut next = rest + BOUND_APPROACH * (goal - rest);
+                    if (next - goal).abs() < 1e-3 * element.alpha0 {
+                        next = goal;
                     }
+                    changed |= rest != goal;
+                    fiber.held = Some(Held { rest: next, bound });
+                    *tau = element.tension(length - next);
                 }
             }
         }
         changed
+    }
+
+    /// The elements held at their bound whose release lowers `O`.
+    ///
+    /// `dO/dtau = rho tau - G p_0`, where `p_0` lacks the element's own stiffness. `p` has it (its spring is in `H`):
+    /// `G p_0 = G p / (1 - U'' g H^-1 g)`. Only elements that could pass are worth that solve. An element on its way to its
+    /// bound pulls too much or too little, so that its slope says nothing yet.
+    fn released(&self, question: &mut Question, p: &[f64], margin: f64) -> Vec<usize> {
+        let mut candidates = Vec::new();
+        let mut columns = Vec::new();
+        for (k, fiber) in self.fibers.iter().enumerate() {
+            let Some(Held { rest, bound }) = fiber.held else { continue };
+            let element = &question.model.contractile.elements[fiber.element];
+            let tau = element.tension(element.length(&self.x) - rest);
+            let own = self.rho * tau - element.length_rate(&self.x, p);
+            let possible = match bound {
+                Bound::Shortest => own > 0.0,
+                Bound::Longest => true,
+            };
+            if rest == fiber.goal(bound) && possible {
+                candidates.push((k, bound, tau));
+                columns.resize(columns.len() + self.x.len(), 0.0);
+                let start = columns.len() - self.x.len();
+                element.add_length_gradient(&self.x, 1.0, &mut columns[start..]);
+            }
+        }
+        question.model.solve_many(&mut columns, candidates.len());
+        candidates
+            .into_iter()
+            .zip(columns.chunks_exact(self.x.len()))
+            .filter(|((k, bound, tau), column)| {
+                let element = &question.model.contractile.elements[self.fibers[*k].element];
+                let Some(Held { rest, .. }) = self.fibers[*k].held else { return false };
+                let tangent = element.tangent(element.length(&self.x) - rest);
+                let share = (1.0 - tangent * element.length_rate(&self.x, column)).max(1e-9);
+                let slope = self.rho * tau - element.length_rate(&self.x, p) / share;
+                match bound {
+                    Bound::Shortest => slope > margin || *tau == 0.0,
+                    Bound::Longest => slope < -margin,
+                }
+            })
+            .map(|((k, ..), _)| k)
+            .collect()
     }
 
     /// Keeps the best state near equilibrium, and lets `nu` follow success.
@@ -400,8 +439,7 @@ impl Run {
             .map(|(fiber, tau)| {
                 let e = &question.model.contractile.elements[fiber.element];
                 let rest = match fiber.held {
-                    Some(Held { bound: Bound::Shortest, .. }) => fiber.shortest,
-                    Some(Held { bound: Bound::Longest, .. }) => fiber.longest,
+                    Some(Held { bound, .. }) => fiber.goal(bound),
                     None => e.length(x) - e.deformation(*tau),
                 };
                 (e.alpha0 - rest) / fiber.ratio
