@@ -203,24 +203,8 @@ mod tests {
 
     fn request(id: u64) -> Request {
         let mesh = crate::mesh::Mesh { nodes: vec![[0.0, 0.0], [10.0, 0.0], [0.0, 10.0]], triangles: vec![[0, 1, 2]] };
-        let design = Design {
-            version: 1,
-            name: "triangle".to_owned(),
-            outline: crate::outline::Outline { outer: mesh.nodes.clone(), holes: Vec::new() },
-            mesh,
-            material: Default::default(),
-            fibers: Default::default(),
-            tendons: Default::default(),
-            pins: Vec::new(),
-            poses: Vec::new(),
-            networks: Vec::new(),
-            keyframes: Vec::new(),
-            fabrication: Default::default(),
-            controller: Default::default(),
-            texture: None,
-            gravity: None,
-            stiffness_map: None,
-        };
+        let outline = crate::outline::Outline { outer: mesh.nodes.clone(), holes: Vec::new() };
+        let design = Design::new("triangle", outline, mesh);
         Request {
             id,
             design: Arc::new(design),

@@ -15,7 +15,7 @@ use crate::engine::{Proposal, Question, Request, Shape};
 use crate::outline::Point;
 use crate::picture::palette::Theme;
 use crate::picture::scene::Stage;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
@@ -96,8 +96,17 @@ struct Asked {
     question: Question,
 }
 
-/// How proposals are made; tests put their own in.
+/// Makes proposals for a design and the targets of a pose.
 pub type Propose = Arc<dyn Fn(&Design, &[Target], &Parameters, &AtomicBool) -> Vec<Proposal> + Send + Sync>;
+/// Writes the blueprint of a design into a folder.
+pub type Export = Arc<dyn Fn(&Design, &Path) -> Result<(), String> + Send + Sync>;
+
+/// The long work that is done elsewhere; tests put their own in.
+#[derive(Clone)]
+pub struct Services {
+    pub propose: Propose,
+    pub export: Export,
+}
 
 pub struct Session {
     pub(super) history: History,
@@ -113,7 +122,7 @@ pub struct Session {
     pub(super) messages: Messages,
     pub(super) files: Files,
     pub(super) jobs: Jobs,
-    propose: Propose,
+    pub(super) services: Services,
     worker: Worker,
     drag: Option<Drag>,
     asked: Option<Asked>,
@@ -126,7 +135,7 @@ pub struct Session {
 }
 
 impl Session {
-    pub fn new(design: Design, path: Option<PathBuf>, wake: Wake, propose: Propose) -> Self {
+    pub fn new(design: Design, path: Option<PathBuf>, wake: Wake, services: Services) -> Self {
         let on_outcome = wake.clone();
         Self {
             pose: first_pose(&design),
@@ -149,7 +158,7 @@ impl Session {
             messages: Messages::default(),
             files: Files::default(),
             jobs: Jobs::new(wake),
-            propose,
+            services,
             worker: Worker::spawn(Box::new(move || on_outcome())),
             drag: None,
             asked: None,
@@ -245,6 +254,11 @@ impl Session {
             Action::ShowFibers(shown) => self.look.fibers = shown,
             Action::ShowNetworks(shown) => self.look.networks = shown,
             Action::SetCamera(camera) => self.look.camera = Some(camera),
+            Action::Pan { from, delta, always } => {
+                if always || self.drag.is_none() {
+                    self.look.camera = Some(from.panned(delta));
+                }
+            }
             Action::Fit => self.look.camera = None,
             Action::Play => self.play(),
             Action::Pause => self.playback.playing = false,
@@ -497,7 +511,7 @@ impl Session {
         self.discovery.shown = None;
         let (serial, design) = (self.discovery.serial, self.design().clone());
         let (targets, parameters) = (self.targets().to_vec(), self.discovery.parameters.clone());
-        let propose = self.propose.clone();
+        let propose = self.services.propose.clone();
         self.jobs.start("Network discovery", move || {
             let proposals = propose(&design, &targets, &parameters, &cancel);
             Report::Proposed { serial, proposals }
@@ -536,7 +550,8 @@ impl Session {
                 }
                 self.discovery.running = None;
                 if proposals.is_empty() {
-                    self.messages.warning("No network was found for this pose. Try more seeds or longer joining paths.");
+                    self.messages
+                        .warning("No network was found for this pose. Try more seeds or longer joining paths.");
                 }
                 self.discovery.proposals = proposals.into_iter().map(Arc::new).collect();
                 self.discovery.shown = if self.discovery.proposals.is_empty() { None } else { Some(0) };
