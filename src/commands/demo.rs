@@ -33,7 +33,7 @@ pub struct Demo {
 
 const OUTLINE: &[u8] = include_bytes!("../../assets/pig.svg");
 const FIBERS: usize = 571;
-/// Both feet on the ground: the hind legs and one front leg.
+/// Three feet stay on the ground.
 const PINS: [Point; 3] = [[146.0, 4.0], [196.0, 4.0], [248.0, 4.0]];
 /// The ear folds forward and the front leg steps out: places of the body at rest and where they go, mm.
 const POSES: [(&str, [Move; 2]); 1] =
