@@ -109,8 +109,17 @@ fn first_design() -> Design {
 fn from_eframe(error: eframe::Error) -> StudioError {
     match error {
         eframe::Error::Wgpu(error) => StudioError::NoAdapter(error.to_string()),
-        eframe::Error::Winit(error) => StudioError::WindowSystem(error.to_string()),
-        eframe::Error::WinitEventLoop(error) => StudioError::WindowSystem(error.to_string()),
+        eframe::Error::Winit(error) => from_winit(&error.to_string()),
+        eframe::Error::WinitEventLoop(error) => from_winit(&error.to_string()),
         other => StudioError::Failed(other.to_string()),
+    }
+}
+
+/// A display that is named but does not answer is told apart from a library that is missing.
+fn from_winit(text: &str) -> StudioError {
+    if text.contains("connection to X server") {
+        StudioError::NoDisplay
+    } else {
+        StudioError::WindowSystem(text.to_owned())
     }
 }

@@ -226,7 +226,8 @@ impl Session {
 
     /// Whether the shapes answer the newest question.
     pub fn is_settled(&self) -> bool {
-        self.asked.as_ref().is_some_and(|asked| self.answered_id == Some(asked.id))
+        let resting = !self.worker.is_busy();
+        resting && self.asked.as_ref().is_some_and(|asked| self.answered_id == Some(asked.id))
     }
 
     /// The proposal that the views show.

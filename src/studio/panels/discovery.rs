@@ -7,8 +7,8 @@ use crate::studio::action::Action;
 use crate::studio::session::Session;
 use crate::studio::style;
 use eframe::egui::{
-    Align2, Button, CollapsingHeader, DragValue, FontId, Grid, ProgressBar, Rect, Response, RichText, Role, Sense,
-    Stroke, StrokeKind, Ui, WidgetInfo, vec2,
+    Align2, Button, CollapsingHeader, DragValue, FontId, Grid, ProgressBar, Rect, Response, RichText, Role, ScrollArea,
+    Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2,
 };
 use std::time::Duration;
 
