@@ -5,6 +5,7 @@
 
 pub mod compile;
 pub mod propose;
+pub mod response;
 pub mod rig;
 pub mod solver;
 pub mod trial;

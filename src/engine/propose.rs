@@ -4,6 +4,7 @@
 //! activations are turned into many candidates (parameters varied, paths refined), each is added to the realizable plushie and
 //! posed, and what counts is the pose error that is really reached.
 
+use super::response;
 use super::solver::{Effort, Solver};
 use super::trial::{Care, Reached, Trial};
 use super::{Proposal, Question, Request, Shape};
@@ -16,6 +17,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 const PROPOSALS: usize = 8;
 /// Candidates that are posed carefully after a quick screening.
 const SETTLED: usize = 10;
+/// SEED_NUM of the wide winch trees on which the body's response selects, and their JOIN_DEPTH and JOIN_LEN.
+const WIDE_SEEDS: [usize; 4] = [16, 32, 64, 100];
+const WIDE_JOIN: usize = 12;
+/// Trees on which the response selects, sets kept of each, and sets kept in all.
+const TREES: usize = 8;
+const ROOTS: usize = 12;
+const RESPONSE_CANDIDATES: usize = 40;
 /// A dropped via point may lie this far from the straightened tendon, as a part of the mean edge length.
 const STRAIGHTENING: f64 = 0.15;
 
@@ -32,11 +40,11 @@ pub struct Candidate {
 pub fn propose(design: &Design, targets: &[Target], base: &Parameters, cancel: &AtomicBool) -> Vec<Proposal> {
     let mut tendon_nums = vec![base.tendon_num];
     tendon_nums.extend((1..=3).filter(|n| *n != base.tendon_num));
-    let candidates = candidates(design, targets, base, &tendon_nums, cancel);
     let Some(before) = Trial::new(design).map(|mut t| t.pose(design, targets, None, Care::Settle, cancel)) else {
         return Vec::new();
     };
     let poses = [Known { targets, before: &before }];
+    let candidates = candidates(design, targets, &poses, base, &tendon_nums, cancel);
     let ranked = rank(design, candidates, &poses, cancel);
     let mut out = Vec::new();
     for (candidate, mut reached) in ranked.into_iter().take(PROPOSALS) {
@@ -61,10 +69,12 @@ pub struct Known<'a> {
     pub before: &'a Reached,
 }
 
-/// Candidate networks for one pose from the fibres' activations in the idealized plushie.
+/// Candidate networks from the fibres' activations of the idealized plushie in one pose: those of Algorithm 2 with its
+/// parameters varied and paths refined, and those that the body's response (in all `poses`) selects on the same winch trees.
 pub fn candidates(
     design: &Design,
     targets: &[Target],
+    poses: &[Known],
     base: &Parameters,
     tendon_nums: &[usize],
     cancel: &AtomicBool,
@@ -84,7 +94,7 @@ pub fn candidates(
     let Ok(found) = discovery::candidates(nodes, &edges, &weights, base, tendon_nums) else { return Vec::new() };
     let mean = mean_length(design, &edges);
     let around = refine::Surroundings { positions: &design.mesh.nodes, edges: &edges, weights: &weights };
-    let mut out: Vec<Candidate> = Vec::new();
+    let mut out = by_response(design, &edges, &weights, &found, poses, tendon_nums);
     for (parameters, stages) in found {
         let own = stages.tendons.clone();
         for tendons in std::iter::once(own).chain(refine::variants(&stages.tendons, &around, STRAIGHTENING * mean)) {
@@ -94,6 +104,49 @@ pub fn candidates(
         }
     }
     out
+}
+
+/// Sets selected by the body's response on the winch trees found, and on wider ones that reach every active limb.
+fn by_response(
+    design: &Design,
+    edges: &[[usize; 2]],
+    weights: &[f64],
+    found: &[(Parameters, Stages)],
+    poses: &[Known],
+    tendon_nums: &[usize],
+) -> Vec<Candidate> {
+    let mut trees: Vec<(Parameters, Stages)> = Vec::new();
+    let mut add = |parameters: Parameters, stages: Stages| {
+        if !stages.tree.is_empty() && !trees.iter().any(|(_, s)| s.tree == stages.tree) {
+            trees.push((parameters, stages));
+        }
+    };
+    let Some((base, _)) = found.first() else { return Vec::new() };
+    for seed_num in WIDE_SEEDS {
+        let wide = Parameters { seed_num, join_depth: WIDE_JOIN, join_len: WIDE_JOIN, tendon_num: 1, ..base.clone() };
+        if let Ok(stages) = discovery::propose(design.mesh.nodes.len(), edges, weights, &wide) {
+            add(wide, stages);
+        }
+    }
+    for (parameters, stages) in found {
+        add(parameters.clone(), stages.clone());
+    }
+    let mut scored: Vec<(f64, Candidate)> = Vec::new();
+    for (parameters, stages) in trees.into_iter().take(TREES) {
+        for &tendon_num in tendon_nums {
+            for (value, tendons) in response::select(design, &stages.tree, poses, tendon_num).into_iter().take(ROOTS) {
+                if scored.iter().any(|(_, c)| c.tendons == tendons) {
+                    continue;
+                }
+                let parameters = Parameters { tendon_num, ..parameters.clone() };
+                let winch = tendons.first().and_then(|t| t.first()).copied().unwrap_or(stages.winch);
+                let stages = Stages { winch, tendons: tendons.clone(), ..stages.clone() };
+                scored.push((value, Candidate { tendons, parameters, stages }));
+            }
+        }
+    }
+    scored.sort_by(|a, b| a.0.total_cmp(&b.0));
+    scored.into_iter().take(RESPONSE_CANDIDATES).map(|(_, c)| c).collect()
 }
 
 /// The activation graph of an idealized shape: the mesh edges with the contraction of their fibre. A fibre with via points

@@ -9,7 +9,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// A pose served better than this part of its rest error needs no further winch of its own.
 const SERVED: f64 = 0.02;
 /// Rounds of improving a network by small changes of its paths.
-const POLISHING_ROUNDS: usize = 6;
+const POLISHING_ROUNDS: usize = 15;
+/// A round goes on from a change that leaves at most this part of the misfit.
+const WORTHWHILE: f64 = 0.99;
 
 /// What the loop may build and try.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,7 +72,7 @@ pub fn rig(
         if !exact && (0..poses.len()).all(served) {
             break;
         }
-        let found = gather(&current, &poses, &served, options, winch, cancel);
+        let found = gather(&current, &poses, &known, &served, options, winch, cancel);
         progress(&format!("winch {}: {} candidate networks", winch + 1, found.len()));
         let ranked = rank(&current, found, &known, cancel);
         if cancel.load(Ordering::Relaxed) {
@@ -114,6 +116,7 @@ fn rest_error(design: &Design, targets: &[Target]) -> f64 {
 fn gather(
     design: &Design,
     poses: &[(String, Vec<Target>)],
+    known: &[Known],
     served: &dyn Fn(usize) -> bool,
     options: &RigOptions,
     winch: usize,
@@ -144,7 +147,7 @@ fn gather(
         if served(k) && !all_served {
             continue;
         }
-        for candidate in candidates(design, targets, &base, &numbers, cancel) {
+        for candidate in candidates(design, targets, known, &base, &numbers, cancel) {
             if asked(&candidate.parameters) && !out.iter().any(|c| c.tendons == candidate.tendons) {
                 out.push(candidate);
             }
@@ -153,8 +156,8 @@ fn gather(
     out
 }
 
-/// Improves a network by small changes of its paths (a tip extended along the mesh or drawn back by a node), as long as the
-/// poses really reached get better.
+/// Improves a network by small changes of its paths, as long as the poses really reached get better. Every trial starts from
+/// the activations of the best so far.
 fn polish(
     design: &Design,
     best: Candidate,
@@ -166,40 +169,66 @@ fn polish(
     let (mut best, mut reached) = (best, reached);
     for _ in 0..POLISHING_ROUNDS {
         let changes = changes(&best, &neighbours);
-        let tried = try_all(design, &changes, poses, Care::Settle, cancel);
+        let now: Vec<Known> =
+            poses.iter().zip(&reached).map(|(p, before)| Known { targets: p.targets, before }).collect();
+        let tried = try_all(design, &changes, &now, Care::Settle, cancel);
         let before = misfit(design, poses, &reached);
         let winner = changes
             .into_iter()
             .zip(tried)
             .map(|(c, r)| (misfit(design, poses, &r), c, r))
             .min_by(|a, b| a.0.total_cmp(&b.0))
-            .filter(|(value, ..)| *value < 0.995 * before);
-        let Some((_, candidate, now)) = winner else { break };
-        (best, reached) = (candidate, now);
+            .filter(|(value, ..)| *value < WORTHWHILE * before);
+        let Some((_, candidate, found)) = winner else { break };
+        (best, reached) = (candidate, found);
     }
     (best, reached)
 }
 
-/// The network with one tendon's tip moved on to a neighbouring node, or back by one.
+/// The network with one small change: a tip moved, added or dropped; a via point moved aside; the winch moved to a neighbour.
 fn changes(network: &Candidate, neighbours: &[Vec<usize>]) -> Vec<Candidate> {
     let mut out = Vec::new();
-    for (k, path) in network.tendons.iter().enumerate() {
-        let mut variants: Vec<Vec<usize>> = Vec::new();
-        let Some(&tip) = path.last() else { continue };
-        if path.len() > 2 {
-            variants.push(path[..path.len() - 1].to_vec());
+    let used = |n: usize| network.tendons.iter().any(|t| t.contains(&n));
+    let mut push = |tendons: Vec<Vec<usize>>| {
+        let valid = tendons.iter().all(|t| t.len() >= 2 && t.windows(2).all(|s| s[0] != s[1]));
+        if valid {
+            out.push(Candidate { tendons, ..network.clone() });
         }
-        let used = |n: usize| network.tendons.iter().any(|t| t.contains(&n));
+    };
+    for (k, path) in network.tendons.iter().enumerate() {
+        let mut replace = |variant: Vec<usize>| {
+            let mut tendons = network.tendons.clone();
+            tendons[k] = variant;
+            push(tendons);
+        };
+        let Some(&tip) = path.last() else { continue };
+        let shorter = &path[..path.len() - 1];
+        replace(shorter.to_vec());
         for &next in neighbours[tip].iter().filter(|n| !used(**n)) {
-            variants.push(path.iter().copied().chain([next]).collect());
-            if path.len() > 2 {
-                variants.push(path[..path.len() - 1].iter().copied().chain([next]).collect());
+            replace(path.iter().copied().chain([next]).collect());
+            replace(shorter.iter().copied().chain([next]).collect());
+        }
+        for via in 1..path.len().saturating_sub(1) {
+            let mut without = path.clone();
+            let old = without.remove(via);
+            if neighbours[path[via - 1]].contains(&path[via + 1]) {
+                replace(without);
+            }
+            for &aside in neighbours[old].iter().filter(|n| !used(**n)) {
+                if neighbours[path[via - 1]].contains(&aside) && neighbours[path[via + 1]].contains(&aside) {
+                    let mut moved = path.clone();
+                    moved[via] = aside;
+                    replace(moved);
+                }
             }
         }
-        for variant in variants {
-            let mut changed = network.clone();
-            changed.tendons[k] = variant;
-            out.push(changed);
+    }
+    if let Some(&winch) = network.tendons.first().and_then(|t| t.first()) {
+        for &next in &neighbours[winch] {
+            let moved = network.tendons.iter().map(|t| {
+                if t[1] == next { t[1..].to_vec() } else { std::iter::once(next).chain(t.iter().copied()).collect() }
+            });
+            push(moved.collect());
         }
     }
     out
