@@ -16,8 +16,6 @@ pub struct Studio {
     session: Session,
     panels: panels::State,
     views: viewport::State,
-    /// Whether the views can be drawn; without a graphics adapter (tests) everything else works.
-    gpu: bool,
     title: String,
 }
 
@@ -28,13 +26,7 @@ impl Studio {
         let wake = ctx.clone();
         let session = Session::new(design, path, Arc::new(move || wake.request_repaint()), services);
         style::set_theme(ctx, session.look.theme);
-        Self {
-            session,
-            panels: panels::State::default(),
-            views: viewport::State::default(),
-            gpu: false,
-            title: String::new(),
-        }
+        Self { session, panels: panels::State::default(), views: viewport::State::default(), title: String::new() }
     }
 
     /// Lets the views draw with the window's renderer, and lets the desktop's dialogs appear.
@@ -43,7 +35,7 @@ impl Studio {
         const SAMPLES: u32 = 1;
         if let Some(state) = state {
             viewport::renderer::install(state, SAMPLES);
-            self.gpu = true;
+            self.panels.gpu = true;
         }
         self.session.files.native_dialogs = desktop_has_dialogs();
         self.session.look.theme = theme;
@@ -100,7 +92,7 @@ impl Studio {
         let inspector = Panel::right("inspector").frame(panels::frame()).default_size(270.0).size_range(240.0..=420.0);
         inspector.show(ui, |ui| inspect(ui, session, &mut self.panels, actions));
         CentralPanel::no_frame().show(ui, |ui| {
-            viewport::show(ui, session, &mut self.views, self.gpu, actions);
+            viewport::show(ui, session, &mut self.views, self.panels.gpu, actions);
         });
         let above = status.response.rect.height() + timeline.response.rect.height();
         panels::messages::show(ui.ctx(), session, above, actions);
@@ -154,7 +146,7 @@ fn inspect(ui: &mut egui::Ui, session: &Session, state: &mut panels::State, acti
             egui::ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
                 panels::networks::show(ui, session, state, actions);
                 ui.add_space(12.0);
-                panels::discovery::show(ui, session, actions);
+                panels::discovery::show(ui, session, state, actions);
             });
         }
         Tab::Settings => panels::settings::show(ui, session, actions),

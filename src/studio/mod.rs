@@ -11,11 +11,14 @@ pub mod action;
 pub mod app;
 mod blank;
 pub mod change;
+mod discovering;
+mod dragging;
 pub mod files;
 pub mod icons;
 pub mod jobs;
 pub mod messages;
 pub mod panels;
+mod playing;
 pub mod session;
 mod shortcuts;
 pub mod style;
@@ -109,8 +112,17 @@ fn first_design() -> Design {
 fn from_eframe(error: eframe::Error) -> StudioError {
     match error {
         eframe::Error::Wgpu(error) => StudioError::NoAdapter(error.to_string()),
-        eframe::Error::Winit(error) => StudioError::WindowSystem(error.to_string()),
-        eframe::Error::WinitEventLoop(error) => StudioError::WindowSystem(error.to_string()),
+        eframe::Error::Winit(error) => from_winit(&error.to_string()),
+        eframe::Error::WinitEventLoop(error) => from_winit(&error.to_string()),
         other => StudioError::Failed(other.to_string()),
+    }
+}
+
+/// A display that is named but does not answer is told apart from a library that is missing.
+fn from_winit(text: &str) -> StudioError {
+    if text.contains("connection to X server") {
+        StudioError::NoDisplay
+    } else {
+        StudioError::WindowSystem(text.to_owned())
     }
 }

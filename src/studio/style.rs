@@ -53,6 +53,8 @@ pub fn install(ctx: &egui::Context) {
         style.spacing.window_margin = Margin::same(16);
         style.spacing.menu_margin = Margin::same(6);
         style.spacing.slider_width = 110.0;
+        // Room for the scroll bar beside what is scrolled.
+        style.spacing.scroll.floating_allocated_width = 6.0;
         style.interaction.selectable_labels = false;
         style.interaction.tooltip_delay = 0.4;
     });

@@ -52,10 +52,10 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, actions: &mut Actio
         };
         let field = ui.add(TextEdit::singleline(&mut edited.path).hint_text(hint).desired_width(width));
         let field = field.accessible_name("Path");
+        confirmed = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
         if ui.memory(|m| m.focused().is_none()) {
             field.request_focus();
         }
-        confirmed = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
         if session.files.native_dialogs && ui.button("Browse…").clicked() {
             actions.push(Action::File(FileAction::Browse));
         }

@@ -1,14 +1,18 @@
 //! Proposing networks: parameters, progress, the proposals and their stages (fig. 6).
 
-use super::{Actions, heading, primary};
+use super::{Actions, State, heading, primary, wide};
 use crate::engine::Proposal;
 use crate::picture::scene::Stage;
 use crate::studio::action::Action;
 use crate::studio::session::Session;
-use eframe::egui::{Button, CollapsingHeader, DragValue, Grid, ProgressBar, RichText, Ui, vec2};
+use crate::studio::style;
+use eframe::egui::{
+    Align2, Button, CollapsingHeader, DragValue, FontId, Grid, ProgressBar, Rect, Response, RichText, Role, ScrollArea,
+    Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2,
+};
 use std::time::Duration;
 
-pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
+pub fn show(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actions) {
     heading(ui, "Network discovery");
     match &session.discovery.running {
         Some(running) => progress(ui, running.started.elapsed(), actions),
@@ -20,14 +24,18 @@ pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     }
     ui.add_space(6.0);
     heading(ui, "Proposals");
-    for (index, proposal) in session.discovery.proposals.iter().enumerate() {
-        row(ui, session, index, proposal, actions);
-    }
+    // Short, so that the buttons below stay in sight.
+    let rows = ScrollArea::vertical().id_salt("proposals").max_height(132.0).auto_shrink([false, true]);
+    rows.show(ui, |ui| {
+        ui.spacing_mut().item_spacing.y = 2.0;
+        for (index, proposal) in session.discovery.proposals.iter().enumerate() {
+            row(ui, session, index, proposal, actions);
+        }
+    });
     if let Some(index) = session.discovery.shown.filter(|&i| i < session.discovery.proposals.len()) {
-        ui.add_space(4.0);
-        stages(ui, session, actions);
-        ui.add_space(4.0);
         verdict(ui, index, actions);
+        ui.add_space(2.0);
+        stages(ui, session, state, actions);
     }
 }
 
@@ -84,7 +92,7 @@ fn parameters(ui: &mut Ui, session: &Session, actions: &mut Actions) {
 fn row(ui: &mut Ui, session: &Session, index: usize, proposal: &Proposal, actions: &mut Actions) {
     let tendons = proposal.network.tendons.len();
     let name = format!("{}  {tendons} tendon{}", index + 1, if tendons == 1 { "" } else { "s" });
-    let error = format!("{:.1} % → {:.1} %", 100.0 * proposal.error_before, 100.0 * proposal.error_after);
+    let error = format!("{:.1} % to {:.1} %", 100.0 * proposal.error_before, 100.0 * proposal.error_after);
     let better = proposal.error_after < proposal.error_before;
     let color = if better { ui.visuals().text_color() } else { ui.visuals().warn_fg_color };
     let button = Button::selectable(session.discovery.shown == Some(index), name)
@@ -97,24 +105,52 @@ fn row(ui: &mut Ui, session: &Session, index: usize, proposal: &Proposal, action
     }
 }
 
-fn stages(ui: &mut Ui, session: &Session, actions: &mut Actions) {
-    ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = 3.0;
-        let width = (ui.available_width() - 9.0) / 4.0;
-        for (stage, name, tip) in [
-            (Stage::Activation, "Activity", "Activation graph: every fibre by its contraction"),
-            (Stage::Seeds, "Seeds", "The most contracted fibres; the starting component stands out"),
-            (Stage::Tree, "Tree", "Winch tree: components, and joining paths in blue"),
-            (Stage::Result, "Result", "The winch and its tendons"),
-        ] {
-            let button = Button::selectable(session.discovery.stage == stage, name)
-                .frame_when_inactive(true)
-                .min_size(vec2(width, 24.0));
-            if ui.add(button).on_hover_text(tip).clicked() {
-                actions.push(Action::ShowStage(stage));
+/// Four pictures, like the paper's fig. 6; the one chosen is shown large in the left view.
+fn stages(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actions) {
+    const GAP: f32 = 6.0;
+    let stages = [
+        (Stage::Activation, "Activity", "Activation graph: every fibre by its contraction"),
+        (Stage::Seeds, "Seeds", "The most contracted fibres; the starting component stands out"),
+        (Stage::Tree, "Tree", "Winch tree: components, and joining paths in blue"),
+        (Stage::Result, "Result", "The winch and its tendons"),
+    ];
+    let width = ((ui.available_width() - GAP) / 2.0).floor();
+    for row in stages.chunks(2) {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = GAP;
+            for &(stage, name, tip) in row {
+                if thumbnail(ui, session, state, stage, name, width).on_hover_text(tip).clicked() {
+                    actions.push(Action::ShowStage(stage));
+                }
             }
-        }
-    });
+        });
+    }
+}
+
+fn thumbnail(ui: &mut Ui, session: &Session, state: &mut State, stage: Stage, name: &str, width: f32) -> Response {
+    let (rect, response) = ui.allocate_exact_size(vec2(width, 0.72 * width), Sense::click());
+    let chosen = session.discovery.stage == stage;
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, name));
+    if !ui.is_rect_visible(rect) {
+        return response;
+    }
+    let visuals = ui.visuals();
+    let stroke = if chosen {
+        Stroke::new(2.0, style::accent(session.look.theme))
+    } else if response.hovered() || response.has_focus() {
+        visuals.widgets.hovered.bg_stroke
+    } else {
+        visuals.widgets.noninteractive.bg_stroke
+    };
+    ui.painter().rect_stroke(rect, 6.0, stroke, StrokeKind::Inside);
+    let color = if chosen { visuals.strong_text_color() } else { visuals.weak_text_color() };
+    let below = rect.center_bottom() - vec2(0.0, 5.0);
+    ui.painter().text(below, Align2::CENTER_BOTTOM, name, FontId::proportional(11.0), color);
+    if state.gpu {
+        let picture = Rect::from_min_max(rect.min + vec2(3.0, 3.0), rect.max - vec2(3.0, 19.0));
+        state.thumbnails.paint(ui, session, stage, picture);
+    }
+    response
 }
 
 fn verdict(ui: &mut Ui, index: usize, actions: &mut Actions) {
@@ -123,7 +159,7 @@ fn verdict(ui: &mut Ui, index: usize, actions: &mut Actions) {
         if primary(ui, true, "Accept", width).on_hover_text("Build this network in (Enter)").clicked() {
             actions.push(Action::Accept(index));
         }
-        let reject = ui.add(Button::new("Reject").min_size(vec2(width, 30.0)));
+        let reject = wide(ui, true, Button::new("Reject"), width);
         if reject.on_hover_text("Drop this proposal (Backspace)").clicked() {
             actions.push(Action::Reject(index));
         }

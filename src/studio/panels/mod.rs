@@ -12,6 +12,7 @@ pub mod toolbar;
 
 use super::action::Action;
 use super::style;
+use super::viewport::thumbnail::Thumbnails;
 use eframe::egui::{Button, Frame, Margin, Response, RichText, Ui};
 
 /// What belongs to the controls alone: half-typed text, which tab is open.
@@ -21,6 +22,9 @@ pub struct State {
     /// A name being typed, and what it is for.
     pub renaming: Option<(Renamed, String)>,
     pub timeline: timeline::State,
+    pub thumbnails: Thumbnails,
+    /// Whether pictures can be drawn.
+    pub gpu: bool,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -51,8 +55,12 @@ pub fn heading(ui: &mut Ui, text: &str) {
 pub fn primary(ui: &mut Ui, enabled: bool, text: &str, width: f32) -> Response {
     let theme = style::theme_of(ui.visuals());
     let label = RichText::new(text).strong().color(style::on_accent(theme));
-    let button = Button::new(label).fill(style::accent(theme)).min_size(eframe::egui::vec2(width, 30.0));
-    ui.add_enabled(enabled, button)
+    wide(ui, enabled, Button::new(label).fill(style::accent(theme)), width)
+}
+
+/// A button of a given width, its text in the middle.
+pub fn wide(ui: &mut Ui, enabled: bool, button: Button<'_>, width: f32) -> Response {
+    ui.add_enabled_ui(enabled, |ui| ui.add_sized([width, 30.0], button)).inner
 }
 
 /// A text field that is taken with Enter or a click elsewhere and dropped with Escape.

@@ -16,9 +16,15 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Act
         ui.label(RichText::new("None yet. Pose the plushie, then propose a network.").weak());
         return;
     }
+    ui.scope(|ui| {
+        ui.spacing_mut().item_spacing.y = 2.0;
+        rows(ui, session, state, actions);
+    });
+}
+
+fn rows(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actions) {
     let palette = Palette::of(session.look.theme);
-    ui.spacing_mut().item_spacing.y = 2.0;
-    for (index, network) in design.networks.iter().enumerate() {
+    for (index, network) in session.design().networks.iter().enumerate() {
         if matches!(state.renaming, Some((Renamed::Network(i), _)) if i == index) {
             if let Some((_, name)) = name_field(ui, &mut state.renaming, "Network name") {
                 actions.push(Action::Change(Change::RenameNetwork(index, name)));
@@ -44,7 +50,8 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Act
                     .right_text(RichText::new(detail).small().weak())
                     .truncate()
                     .min_size(vec2(ui.available_width(), 24.0));
-                let response = ui.add(button).on_hover_text("Cable wound now. Double-click to rename");
+                let response = ui.add(button).accessible_name(format!("Network {}", network.name));
+                let response = response.on_hover_text("Cable wound now. Double-click to rename");
                 if response.double_clicked() {
                     state.renaming = Some((Renamed::Network(index), network.name.clone()));
                 } else if response.clicked() {

@@ -75,7 +75,8 @@ fn list(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actions
             .right_text(RichText::new(detail).small().weak())
             .truncate()
             .min_size(vec2(ui.available_width(), 26.0));
-        ui.add(button)
+        // Without the detail, which is for the eye.
+        ui.add(button).accessible_name(name)
     };
     let rest = row(ui, "Rest", "", in_pose && session.pose.is_none());
     if rest.on_hover_text("The body as it was cut").clicked() {
@@ -103,7 +104,11 @@ fn list(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actions
 }
 
 fn targets(ui: &mut Ui, session: &Session, actions: &mut Actions) {
-    let (Some(pose), Mode::Pose) = (session.pose, session.mode) else {
+    if session.mode == Mode::Animation {
+        hint(ui, "The views show the animation. Choose a pose, or drag the body, to go on posing.");
+        return;
+    }
+    let Some(pose) = session.pose else {
         hint(ui, "Drag any point of the body, in either view, to begin a pose.");
         return;
     };

@@ -16,7 +16,8 @@ pub fn show(ui: &mut Ui, session: &Session) {
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.add_space(6.0);
-            ui.label(small(figures(session)).weak()).on_hover_text(
+            let solving = if session.is_settled() { "" } else { "solving…    " };
+            ui.label(small(format!("{solving}{}", figures(session))).weak()).on_hover_text(
                 "Pose error of both plushies (rms distance of the targets in body lengths), and how long the solver took",
             );
         });

@@ -1,6 +1,6 @@
 //! Keyframes in time: play, scrub, drag, ease. The curves are the winches' activations.
 
-use super::{Actions, heading};
+use super::Actions;
 use crate::design::{Easing, animation};
 use crate::picture::palette::Palette;
 use crate::studio::action::Action;
@@ -17,10 +17,14 @@ use eframe::egui::{
 pub struct State {
     /// What the width stands for, s; stays while a keyframe is dragged.
     span_s: f64,
-    /// From the pointer to the keyframe being dragged, s.
+    /// A keyframe is in hand.
+    held: bool,
+    /// From the pointer to it, s.
     offset_s: f64,
 }
 
+/// Height of the row of times, logical pixels.
+const RULER: f32 = 16.0;
 /// The timeline shows at least this much, s.
 const LEAST_SPAN_S: f64 = 4.0;
 /// Dragged keyframes fall on multiples of this, s; with Shift they are free.
@@ -151,7 +155,7 @@ fn paint_background(ui: &Ui, session: &Session, axis: &Axis) {
     let mut tick = 0.0;
     while tick <= axis.span_s {
         let x = axis.x(tick);
-        painter.vline(x, axis.rect.top() + 14.0..=base, line);
+        painter.vline(x, axis.rect.top() + RULER..=base, line);
         let text = format!("{tick:.0} s");
         painter.text(pos2(x, axis.rect.top()), Align2::CENTER_TOP, text, FontId::proportional(10.5), weak);
         tick += step;
@@ -192,63 +196,52 @@ fn curves(ui: &Ui, session: &Session, axis: &Axis, base: f32) {
 
 /// Draws and drags the keyframes; true if the pointer is busy with one.
 fn keyframes(ui: &mut Ui, session: &Session, axis: &Axis, state: &mut State, actions: &mut Actions) -> bool {
-    let mut busy = false;
     let y = axis.rect.bottom() - 8.0;
+    let (pressed, down, pointer) =
+        ui.input(|i| (i.pointer.primary_pressed(), i.pointer.primary_down(), i.pointer.interact_pos()));
+    let mut busy = state.held;
+    state.held &= down;
     for (index, keyframe) in session.design().keyframes.iter().enumerate() {
         let center = pos2(axis.x(keyframe.time_s), y);
         let selected = session.selection == Selection::Keyframe(index);
         let hit = Rect::from_center_size(center, vec2(18.0, 18.0));
-        // A dragged keyframe may pass others and change its number, so the one in hand has an id of its own.
-        let id = ui.scope_id().with("keyframe").with(if selected { usize::MAX } else { index });
+        let id = ui.scope_id().with("keyframe").with(index);
         let response = ui.interact(hit, id, Sense::click_and_drag()).on_hover_cursor(CursorIcon::ResizeHorizontal);
         response.widget_info(|| WidgetInfo::selected(Role::Button, true, selected, format!("Keyframe {}", index + 1)));
-        let hovered = response.hovered() || response.dragged();
+        let large = response.hovered() || selected && state.held;
         let fill = if selected {
             style::accent(session.look.theme)
         } else {
             ui.visuals().widgets.noninteractive.fg_stroke.color
         };
         let stroke = Stroke::new(1.5, ui.visuals().window_fill);
-        ui.painter().add(icons::diamond(center, if hovered { 8.0 } else { 6.5 }, fill, stroke));
-        busy |= response.is_pointer_button_down_on() || response.dragged() || response.clicked();
-        if response.is_pointer_button_down_on() && !selected {
+        ui.painter().add(icons::diamond(center, if large { 8.0 } else { 6.5 }, fill, stroke));
+        if let Some(pointer) = pointer.filter(|_| pressed && response.is_pointer_button_down_on()) {
+            state.held = true;
+            state.offset_s = keyframe.time_s - axis.time(pointer.x);
             actions.push(Action::Select(Selection::Keyframe(index)));
-            if let Some(pointer) = ui.input(|i| i.pointer.interact_pos()) {
-                state.offset_s = keyframe.time_s - axis.time(pointer.x);
-            }
         }
         if response.clicked() {
+            busy = true;
             actions.push(Action::Scrub(keyframe.time_s));
         }
-        drag_keyframe(ui, session, index, axis, state, actions, selected && response.is_pointer_button_down_on());
         let tip = format!("{:.2} s, {}", keyframe.time_s, keyframe.pose.as_deref().unwrap_or("free"));
         response.on_hover_text(tip);
     }
-    busy
+    if let Some(pointer) = pointer.filter(|_| state.held && !pressed) {
+        drag_keyframe(ui, session, axis.time(pointer.x) + state.offset_s, actions);
+    }
+    busy || state.held
 }
 
-fn drag_keyframe(
-    ui: &Ui,
-    session: &Session,
-    index: usize,
-    axis: &Axis,
-    state: &mut State,
-    actions: &mut Actions,
-    held: bool,
-) {
-    let Some(keyframe) = session.design().keyframes.get(index).filter(|_| held) else { return };
-    let pressed = ui.input(|i| i.pointer.primary_pressed());
-    let Some(pointer) = ui.input(|i| i.pointer.interact_pos()) else { return };
-    if pressed {
-        state.offset_s = keyframe.time_s - axis.time(pointer.x);
-        return;
-    }
-    if !ui.input(|i| i.pointer.is_decidedly_dragging()) {
-        return;
-    }
-    let wanted = (axis.time(pointer.x) + state.offset_s).max(0.0);
-    let time_s = if ui.input(|i| i.modifiers.shift) { wanted } else { (wanted / SNAP_S).round() * SNAP_S };
-    if (time_s - keyframe.time_s).abs() > animation::SAME_TIME_S {
+/// Moves the keyframe in hand, which is the selected one: on its way past others it may change its number.
+fn drag_keyframe(ui: &Ui, session: &Session, wanted_s: f64, actions: &mut Actions) {
+    let Selection::Keyframe(index) = session.selection else { return };
+    let Some(keyframe) = session.design().keyframes.get(index) else { return };
+    let (dragging, free) = ui.input(|i| (i.pointer.is_decidedly_dragging(), i.modifiers.shift));
+    let wanted_s = wanted_s.max(0.0);
+    let time_s = if free { wanted_s } else { (wanted_s / SNAP_S).round() * SNAP_S };
+    if dragging && (time_s - keyframe.time_s).abs() > animation::SAME_TIME_S {
         actions.push(Action::Live(Change::MoveKeyframe { index, time_s }));
     }
 }
@@ -257,17 +250,12 @@ fn paint_playhead(ui: &Ui, session: &Session, axis: &Axis) {
     let x = axis.x(session.playback.time_s);
     let color = style::accent(session.look.theme);
     let width = if session.mode == Mode::Animation { 2.0 } else { 1.0 };
-    let top = axis.rect.top() + 12.0;
+    let top = axis.rect.top() + RULER + 2.0;
     let painter = ui.painter_at(axis.rect);
     painter.vline(x, top..=axis.rect.bottom(), Stroke::new(width, color));
     painter.add(Shape::convex_polygon(
-        vec![pos2(x - 5.0, top - 5.0), pos2(x + 5.0, top - 5.0), pos2(x, top + 3.0)],
+        vec![pos2(x - 5.0, top - 2.0), pos2(x + 5.0, top - 2.0), pos2(x, top + 6.0)],
         color,
         Stroke::NONE,
     ));
-}
-
-/// Names the panel for those who cannot see it.
-pub fn title(ui: &mut Ui) {
-    heading(ui, "Timeline");
 }
