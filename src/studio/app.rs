@@ -49,16 +49,6 @@ impl Studio {
     /// One frame.
     pub fn update(&mut self, ui: &mut egui::Ui) {
         let ctx = ui.ctx().clone();
-        {
-            use std::sync::Mutex;
-            static F: Mutex<Vec<std::time::Instant>> = Mutex::new(Vec::new());
-            let mut f = F.lock().unwrap();
-            f.push(std::time::Instant::now());
-            if f.len() > 1 && f[0].elapsed().as_secs_f64() > 1.0 {
-                eprintln!("frames {} in {:.2} s", f.len(), f[0].elapsed().as_secs_f64());
-                f.clear();
-            }
-        }
         let (now_s, passed_s, hands_off) = ctx
             .input(|i| (i.time, f64::from(i.stable_dt), !i.pointer.any_down() && i.pointer.press_origin().is_none()));
         let typing = ctx.text_edit_focused();
