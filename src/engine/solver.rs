@@ -1,6 +1,7 @@
 //! Poses both plushies of a design, warm-started from the request before.
 
 use super::compile::{Plushie, View, compile, objective};
+use super::trial::{SAME_STATE, WINDING_STEPS};
 use super::{Outcome, Question, Request, Shape};
 use crate::design::{Design, Target};
 use crate::soft_ik::contraction::GaussNewton;
@@ -15,6 +16,11 @@ const FIBER_ITERATIONS: usize = 40;
 const WINCH_ITERATIONS: usize = 20;
 /// Iterations of each method where there is time (checks, rigging).
 const THOROUGH_ITERATIONS: usize = 200;
+
+/// Iterations of descent where the fibres' solver has not converged, and the number of fibres up to which its dense steps
+/// are worth their time.
+const DESCENT_ITERATIONS: usize = 8;
+const DENSE_LIMIT: usize = 700;
 
 /// How much work a pose is worth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -158,11 +164,30 @@ fn run(
     let mut answer = match effort {
         Effort::Thorough if !fibers => {
             let budget = Budget { iterations: THOROUGH_ITERATIONS, stop: &stop };
-            default_method::Default.solve(&mut question, &start, &budget)
+            let mut answer = default_method::Default.solve(&mut question, &start, &budget);
+            // A state that winding from rest does not lead to is not one to promise.
+            let (zero, _) = question.settle(&beta, &rest, &stop);
+            let (wound, factorizations) = question.wind(&zero, &answer.posture.beta, WINDING_STEPS, &stop);
+            answer.factorizations += factorizations;
+            if wound.objective > SAME_STATE * answer.posture.objective {
+                answer = GaussNewton::default().solve(&mut question, &wound, &budget);
+            }
+            answer
         }
         Effort::Thorough => {
             let budget = Budget { iterations: THOROUGH_ITERATIONS, stop: &stop };
-            AllAtOnce::default().solve(&mut question, &start, &budget)
+            let mut answer = AllAtOnce::default().solve(&mut question, &start, &budget);
+            if !answer.converged && actuation.winches.len() <= DENSE_LIMIT {
+                // Many fibres at their limits can go on changing places; descent on the true objective ends that.
+                let budget = Budget { iterations: DESCENT_ITERATIONS, stop: &stop };
+                let descent = GaussNewton::default().solve(&mut question, &answer.posture, &budget);
+                answer = Answer {
+                    iterations: answer.iterations + descent.iterations,
+                    factorizations: answer.factorizations + descent.factorizations,
+                    ..descent
+                };
+            }
+            answer
         }
         Effort::Interactive if fibers => {
             AllAtOnce::default().solve(&mut question, &start, &Budget { iterations: FIBER_ITERATIONS, stop: &stop })
