@@ -17,11 +17,6 @@ const WINCH_ITERATIONS: usize = 20;
 /// Iterations of each method where there is time (checks, rigging).
 const THOROUGH_ITERATIONS: usize = 200;
 
-/// Iterations of descent where the fibres' solver has not converged, and the number of fibres up to which its dense steps
-/// are worth their time.
-const DESCENT_ITERATIONS: usize = 8;
-const DENSE_LIMIT: usize = 700;
-
 /// How much work a pose is worth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effort {
@@ -176,18 +171,7 @@ fn run(
         }
         Effort::Thorough => {
             let budget = Budget { iterations: THOROUGH_ITERATIONS, stop: &stop };
-            let mut answer = AllAtOnce::default().solve(&mut question, &start, &budget);
-            if !answer.converged && actuation.winches.len() <= DENSE_LIMIT {
-                // Many fibres at their limits can go on changing places; descent on the true objective ends that.
-                let budget = Budget { iterations: DESCENT_ITERATIONS, stop: &stop };
-                let descent = GaussNewton::default().solve(&mut question, &answer.posture, &budget);
-                answer = Answer {
-                    iterations: answer.iterations + descent.iterations,
-                    factorizations: answer.factorizations + descent.factorizations,
-                    ..descent
-                };
-            }
-            answer
+            AllAtOnce::default().solve(&mut question, &start, &budget)
         }
         Effort::Interactive if fibers => {
             AllAtOnce::default().solve(&mut question, &start, &Budget { iterations: FIBER_ITERATIONS, stop: &stop })
