@@ -14,7 +14,7 @@ ensure() {
   if can_install; then
     echo "Installing $* ($why)"
     export DEBIAN_FRONTEND=noninteractive
-    if apt-get update -q >/dev/null && apt-get install -y -q --no-install-recommends "$@" >/dev/null; then return 0; fi
+    if apt-get update -q >/dev/null 2>&1 && apt-get install -y -q --no-install-recommends "$@" >/dev/null 2>&1; then return 0; fi
   fi
   echo "Not installed: $* ($why). On Debian or Ubuntu: sudo apt-get install --no-install-recommends $*" >&2
 }

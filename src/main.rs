@@ -50,8 +50,13 @@ fn catch_interrupts() -> Result<(), CommandError> {
 }
 
 #[cfg(feature = "studio")]
-fn open_studio(_cli: &Cli) -> Result<(), CommandError> {
-    Err(CommandError::Environment("the studio is not in this build".into()))
+fn open_studio(cli: &Cli) -> Result<(), CommandError> {
+    use plushwright::studio::{self, StudioError};
+    let design = cli.design.as_deref().map(commands::document::load).transpose()?;
+    studio::run(design, cli.design.clone()).map_err(|error| match error {
+        StudioError::Failed(_) => CommandError::Failed(error.to_string()),
+        _ => CommandError::Environment(error.to_string()),
+    })
 }
 
 #[cfg(not(feature = "studio"))]

@@ -236,6 +236,29 @@ fn a_network_without_an_answer_is_written_with_code_3() {
     assert_eq!(written["converged"], false);
 }
 
+/// An interrupt during the demo ends it at once, and what was made so far disappears.
+#[cfg(unix)]
+#[test]
+fn an_interrupt_is_code_130_and_leaves_nothing() {
+    use std::io::Read;
+    let folder = tempfile::tempdir().unwrap();
+    let mut demo = Command::new(env!("CARGO_BIN_EXE_plushwright"))
+        .args(["demo", "--out", "result"])
+        .current_dir(folder.path())
+        .stdout(std::process::Stdio::piped())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    // The first line is printed once the outline is drawn: from then on there is something to clean up.
+    let mut first = [0];
+    demo.stdout.as_mut().unwrap().read_exact(&mut first).unwrap();
+    assert!(Command::new("kill").args(["-INT", &demo.id().to_string()]).status().unwrap().success());
+    let output = demo.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130));
+    assert_eq!(String::from_utf8(output.stderr).unwrap(), "plushwright: cancelled\n");
+    assert_eq!(names(folder.path()), Vec::<String>::new());
+}
+
 #[test]
 fn without_a_display_the_studio_says_so() {
     let folder = bar();

@@ -33,11 +33,11 @@ pub struct Demo {
 
 const OUTLINE: &[u8] = include_bytes!("../../assets/pig.svg");
 const FIBERS: usize = 571;
-/// Both feet on the ground: the hind legs and one front leg.
-const PINS: [Point; 3] = [[146.0, 4.0], [196.0, 4.0], [248.0, 4.0]];
-/// The ear folds forward and the front leg steps out: places of the body at rest and where they go, mm.
+/// A hand holds the trunk.
+const PINS: [Point; 3] = [[162.0, 112.0], [120.0, 110.0], [220.0, 110.0]];
+/// The ear tips forward and the leg below it kicks: places of the body at rest and where they go, mm.
 const POSES: [(&str, [Move; 2]); 1] =
-    [("greet", [Move { from: [67.0, 215.0], to: [14.0, 186.0] }, Move { from: [84.0, 6.0], to: [34.0, 28.0] }])];
+    [("ear-and-leg", [Move { from: [67.0, 214.0], to: [36.0, 180.0] }, Move { from: [83.0, 10.0], to: [50.0, 40.0] }])];
 /// Pictures of the animation.
 const FRAMES: usize = 5;
 const SIZE: (u32, u32) = (1280, 720);

@@ -7,7 +7,7 @@
 mod check;
 mod demo;
 mod discover;
-mod document;
+pub mod document;
 pub mod error;
 mod export;
 mod key;

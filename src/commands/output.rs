@@ -102,12 +102,12 @@ fn parent(path: &Path) -> &Path {
 /// A temporary file that, once kept, is as readable as any other new file (the default is private).
 fn new_file(folder: &Path) -> std::io::Result<tempfile::NamedTempFile> {
     let mut builder = tempfile::Builder::new();
+    builder.prefix(".plushwright-");
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
-        return builder.permissions(std::fs::Permissions::from_mode(0o666)).tempfile_in(folder);
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
-    #[cfg(not(unix))]
     builder.tempfile_in(folder)
 }
 

@@ -86,7 +86,6 @@ pub fn rigged(
         RigError::NoTargets => CommandError::Usage(e.to_string()),
         RigError::NothingFound => CommandError::NotConverged(e.to_string()),
         RigError::Cancelled => CommandError::Cancelled,
-        RigError::NotAvailable => CommandError::Failed(e.to_string()),
     })?;
     if rigged.keyframes.is_empty() {
         lay_out(&mut rigged, cancel)?;

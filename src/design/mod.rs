@@ -5,6 +5,7 @@
 //! reads winch activations off the timeline. Lengths are mm, stiffnesses N/mm.
 
 pub mod animation;
+pub mod bundled;
 pub mod edit;
 pub mod file;
 pub mod history;

@@ -4,17 +4,20 @@
 //! add what is missing (section 3, design loop).
 
 pub mod compile;
+pub mod propose;
+pub mod response;
 pub mod rig;
 pub mod solver;
+pub mod trial;
 pub mod worker;
 
+pub use propose::propose;
 pub use solver::{Effort, Solver};
 
 use crate::design::{Design, Network, Target};
 use crate::discovery;
 use crate::outline::Point;
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 
 /// One plushie, solved: a state that may be shown.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -79,15 +82,4 @@ pub struct Proposal {
     /// Target error before and after, in body lengths.
     pub error_before: f64,
     pub error_after: f64,
-}
-
-/// Proposes networks for a pose, best simulated pose error first.
-pub fn propose(
-    design: &Design,
-    targets: &[Target],
-    base: &discovery::Parameters,
-    cancel: &AtomicBool,
-) -> Vec<Proposal> {
-    let _ = (design, targets, base, cancel);
-    Vec::new()
 }

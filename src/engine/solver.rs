@@ -85,11 +85,10 @@ fn realize(
     };
     let last = compiled.last.take().filter(|p| p.beta.len() == beta.len());
     let answer = run(design, plushie, targets, &actuation, last, beta, effort, cancel);
-    let mut shape = shape(design, plushie, &actuation, targets, &answer, clock);
-    shape.activations_mm = match question {
-        Question::Targets(_) => tidy(plushie, &answer.posture),
-        Question::Activations(beta) => beta.clone(),
-    };
+    let mut shape = report(design, plushie, targets, &answer.posture, answer.iterations, clock);
+    if let Question::Activations(beta) = question {
+        shape.activations_mm = beta.clone();
+    }
     compiled.last = Some(answer.posture);
     shape
 }
@@ -120,7 +119,7 @@ fn idealize(
     let actuation = Actuation { winches, fixed };
     let last = compiled.last.take().filter(|p| p.beta.len() == beta.len());
     let answer = run(design, plushie, targets, &actuation, last, beta, effort, cancel);
-    let mut shape = shape(design, plushie, &actuation, targets, &answer, clock);
+    let mut shape = report(design, plushie, targets, &answer.posture, answer.iterations, clock);
     shape.activations_mm = activations.to_vec();
     let contractions = actuation.contractions(&answer.posture.beta);
     let tensions = plushie.model.contractile.tensions(&answer.posture.x);
@@ -222,27 +221,26 @@ fn tidy(plushie: &Plushie, posture: &Posture) -> Vec<f64> {
         .collect()
 }
 
-fn shape(
+/// A posture as it is shown. The model's laws must be those of the posture.
+pub(super) fn report(
     design: &Design,
     plushie: &Plushie,
-    actuation: &Actuation,
     targets: &[Target],
-    answer: &Answer,
+    posture: &Posture,
+    iterations: usize,
     clock: Instant,
 ) -> Shape {
-    let posture = &answer.posture;
     let tensions = plushie.model.contractile.tensions(&posture.x);
-    let _ = actuation;
     let nodes: Vec<[f64; 2]> = posture.x.chunks_exact(2).map(|p| [p[0], p[1]]).collect();
     Shape {
         target_error: target_error(design, targets, &nodes),
         nodes,
-        activations_mm: Vec::new(),
+        activations_mm: tidy(plushie, posture),
         fiber_contractions_mm: Vec::new(),
         fiber_tensions: Vec::new(),
         tendon_tensions: tensions[plushie.tendons.clone()].to_vec(),
         residual: posture.residual,
-        iterations: answer.iterations,
+        iterations,
         milliseconds: clock.elapsed().as_secs_f64() * 1e3,
         warning: warning(plushie, posture),
     }

@@ -4,8 +4,12 @@
 //! replaces one that has not been taken. A running request is left to finish, so that shapes keep coming while somebody
 //! drags; only when it has run longer than [`PATIENCE`] while a newer one waits is it told to stop, and then it answers
 //! with the best state it has reached.
+//!
+//! A drag is followed with little effort, from one posture to the next, and may end in a worse pose than can be reached.
+//! So once nothing newer waits, the same question is asked again with all effort, and the answer replaces the first one
+//! where it is better. Anything newer stops that at once.
 
-use super::{Outcome, Request, Shape, Solver};
+use super::{Effort, Outcome, Question, Request, Shape, Solver};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -16,6 +20,13 @@ use std::time::{Duration, Instant};
 /// How long a request may run on while a newer one waits. Long enough that a normal solve (some tens of ms) always
 /// finishes, short enough that a hard one does not freeze a drag.
 pub const PATIENCE: Duration = Duration::from_millis(300);
+
+/// A thorough answer replaces the interactive one where an error falls by more than this, in body lengths: below what
+/// can be seen, a shape that changes by itself only disturbs.
+const WORTH_SHOWING: f64 = 1e-3;
+
+/// What came of a solver's call; `Err` is a caught panic.
+type Solved = Result<Outcome, Box<dyn Any + Send>>;
 
 /// Answers requests in the background. Dropping it cancels what runs and joins its threads.
 pub struct Worker {
@@ -36,6 +47,8 @@ struct Slots {
     outcome: Option<Outcome>,
     /// When the running request was started.
     started: Option<Instant>,
+    /// What runs only betters an answer that is out already.
+    bettering: bool,
     stop: bool,
 }
 
@@ -43,8 +56,8 @@ impl Worker {
     /// Starts the threads. `wake` is called from there whenever an outcome is ready.
     pub fn spawn(wake: Box<dyn Fn() + Send>) -> Self {
         let mut solver = Solver::default();
-        Self::with(wake, move |request, cancel| {
-            let answer = catch_unwind(AssertUnwindSafe(|| solver.solve(request, cancel)));
+        Self::with(wake, move |request, effort, cancel| {
+            let answer = catch_unwind(AssertUnwindSafe(|| solver.solve_with(request, effort, cancel)));
             if answer.is_err() {
                 // What a panic left behind in there cannot be trusted.
                 solver = Solver::default();
@@ -53,10 +66,10 @@ impl Worker {
         })
     }
 
-    /// As [`Worker::spawn`] with another way to answer; `Err` is a caught panic.
+    /// As [`Worker::spawn`] with another way to answer.
     fn with(
         wake: Box<dyn Fn() + Send>,
-        solve: impl FnMut(&Request, &AtomicBool) -> Result<Outcome, Box<dyn Any + Send>> + Send + 'static,
+        solve: impl FnMut(&Request, Effort, &AtomicBool) -> Solved + Send + 'static,
     ) -> Self {
         let shared = Arc::new(Shared::default());
         let solver = std::thread::spawn({
@@ -72,7 +85,12 @@ impl Worker {
 
     /// Asks; replaces a request that has not been started yet.
     pub fn submit(&self, request: Request) {
-        self.shared.lock().request = Some(request);
+        let mut slots = self.shared.lock();
+        slots.request = Some(request);
+        if slots.bettering {
+            self.shared.cancel.store(true, Ordering::Relaxed);
+        }
+        drop(slots);
         self.shared.changed.notify_all();
     }
 
@@ -81,10 +99,10 @@ impl Worker {
         self.shared.lock().outcome.take()
     }
 
-    /// Whether a request waits or runs.
+    /// Whether anything is still to come: a request waits or runs, an answer is being bettered or has not been taken.
     pub fn is_busy(&self) -> bool {
         let slots = self.shared.lock();
-        slots.request.is_some() || slots.started.is_some()
+        slots.request.is_some() || slots.started.is_some() || slots.outcome.is_some()
     }
 }
 
@@ -111,39 +129,67 @@ impl Shared {
     }
 }
 
-fn answer_requests(
-    shared: &Shared,
-    wake: &dyn Fn(),
-    mut solve: impl FnMut(&Request, &AtomicBool) -> Result<Outcome, Box<dyn Any + Send>>,
-) {
+fn answer_requests(shared: &Shared, wake: &dyn Fn(), mut solve: impl FnMut(&Request, Effort, &AtomicBool) -> Solved) {
     let mut last: Option<Outcome> = None;
-    loop {
-        let request = {
-            let mut slots = shared.lock();
-            loop {
-                if slots.stop {
-                    return;
-                }
-                if let Some(request) = slots.request.take() {
-                    slots.started = Some(Instant::now());
-                    // Under the lock, so that a cancel meant for the request before cannot hit this one.
-                    shared.cancel.store(false, Ordering::Relaxed);
-                    break request;
-                }
-                slots = shared.wait(slots);
-            }
-        };
-        let outcome =
-            solve(&request, &shared.cancel).unwrap_or_else(|panic| after_panic(&request, last.as_ref(), &*panic));
+    while let Some(request) = next_request(shared) {
+        let solved = solve(&request, Effort::Interactive, &shared.cancel);
+        let panicked = solved.is_err();
+        let outcome = solved.unwrap_or_else(|panic| after_panic(&request, last.as_ref(), &*panic));
         last = Some(outcome.clone());
-        {
+        let bettering = {
             let mut slots = shared.lock();
-            slots.started = None;
-            slots.outcome = Some(outcome);
-        }
+            slots.outcome = Some(outcome.clone());
+            slots.bettering = !panicked && slots.request.is_none() && !slots.stop && can_be_bettered(&request);
+            slots.started = slots.bettering.then(Instant::now);
+            shared.cancel.store(slots.stop, Ordering::Relaxed);
+            slots.bettering
+        };
         shared.changed.notify_all();
         wake();
+        if bettering {
+            let better = solve(&request, Effort::Thorough, &shared.cancel).ok().filter(|new| is_better(new, &outcome));
+            let mut slots = shared.lock();
+            slots.started = None;
+            slots.bettering = false;
+            if let Some(better) = better {
+                last = Some(better.clone());
+                slots.outcome = Some(better);
+            }
+            drop(slots);
+            wake();
+        }
     }
+}
+
+/// Waits for a request; `None` when the worker is dropped.
+fn next_request(shared: &Shared) -> Option<Request> {
+    let mut slots = shared.lock();
+    loop {
+        if slots.stop {
+            return None;
+        }
+        if let Some(request) = slots.request.take() {
+            slots.started = Some(Instant::now());
+            // Under the lock, so that a cancel meant for the request before cannot hit this one.
+            shared.cancel.store(false, Ordering::Relaxed);
+            return Some(request);
+        }
+        slots = shared.wait(slots);
+    }
+}
+
+/// Only an inverse problem has more than one answer.
+fn can_be_bettered(request: &Request) -> bool {
+    matches!(&request.question, Question::Targets(targets) if !targets.is_empty())
+}
+
+fn is_better(new: &Outcome, old: &Outcome) -> bool {
+    let gain = |new: &Option<Shape>, old: &Option<Shape>| match (new, old) {
+        (Some(new), Some(old)) => old.target_error - new.target_error,
+        _ => 0.0,
+    };
+    let (idealized, realizable) = (gain(&new.idealized, &old.idealized), gain(&new.realizable, &old.realizable));
+    idealized.max(realizable) > WORTH_SHOWING && idealized.min(realizable) > -WORTH_SHOWING
 }
 
 /// Tells a request that outlasts [`PATIENCE`] to stop once a newer one waits.
@@ -203,24 +249,8 @@ mod tests {
 
     fn request(id: u64) -> Request {
         let mesh = crate::mesh::Mesh { nodes: vec![[0.0, 0.0], [10.0, 0.0], [0.0, 10.0]], triangles: vec![[0, 1, 2]] };
-        let design = Design {
-            version: 1,
-            name: "triangle".to_owned(),
-            outline: crate::outline::Outline { outer: mesh.nodes.clone(), holes: Vec::new() },
-            mesh,
-            material: Default::default(),
-            fibers: Default::default(),
-            tendons: Default::default(),
-            pins: Vec::new(),
-            poses: Vec::new(),
-            networks: Vec::new(),
-            keyframes: Vec::new(),
-            fabrication: Default::default(),
-            controller: Default::default(),
-            texture: None,
-            gravity: None,
-            stiffness_map: None,
-        };
+        let outline = crate::outline::Outline { outer: mesh.nodes.clone(), holes: Vec::new() };
+        let design = Design::new("triangle", outline, mesh);
         Request {
             id,
             design: Arc::new(design),
@@ -253,7 +283,7 @@ mod tests {
         let (open, gate) = mpsc::channel::<()>();
         let solved = Arc::new(AtomicUsize::new(0));
         let count = solved.clone();
-        let worker = Worker::with(wake, move |request, _| {
+        let worker = Worker::with(wake, move |request, _, _| {
             count.fetch_add(1, Ordering::Relaxed);
             let _ = gate.recv();
             Ok(rest(request))
@@ -277,7 +307,7 @@ mod tests {
     #[test]
     fn a_long_request_is_cancelled_only_for_a_newer_one() {
         let (wake, woken) = waker();
-        let worker = Worker::with(wake, |request, cancel| {
+        let worker = Worker::with(wake, |request, _, cancel| {
             let started = Instant::now();
             while request.id == 1 && !cancel.load(Ordering::Relaxed) && started.elapsed() < LONG {
                 std::thread::sleep(Duration::from_millis(1));
@@ -296,8 +326,10 @@ mod tests {
     #[test]
     fn a_panic_becomes_a_warning_and_the_worker_lives_on() {
         let (wake, woken) = waker();
-        let worker =
-            Worker::with(wake, |request, _| if request.id == 1 { Err(Box::new("no good")) } else { Ok(rest(request)) });
+        let worker = Worker::with(
+            wake,
+            |request, _, _| if request.id == 1 { Err(Box::new("no good")) } else { Ok(rest(request)) },
+        );
         worker.submit(request(1));
         woken.recv_timeout(LONG).unwrap();
         let shape = worker.take().unwrap().realizable.unwrap();
@@ -309,9 +341,43 @@ mod tests {
     }
 
     #[test]
+    fn a_pose_is_answered_at_once_and_bettered_while_nothing_newer_waits() {
+        let (wake, woken) = waker();
+        let worker = Worker::with(wake, |request, effort, cancel| {
+            let started = Instant::now();
+            let thorough = effort == Effort::Thorough;
+            // The first is bettered only after a newer one has stopped that.
+            while thorough && request.id == 1 && !cancel.load(Ordering::Relaxed) && started.elapsed() < LONG {
+                std::thread::sleep(Duration::from_millis(1));
+            }
+            let error = if thorough && request.id == 2 { 0.1 } else { 0.5 };
+            let mut outcome = rest(request);
+            for shape in [&mut outcome.idealized, &mut outcome.realizable].into_iter().flatten() {
+                shape.target_error = error;
+            }
+            Ok(outcome)
+        });
+        let at = crate::mesh::BodyPoint { triangle: 0, weights: [1.0, 0.0, 0.0] };
+        let target = crate::design::Target { at, to: [9.0, 9.0], weight: 1.0 };
+        let pose = |id| Request { question: Question::Targets(vec![target]), ..request(id) };
+        worker.submit(pose(1));
+        woken.recv_timeout(LONG).unwrap();
+        assert_eq!(worker.take().unwrap().id, 1);
+        assert!(worker.is_busy());
+        worker.submit(pose(2));
+        let mut newest = None;
+        while worker.is_busy() {
+            woken.recv_timeout(LONG).unwrap();
+            newest = worker.take().or(newest);
+        }
+        let outcome = newest.unwrap();
+        assert_eq!((outcome.id, outcome.realizable.unwrap().target_error), (2, 0.1));
+    }
+
+    #[test]
     fn dropping_stops_a_running_request() {
         let (wake, _woken) = waker();
-        let worker = Worker::with(wake, |request, cancel| {
+        let worker = Worker::with(wake, |request, _, cancel| {
             let started = Instant::now();
             while !cancel.load(Ordering::Relaxed) && started.elapsed() < LONG {
                 std::thread::sleep(Duration::from_millis(1));

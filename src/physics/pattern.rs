@@ -126,11 +126,11 @@ impl Pattern {
     pub fn multiply(&self, values: &[f64], v: &[f64], y: &mut [f64]) {
         y.fill(0.0);
         for column in 0..self.dimension() {
-            for k in self.column_starts[column]..self.column_starts[column + 1] {
-                let row = self.row_indices[k];
-                y[row] += values[k] * v[column];
+            let stored = self.column_starts[column]..self.column_starts[column + 1];
+            for (&row, value) in self.row_indices[stored.clone()].iter().zip(&values[stored]) {
+                y[row] += value * v[column];
                 if row != column {
-                    y[column] += values[k] * v[row];
+                    y[column] += value * v[row];
                 }
             }
         }

@@ -56,10 +56,8 @@ impl Bounds {
 
     fn add(&mut self, p: &Point) {
         if p.iter().all(|v| v.is_finite()) {
-            for axis in 0..2 {
-                self.low[axis] = self.low[axis].min(p[axis]);
-                self.high[axis] = self.high[axis].max(p[axis]);
-            }
+            self.low = [self.low[0].min(p[0]), self.low[1].min(p[1])];
+            self.high = [self.high[0].max(p[0]), self.high[1].max(p[1])];
         }
     }
 }

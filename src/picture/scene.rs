@@ -10,7 +10,6 @@ use crate::discovery::Stages;
 use crate::engine::Shape;
 use crate::mesh::Mesh;
 use crate::outline::Point;
-use std::collections::BTreeMap;
 
 /// What to draw beside the body.
 #[derive(Clone, Copy, Debug)]
@@ -111,7 +110,7 @@ pub fn scene(design: &Design, shape: &Shape, options: &Options<'_>) -> Scene {
 fn body(items: &mut Vec<Item>, mesh: &Mesh, shape: &Shape, palette: &Palette) {
     let triangles = mesh.triangles.clone();
     items.push(Item::Mesh { points: shape.nodes.clone(), triangles, color: palette.body });
-    for edge in boundary_loops(mesh) {
+    for edge in mesh.boundary() {
         let points = edge.iter().map(|&n| shape.nodes[n]).collect();
         items.push(Item::Line { points, width: size::SEAM, color: palette.seam, closed: true });
     }
@@ -255,43 +254,6 @@ fn length(routing: &[usize], nodes: &[Point]) -> f64 {
         .sum()
 }
 
-/// The closed node loops around the mesh, the body to their left. Of a node where two loops touch, each is closed
-/// somehow; for a drawing that is enough.
-pub fn boundary_loops(mesh: &Mesh) -> Vec<Vec<usize>> {
-    let mut directed = std::collections::BTreeSet::new();
-    for t in &mesh.triangles {
-        for (a, b) in [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])] {
-            if !directed.remove(&(b, a)) {
-                directed.insert((a, b));
-            }
-        }
-    }
-    let mut next: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-    for (a, b) in directed {
-        next.entry(a).or_default().push(b);
-    }
-    let mut loops = Vec::new();
-    while let Some((&start, _)) = next.first_key_value() {
-        let mut nodes = Vec::new();
-        let mut at = start;
-        while let Some(followers) = next.get_mut(&at) {
-            nodes.push(at);
-            let follower = followers.pop();
-            if followers.is_empty() {
-                next.remove(&at);
-            }
-            match follower {
-                Some(node) => at = node,
-                None => break,
-            }
-        }
-        if nodes.len() > 2 {
-            loops.push(nodes);
-        }
-    }
-    loops
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -306,27 +268,12 @@ mod tests {
             triangles: vec![[0, 1, 2], [0, 2, 3]],
         };
         let at = BodyPoint { triangle: 0, weights: [1.0, 0.0, 0.0] };
-        Design {
-            version: 1,
-            name: "square".to_owned(),
-            outline: Outline { outer: mesh.nodes.clone(), holes: Vec::new() },
-            mesh,
-            material: Default::default(),
-            fibers: Default::default(),
-            tendons: Default::default(),
-            pins: vec![Pin { at, position: None, stiffness: 1.0 }],
-            poses: Vec::new(),
-            networks: vec![Network {
-                name: "A".to_owned(),
-                tendons: vec![Tendon { routing: vec![0, 2], ratio: 1.0, slack_mm: 0.0 }],
-            }],
-            keyframes: Vec::new(),
-            fabrication: Default::default(),
-            controller: Default::default(),
-            texture: None,
-            gravity: None,
-            stiffness_map: None,
-        }
+        let outline = Outline { outer: mesh.nodes.clone(), holes: Vec::new() };
+        let mut design = Design::new("square", outline, mesh);
+        design.pins.push(Pin { at, position: None, stiffness: 1.0 });
+        let tendon = Tendon { routing: vec![0, 2], ratio: 1.0, slack_mm: 0.0 };
+        design.networks.push(Network { name: "A".to_owned(), tendons: vec![tendon] });
+        design
     }
 
     fn rest(design: &Design) -> Shape {
@@ -369,11 +316,6 @@ mod tests {
     fn a_shape_of_another_mesh_is_not_drawn() {
         let design = design();
         assert_eq!(scene(&design, &Shape::default(), &Options::default()), Scene::default());
-    }
-
-    #[test]
-    fn the_boundary_is_one_loop_around_the_body() {
-        assert_eq!(boundary_loops(&design().mesh), vec![vec![0, 1, 2, 3]]);
     }
 
     #[test]

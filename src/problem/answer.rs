@@ -233,7 +233,7 @@ fn answer_soft_ik(
     };
     if !answer.posture.in_equilibrium {
         errors.push("soft_ik: no equilibrium was found".into());
-    } else if stop() {
+    } else if stop() && !answer.converged {
         errors.push("soft_ik: the time budget ended the search".into());
     }
     let posture = answer.posture;

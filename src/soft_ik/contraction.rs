@@ -9,6 +9,7 @@
 //! calls for is first moved to just slack (which changes no position) and enters the step with the tangent of a barely
 //! taut element. So no answer is stuck in the slack stall.
 
+use super::quadratic::Quadratic;
 use super::sensitivity::position_jacobian;
 use super::{Answer, Budget, Method, Posture, Question};
 use nalgebra::{DMatrix, DVector};
@@ -29,8 +30,6 @@ impl Default for GaussNewton {
 const FIRST_DAMPING: f64 = 1e-4;
 /// Damping at which no useful step is left.
 const LAST_DAMPING: f64 = 1e10;
-/// Rounds of fixing activations that a step drives over their bounds.
-const BOUND_ROUNDS: usize = 30;
 
 impl Method for GaussNewton {
     fn name(&self) -> &'static str {
@@ -52,12 +51,12 @@ impl Method for GaussNewton {
             let floor = self.relative_decrease * best.objective;
             let mut improved = false;
             while damping < LAST_DAMPING && !(budget.stop)() {
-                let (step, promised) = local.step(question, damping);
+                let (step, promised) = local.step(damping);
                 if promised <= floor {
                     answer.converged = true;
                     break;
                 }
-                let mut beta: Vec<f64> = local.base.iter().zip(&step).map(|(b, d)| b + d).collect();
+                let mut beta: Vec<f64> = local.base.iter().zip(step.iter()).map(|(b, d)| b + d).collect();
                 question.actuation.clamp(&mut beta);
                 let guess = local.predict(question, &best.x, &step);
                 let (trial, factorizations) = question.settle(&beta, &guess, budget.stop);
@@ -86,13 +85,9 @@ impl Method for GaussNewton {
 struct Linearisation {
     /// Activations from which steps start: the posture's, with recruited slack winches moved to just slack.
     base: Vec<f64>,
-    gradient: DVector<f64>,
-    /// `J^T J`.
-    gram: DMatrix<f64>,
+    model: Quadratic,
     /// `dx/dbeta`, column by column.
     columns: Vec<f64>,
-    lower: Vec<f64>,
-    upper: Vec<f64>,
 }
 
 impl Linearisation {
@@ -103,7 +98,6 @@ impl Linearisation {
         let mut pull = vec![0.0; at.x.len()];
         question.objective.position_gradient(&at.x, &mut pull);
         question.model.solve(&mut pull);
-        let winches = question.actuation.winches.len();
         let elements = &question.model.contractile.elements;
         let (mut tensions, mut tangents) = (Vec::new(), Vec::new());
         for (e, c) in elements.iter().zip(&contractions) {
@@ -130,126 +124,25 @@ impl Linearisation {
             }
         }
         let columns = position_jacobian(question, &at.x, &tangents);
-        let this = Self {
-            gradient: DVector::zeros(winches),
-            gram: DMatrix::zeros(winches, winches),
-            lower: question.actuation.winches.iter().zip(&base).map(|(w, b)| w.lower - b).collect(),
-            upper: question.actuation.winches.iter().zip(&base).map(|(w, b)| w.upper - b).collect(),
-            base,
-            columns,
-        };
-        Some(this.with_quadratic(question, at, &contractions, &tensions, &tangents))
-    }
-
-    /// Sums `J^T r` and `J^T J` over the groups of residuals.
-    fn with_quadratic(
-        mut self,
-        question: &Question,
-        at: &Posture,
-        contractions: &[f64],
-        tensions: &[f64],
-        tangents: &[f64],
-    ) -> Self {
-        let (objective, n) = (question.objective, at.x.len());
-        let winches = &question.actuation.winches;
-        let column = |j: usize| &self.columns[j * n..(j + 1) * n];
-        for target in &objective.targets {
-            let offset = target.offset(&at.x);
-            for (axis, r) in offset.into_iter().enumerate() {
-                let row = DVector::from_fn(winches.len(), |j, _| {
-                    target.nodes.iter().zip(&target.weights).map(|(m, w)| w * column(j)[2 * m + axis]).sum::<f64>()
-                });
-                self.gradient.axpy(target.weight * r, &row, 1.0);
-                self.gram.ger(target.weight, &row, &row, 1.0);
-            }
-        }
-        if objective.rest_weights.iter().any(|q| *q > 0.0) {
-            let weight = |d: usize| objective.rest_weights[d / 2];
-            let scaled = DMatrix::from_fn(n, winches.len(), |d, j| weight(d).sqrt() * column(j)[d]);
-            let residual = DVector::from_fn(n, |d, _| weight(d).sqrt() * (at.x[d] - objective.rest[d]));
-            self.gradient += scaled.tr_mul(&residual);
-            self.gram += scaled.tr_mul(&scaled);
-        }
-        let elements = &question.model.contractile.elements;
-        let lambda = objective.contraction_weight;
-        for (j, winch) in winches.iter().enumerate() {
-            for &(e, ratio) in &winch.members {
-                let by = ratio / elements[e].alpha0;
-                self.gradient[j] += lambda * by * contractions[e] / elements[e].alpha0;
-                self.gram[(j, j)] += lambda * by * by;
-            }
-        }
-        if objective.tension_weight > 0.0 {
-            let rho = objective.tension_weight;
-            for (k, winch) in winches.iter().enumerate() {
-                for &(e, ratio) in &winch.members {
-                    if tangents[e] == 0.0 {
-                        continue;
-                    }
-                    let row = DVector::from_fn(winches.len(), |j, _| {
-                        let own = if j == k { ratio } else { 0.0 };
-                        tangents[e] * (elements[e].length_rate(&at.x, column(j)) + own)
-                    });
-                    self.gradient.axpy(rho * tensions[e], &row, 1.0);
-                    self.gram.ger(rho, &row, &row, 1.0);
-                }
-            }
-        }
-        self
+        let model = quadratic(question, at, &base, &columns, &contractions, &tensions, &tangents);
+        Some(Self { base, model, columns })
     }
 
     /// The damped step within the bounds, and the decrease of `O` that the model promises for it.
-    fn step(&self, _question: &Question, damping: f64) -> (Vec<f64>, f64) {
-        let m = self.gradient.len();
-        let largest = self.gram.diagonal().max().max(f64::MIN_POSITIVE);
-        let mut matrix = self.gram.clone();
-        for j in 0..m {
-            matrix[(j, j)] += damping * (self.gram[(j, j)] + 1e-4 * largest) + 1e-14 * largest;
-        }
-        let mut step = DVector::zeros(m);
-        // A variable on its bound stays there when the gradient pushes it outward.
-        let mut held: Vec<bool> = (0..m)
-            .map(|j| {
-                (self.lower[j] >= 0.0 && self.gradient[j] > 0.0) || (self.upper[j] <= 0.0 && self.gradient[j] < 0.0)
-            })
-            .collect();
-        for j in 0..m {
-            step[j] = 0.0_f64.max(self.lower[j]).min(self.upper[j]);
-        }
-        for _ in 0..BOUND_ROUNDS {
-            let free: Vec<usize> = (0..m).filter(|j| !held[*j]).collect();
-            if free.is_empty() {
-                break;
-            }
-            let block = DMatrix::from_fn(free.len(), free.len(), |a, b| matrix[(free[a], free[b])]);
-            let rhs = DVector::from_fn(free.len(), |a, _| {
-                let j = free[a];
-                let coupled: f64 = (0..m).filter(|k| held[*k]).map(|k| matrix[(j, k)] * step[k]).sum();
-                -self.gradient[j] - coupled
-            });
-            let Some(cholesky) = block.cholesky() else { break };
-            let solution = cholesky.solve(&rhs);
-            let mut clipped = false;
-            for (a, &j) in free.iter().enumerate() {
-                step[j] = solution[a].max(self.lower[j]).min(self.upper[j]);
-                if step[j] != solution[a] {
-                    held[j] = true;
-                    clipped = true;
-                }
-            }
-            if !clipped {
-                break;
-            }
-        }
-        let promised = -self.gradient.dot(&step) - 0.5 * (&self.gram * &step).dot(&step);
-        (step.as_slice().to_vec(), promised)
+    fn step(&self, damping: f64) -> (DVector<f64>, f64) {
+        let curvatures = self.model.curvatures();
+        let largest = curvatures.max().max(f64::MIN_POSITIVE);
+        let damping = curvatures.map(|c| damping * (c + 1e-4 * largest) + 1e-14 * largest);
+        let step = self.model.minimise(&damping);
+        let promised = self.model.promise(&step);
+        (step, promised)
     }
 
     /// First-order prediction of the positions after a step, or the old ones where it would invert a triangle.
-    fn predict(&self, question: &Question, x: &[f64], step: &[f64]) -> Vec<f64> {
+    fn predict(&self, question: &Question, x: &[f64], step: &DVector<f64>) -> Vec<f64> {
         let n = x.len();
         let mut dx = vec![0.0; n];
-        for (column, d) in self.columns.chunks_exact(n).zip(step) {
+        for (column, d) in self.columns.chunks_exact(n).zip(step.iter()) {
             if *d != 0.0 {
                 for (a, c) in dx.iter_mut().zip(column) {
                     *a += d * c;
@@ -261,4 +154,74 @@ impl Linearisation {
         }
         x.iter().zip(&dx).map(|(a, b)| a + b).collect()
     }
+}
+
+/// Stacks the residuals' Jacobian: targets, rest weights, tensions; relative contractions are diagonal.
+fn quadratic(
+    question: &Question,
+    at: &Posture,
+    base: &[f64],
+    columns: &[f64],
+    contractions: &[f64],
+    tensions: &[f64],
+    tangents: &[f64],
+) -> Quadratic {
+    let (objective, n) = (question.objective, at.x.len());
+    let winches = &question.actuation.winches;
+    let elements = &question.model.contractile.elements;
+    let column = |j: usize| &columns[j * n..(j + 1) * n];
+    let held = objective.rest_weights.iter().enumerate().filter(|(_, q)| **q > 0.0).map(|(i, q)| (i, q.sqrt()));
+    let held: Vec<(usize, f64)> = held.collect();
+    let pulled: Vec<(usize, usize, f64)> = if objective.tension_weight > 0.0 {
+        let members = winches.iter().enumerate().flat_map(|(j, w)| w.members.iter().map(move |&(e, r)| (j, e, r)));
+        members.filter(|&(_, e, _)| tangents[e] != 0.0).collect()
+    } else {
+        Vec::new()
+    };
+    let count = 2 * objective.targets.len() + 2 * held.len() + pulled.len();
+    let mut rows = DMatrix::zeros(count, winches.len());
+    let mut residual = DVector::zeros(count);
+    let offsets: Vec<[f64; 2]> = objective.targets.iter().map(|t| t.offset(&at.x)).collect();
+    let root = objective.tension_weight.sqrt();
+    for (k, &(_, e, _)) in pulled.iter().enumerate() {
+        residual[2 * objective.targets.len() + 2 * held.len() + k] = root * tensions[e];
+    }
+    for j in 0..winches.len() {
+        let dx = column(j);
+        let mut r = 0;
+        for (target, offset) in objective.targets.iter().zip(&offsets) {
+            let scale = target.weight.sqrt();
+            for axis in 0..2 {
+                let moved: f64 = target.nodes.iter().zip(&target.weights).map(|(m, w)| w * dx[2 * m + axis]).sum();
+                rows[(r, j)] = scale * moved;
+                residual[r] = scale * offset[axis];
+                r += 1;
+            }
+        }
+        for &(i, scale) in &held {
+            for d in [2 * i, 2 * i + 1] {
+                rows[(r, j)] = scale * dx[d];
+                residual[r] = scale * (at.x[d] - objective.rest[d]);
+                r += 1;
+            }
+        }
+        for &(owner, e, ratio) in &pulled {
+            let own = if owner == j { ratio } else { 0.0 };
+            rows[(r, j)] = root * tangents[e] * (elements[e].length_rate(&at.x, dx) + own);
+            r += 1;
+        }
+    }
+    let mut gradient = rows.tr_mul(&residual);
+    let mut diagonal = DVector::zeros(winches.len());
+    let lambda = objective.contraction_weight;
+    for (j, winch) in winches.iter().enumerate() {
+        for &(e, ratio) in &winch.members {
+            let by = ratio / elements[e].alpha0;
+            gradient[j] += lambda * by * contractions[e] / elements[e].alpha0;
+            diagonal[j] += lambda * by * by;
+        }
+    }
+    let lower = winches.iter().zip(base).map(|(w, b)| w.lower - b).collect();
+    let upper = winches.iter().zip(base).map(|(w, b)| w.upper - b).collect();
+    Quadratic { gradient, rows, diagonal, lower, upper }
 }

@@ -6,10 +6,17 @@
 
 use super::contraction::GaussNewton;
 use super::tension::AllAtOnce;
-use super::{Answer, Budget, Method, Posture, Question};
+use super::{Actuation, Answer, Budget, Method, Posture, Question};
 
 /// Beyond this many free winches the dense Gauss-Newton step (cost ~ winches^3) is not worth its time.
 const DENSE_LIMIT: usize = 700;
+/// Iterations and relative decrease from each of several starts; the best is then followed to the end.
+const EXPLORING_ITERATIONS: usize = 40;
+const EXPLORING_DECREASE: f64 = 1e-5;
+/// Up to this many winches are also recruited one by one.
+const SEQUENTIAL_LIMIT: usize = 12;
+/// Parts of its range from which a winch is recruited.
+const SEQUENTIAL_PARTS: [f64; 3] = [0.05, 0.3, 0.6];
 /// Up to this many free winches, starts are combined winch by winch.
 const COMBINED_STARTS: usize = 4;
 
@@ -46,6 +53,8 @@ impl Method for Default {
                 return best;
             }
         }
+        let explore = GaussNewton { relative_decrease: EXPLORING_DECREASE };
+        let exploring = Budget { iterations: budget.iterations.min(EXPLORING_ITERATIONS), stop: budget.stop };
         for beta in starts(question, start) {
             if (budget.stop)() {
                 break;
@@ -53,13 +62,64 @@ impl Method for Default {
             let (posture, factorizations) = question.settle(&beta, &start.x, budget.stop);
             best.factorizations += factorizations;
             if posture.in_equilibrium {
-                absorb(&mut best, GaussNewton::default().solve(question, &posture, budget));
+                absorb(&mut best, explore.solve(question, &posture, &exploring));
             }
         }
+        if count > 1 && count <= SEQUENTIAL_LIMIT {
+            absorb(&mut best, one_by_one(question, start, &explore, &exploring));
+        }
+        let from = best.posture.clone();
+        absorb(&mut best, GaussNewton::default().solve(question, &from, budget));
         let contractions = question.actuation.contractions(&best.posture.beta);
         question.model.contractile.set_contractions(&contractions);
         best
     }
+}
+
+/// Recruits the winches one after another: each is tried from several activations while those before it go on adjusting and
+/// those after it wait. Large bends that one winch must begin are found this way.
+fn one_by_one(question: &mut Question, start: &Posture, method: &GaussNewton, budget: &Budget) -> Answer {
+    let all = question.actuation;
+    // Waiting winches pay out as far as they may: a cable that is not yet in use must not hold the body back.
+    let mut beta: Vec<f64> =
+        all.winches.iter().zip(&start.beta).map(|(w, b)| if w.lower.is_finite() { w.lower } else { *b }).collect();
+    let (posture, factorizations) = question.settle(&beta, &start.x, budget.stop);
+    let mut best = Answer { posture, iterations: 0, factorizations, converged: false };
+    for count in 1..=all.winches.len() {
+        let some = Actuation { winches: all.winches[..count].to_vec(), fixed: all.contractions(&beta) };
+        let mut inner = Question { model: &mut *question.model, actuation: &some, objective: question.objective };
+        let winch = &all.winches[count - 1];
+        let upper = if winch.upper.is_finite() { winch.upper } else { reach(&inner, count - 1) };
+        let from = Posture { beta: beta[..count].to_vec(), ..best.posture.clone() };
+        let mut starts = vec![from.beta.clone()];
+        for part in SEQUENTIAL_PARTS {
+            let mut tried = from.beta.clone();
+            tried[count - 1] = part * upper;
+            some.clamp(&mut tried);
+            starts.push(tried);
+        }
+        best.posture.beta = from.beta.clone();
+        for tried in starts {
+            if (budget.stop)() {
+                break;
+            }
+            let (posture, factorizations) = inner.settle(&tried, &from.x, budget.stop);
+            best.factorizations += factorizations;
+            if posture.in_equilibrium {
+                absorb(&mut best, method.solve(&mut inner, &posture, budget));
+            }
+        }
+        beta[..count].copy_from_slice(&best.posture.beta);
+    }
+    best.posture.beta = beta;
+    best
+}
+
+/// A take-in for a winch without bound: half the shortest of its elements.
+fn reach(question: &Question, winch: usize) -> f64 {
+    let elements = &question.model.contractile.elements;
+    let members = &question.actuation.winches[winch].members;
+    0.5 * members.iter().map(|&(e, r)| elements[e].alpha0 / r).fold(f64::INFINITY, f64::min)
 }
 
 /// Takes the better posture and adds up the work.

@@ -21,6 +21,7 @@ pub mod contraction;
 pub mod default_method;
 pub mod gradient;
 pub mod objective;
+mod quadratic;
 pub mod sensitivity;
 pub mod tension;
 

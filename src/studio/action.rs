@@ -1,6 +1,7 @@
 //! What panels and viewports ask for. They borrow the session, read only, and return these; the session alone acts.
 
 use super::change::Change;
+use super::files::PathDialog;
 use super::session::{Selection, Tool};
 use super::viewport::camera::Camera;
 use crate::discovery::Parameters;
@@ -8,6 +9,7 @@ use crate::mesh::BodyPoint;
 use crate::outline::Point;
 use crate::picture::palette::Theme;
 use crate::picture::scene::Stage;
+use eframe::egui::Vec2;
 use std::path::PathBuf;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -19,7 +21,10 @@ pub enum Action {
     Undo,
     Redo,
     /// Begins to drag; `pointer` is where, mm.
-    Grab { what: Grab, pointer: Point },
+    Grab {
+        what: Grab,
+        pointer: Point,
+    },
     DragTo(Point),
     Release,
     /// Ends a drag or playback as if it had not been; otherwise clears the selection.
@@ -33,6 +38,12 @@ pub enum Action {
     ShowFibers(bool),
     ShowNetworks(bool),
     SetCamera(Camera),
+    /// Moves the picture, unless the drag moves a target and not `always`.
+    Pan {
+        from: Camera,
+        delta: Vec2,
+        always: bool,
+    },
     Fit,
     Play,
     Pause,
@@ -70,11 +81,17 @@ pub enum FileAction {
     Save,
     OpenPath(PathBuf),
     OpenExample(usize),
-    ImportPath { path: PathBuf, height_mm: f64, fibers: usize },
+    ImportPath {
+        path: PathBuf,
+        height_mm: f64,
+        fibers: usize,
+    },
     SavePath(PathBuf),
     ExportPath(PathBuf),
-    /// Answers to the dialogs.
     CloseDialog,
+    /// Something was typed.
+    EditDialog(PathDialog),
+    /// Answers about unsaved changes.
     SaveAndGoOn,
     DiscardAndGoOn,
     /// Opens the desktop's own dialog for the dialog that is shown.

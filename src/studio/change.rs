@@ -15,10 +15,24 @@ pub enum Change {
     RenamePose(usize, String),
     RemovePose(usize),
     /// A target of a pose; without one, of a new pose.
-    AddTarget { pose: Option<usize>, target: Target },
-    MoveTarget { pose: usize, index: usize, to: Point },
-    WeighTarget { pose: usize, index: usize, weight: f64 },
-    RemoveTarget { pose: usize, index: usize },
+    AddTarget {
+        pose: Option<usize>,
+        target: Target,
+    },
+    MoveTarget {
+        pose: usize,
+        index: usize,
+        to: Point,
+    },
+    WeighTarget {
+        pose: usize,
+        index: usize,
+        weight: f64,
+    },
+    RemoveTarget {
+        pose: usize,
+        index: usize,
+    },
     ClearTargets(usize),
     AddPin(BodyPoint),
     RemovePin(usize),
@@ -26,7 +40,10 @@ pub enum Change {
     RenameNetwork(usize, String),
     RemoveNetwork(usize),
     SetKeyframe(Keyframe),
-    MoveKeyframe { index: usize, time_s: f64 },
+    MoveKeyframe {
+        index: usize,
+        time_s: f64,
+    },
     EaseKeyframe(usize, Easing),
     RemoveKeyframe(usize),
     Rename(String),

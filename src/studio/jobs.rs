@@ -9,13 +9,25 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 
 /// What a job came to.
 pub enum Report {
-    Proposed { serial: u64, proposals: Vec<Proposal> },
+    Proposed {
+        serial: u64,
+        proposals: Vec<Proposal>,
+    },
     /// The desktop's dialog was answered; `at_once` if faster than any human.
-    Picked { path: Option<PathBuf>, at_once: bool },
+    Picked {
+        path: Option<PathBuf>,
+        at_once: bool,
+    },
     Imported(Result<Box<Design>, String>),
-    Exported { folder: PathBuf, result: Result<(), String> },
+    Exported {
+        folder: PathBuf,
+        result: Result<(), String>,
+    },
     /// The job itself broke.
-    Broken { job: &'static str, why: String },
+    Broken {
+        job: &'static str,
+        why: String,
+    },
 }
 
 pub type Wake = Arc<dyn Fn() + Send + Sync>;

@@ -1,1 +1,128 @@
-//! Room studio.
+//! The window: two views of the plushie, poses, networks, timeline.
+//!
+//! - [`app`] holds the state and updates it once a frame;
+//! - [`panels`] and [`viewport`] borrow the [`session`], read only, and return [`action`]s;
+//! - the session alone acts on them; it changes the document only by a [`change`], through the undo history;
+//! - [`viewport::renderer`] draws a neutral scene and knows nothing of the rest.
+//!
+//! Whatever takes long runs on a thread: the solver on its worker, the rest as [`jobs`].
+
+pub mod action;
+pub mod app;
+mod blank;
+pub mod change;
+mod discovering;
+mod dragging;
+pub mod files;
+pub mod icons;
+pub mod jobs;
+pub mod messages;
+pub mod panels;
+mod playing;
+pub mod session;
+mod shortcuts;
+pub mod style;
+pub mod viewport;
+
+use crate::design::{Design, bundled};
+use crate::picture::palette::Theme;
+use app::Studio;
+use eframe::egui;
+use session::Services;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::PathBuf;
+use std::sync::Arc;
+use thiserror::Error;
+
+/// What a bare Debian machine needs to open a window and draw in it.
+const PACKAGES: &str = "libegl1 libxkbcommon-x11-0 libxcursor1 libxi6 libx11-xcb1 mesa-vulkan-drivers";
+
+/// Why the window could not be opened.
+#[derive(Debug, Error)]
+pub enum StudioError {
+    #[error(
+        "no display: neither WAYLAND_DISPLAY nor DISPLAY leads to one. Start it from a desktop, or under a virtual \
+         display (apt-get install xvfb; xvfb-run plushwright)"
+    )]
+    NoDisplay,
+    #[error("the window system refused: {0}. On Debian or Ubuntu install: {PACKAGES}")]
+    WindowSystem(String),
+    #[error("no graphics adapter: {0}. Install a driver; without a GPU: apt-get install mesa-vulkan-drivers")]
+    NoAdapter(String),
+    #[error("the window failed: {0}")]
+    Failed(String),
+}
+
+/// Opens the window and returns when it is closed. Without a design the first example is shown.
+pub fn run(design: Option<Design>, path: Option<PathBuf>) -> Result<(), StudioError> {
+    if !has_display() {
+        return Err(StudioError::NoDisplay);
+    }
+    let design = design.unwrap_or_else(first_design);
+    let options = eframe::NativeOptions {
+        viewport: egui::ViewportBuilder::default()
+            .with_title(format!("Plushwright - {}", design.name))
+            .with_app_id("plushwright")
+            .with_inner_size([1280.0, 800.0])
+            .with_min_inner_size([860.0, 560.0]),
+        persist_window: false,
+        dithering: false,
+        ..Default::default()
+    };
+    let create: eframe::AppCreator<'_> = Box::new(|context| {
+        let theme = match context.egui_ctx.system_theme() {
+            Some(egui::Theme::Dark) => Theme::Dark,
+            _ => Theme::Light,
+        };
+        let studio = Studio::new(&context.egui_ctx, design, path, services());
+        style::set_theme(&context.egui_ctx, theme);
+        Ok(Box::new(studio.with_window(context.wgpu_render_state.as_ref(), theme)))
+    });
+    // winit panics where an X library is missing; what it says then is the user's only clue.
+    match catch_unwind(AssertUnwindSafe(|| eframe::run_native("plushwright", options, create))) {
+        Ok(outcome) => outcome.map_err(from_eframe),
+        Err(panic) => {
+            let text = panic.downcast_ref::<&str>().map(|s| (*s).to_owned());
+            let text = text.or_else(|| panic.downcast_ref::<String>().cloned());
+            Err(StudioError::WindowSystem(text.unwrap_or_else(|| "it panicked".to_owned())))
+        }
+    }
+}
+
+/// The real engine and exporter.
+pub fn services() -> Services {
+    Services {
+        propose: Arc::new(crate::engine::propose),
+        export: Arc::new(|design, folder| {
+            crate::fabrication::export(design, folder).map(|_| ()).map_err(|error| error.to_string())
+        }),
+    }
+}
+
+/// On other systems there always is one.
+fn has_display() -> bool {
+    let set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    !cfg!(target_os = "linux") || set("WAYLAND_DISPLAY") || set("WAYLAND_SOCKET") || set("DISPLAY")
+}
+
+fn first_design() -> Design {
+    bundled::ALL.first().and_then(|example| example.design().ok()).unwrap_or_else(crate::studio::blank::design)
+}
+
+fn from_eframe(error: eframe::Error) -> StudioError {
+    match error {
+        eframe::Error::Wgpu(error) => StudioError::NoAdapter(error.to_string()),
+        eframe::Error::Winit(error) => from_winit(&error.to_string()),
+        eframe::Error::WinitEventLoop(error) => from_winit(&error.to_string()),
+        other => StudioError::Failed(other.to_string()),
+    }
+}
+
+/// A display that is named but does not answer is told apart from a library that is missing.
+fn from_winit(text: &str) -> StudioError {
+    if text.contains("connection to X server") {
+        StudioError::NoDisplay
+    } else {
+        StudioError::WindowSystem(text.to_owned())
+    }
+}

@@ -1,23 +1,22 @@
 //! The state of the window, and everything that changes it.
 
-use super::action::{Action, FileAction, Grab};
+use super::action::{Action, FileAction};
 use super::change::{Change, Made};
 use super::files::Files;
 use super::jobs::{Jobs, Report, Wake};
 use super::messages::Messages;
 use super::viewport::camera::Camera;
-use crate::defaults;
 use crate::design::history::History;
-use crate::design::{Design, Keyframe, Target, animation, edit};
+use crate::design::{Design, Target, animation, edit};
 use crate::discovery::Parameters;
 use crate::engine::worker::Worker;
 use crate::engine::{Proposal, Question, Request, Shape};
 use crate::outline::Point;
 use crate::picture::palette::Theme;
 use crate::picture::scene::Stage;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 /// What a press on the body does.
@@ -67,12 +66,13 @@ pub struct Discovery {
     /// Which proposal the views show.
     pub shown: Option<usize>,
     pub stage: Stage,
-    serial: u64,
+    /// Counts the runs; what an abandoned one reports is not wanted.
+    pub(super) serial: u64,
 }
 
 pub struct Running {
     pub started: Instant,
-    cancel: Arc<AtomicBool>,
+    pub(super) cancel: Arc<AtomicBool>,
 }
 
 /// The newest good shapes.
@@ -82,11 +82,12 @@ pub struct Shapes {
     pub realizable: Option<Arc<Shape>>,
 }
 
-struct Drag {
-    pose: usize,
-    target: usize,
+/// A target in hand.
+pub(super) struct Drag {
+    pub(super) pose: usize,
+    pub(super) target: usize,
     /// From the pointer to the goal, mm.
-    offset: Point,
+    pub(super) offset: Point,
 }
 
 /// Asked of the worker last.
@@ -96,8 +97,17 @@ struct Asked {
     question: Question,
 }
 
-/// How proposals are made; tests put their own in.
+/// Makes proposals for a design and the targets of a pose.
 pub type Propose = Arc<dyn Fn(&Design, &[Target], &Parameters, &AtomicBool) -> Vec<Proposal> + Send + Sync>;
+/// Writes the blueprint of a design into a folder.
+pub type Export = Arc<dyn Fn(&Design, &Path) -> Result<(), String> + Send + Sync>;
+
+/// The long work that is done elsewhere; tests put their own in.
+#[derive(Clone)]
+pub struct Services {
+    pub propose: Propose,
+    pub export: Export,
+}
 
 pub struct Session {
     pub(super) history: History,
@@ -113,9 +123,9 @@ pub struct Session {
     pub(super) messages: Messages,
     pub(super) files: Files,
     pub(super) jobs: Jobs,
-    propose: Propose,
+    pub(super) services: Services,
     worker: Worker,
-    drag: Option<Drag>,
+    pub(super) drag: Option<Drag>,
     asked: Option<Asked>,
     /// Outcomes before this one belong to another document.
     first_id: u64,
@@ -126,7 +136,7 @@ pub struct Session {
 }
 
 impl Session {
-    pub fn new(design: Design, path: Option<PathBuf>, wake: Wake, propose: Propose) -> Self {
+    pub fn new(design: Design, path: Option<PathBuf>, wake: Wake, services: Services) -> Self {
         let on_outcome = wake.clone();
         Self {
             pose: first_pose(&design),
@@ -149,7 +159,7 @@ impl Session {
             messages: Messages::default(),
             files: Files::default(),
             jobs: Jobs::new(wake),
-            propose,
+            services,
             worker: Worker::spawn(Box::new(move || on_outcome())),
             drag: None,
             asked: None,
@@ -163,6 +173,44 @@ impl Session {
     /// The document as it is now.
     pub fn design(&self) -> &Arc<Design> {
         self.history.current()
+    }
+
+    pub fn history(&self) -> &History {
+        &self.history
+    }
+
+    /// The current pose; `None` is the rest shape.
+    pub fn pose(&self) -> Option<usize> {
+        self.pose
+    }
+
+    pub fn selection(&self) -> Selection {
+        self.selection
+    }
+
+    pub fn playback(&self) -> &Playback {
+        &self.playback
+    }
+
+    pub fn discovery(&self) -> &Discovery {
+        &self.discovery
+    }
+
+    pub fn shapes(&self) -> &Shapes {
+        &self.shapes
+    }
+
+    pub fn messages(&self) -> &Messages {
+        &self.messages
+    }
+
+    pub fn look(&self) -> &Look {
+        &self.look
+    }
+
+    /// Whether a thread is busy with a file.
+    pub fn is_working(&self) -> bool {
+        self.files.working.is_some()
     }
 
     /// Targets of the current pose; none at rest and while the animation is shown.
@@ -179,7 +227,8 @@ impl Session {
 
     /// Whether the shapes answer the newest question.
     pub fn is_settled(&self) -> bool {
-        self.asked.as_ref().is_some_and(|asked| self.answered_id == Some(asked.id))
+        let resting = !self.worker.is_busy();
+        resting && self.asked.as_ref().is_some_and(|asked| self.answered_id == Some(asked.id))
     }
 
     /// The proposal that the views show.
@@ -245,6 +294,11 @@ impl Session {
             Action::ShowFibers(shown) => self.look.fibers = shown,
             Action::ShowNetworks(shown) => self.look.networks = shown,
             Action::SetCamera(camera) => self.look.camera = Some(camera),
+            Action::Pan { from, delta, always } => {
+                if always || self.drag.is_none() {
+                    self.look.camera = Some(from.panned(delta));
+                }
+            }
             Action::Fit => self.look.camera = None,
             Action::Play => self.play(),
             Action::Pause => self.playback.playing = false,
@@ -285,7 +339,7 @@ impl Session {
         self.ask();
     }
 
-    fn change(&mut self, change: Change) {
+    pub(super) fn change(&mut self, change: Change) {
         let label = change.label();
         match self.history.edit(label, |design| change.apply(design)) {
             Ok(made) => self.pick_out(made),
@@ -306,7 +360,7 @@ impl Session {
         }
     }
 
-    fn pick_out(&mut self, made: Made) {
+    pub(super) fn pick_out(&mut self, made: Made) {
         match made {
             Made::Nothing => {}
             Made::Pose(pose) => self.select_pose(Some(pose)),
@@ -330,7 +384,7 @@ impl Session {
     }
 
     /// After any change of the document: nothing may point beyond it.
-    fn clamp(&mut self) {
+    pub(super) fn clamp(&mut self) {
         let design = self.history.current();
         if self.pose.is_some_and(|pose| pose >= design.poses.len()) {
             self.pose = design.poses.len().checked_sub(1);
@@ -383,151 +437,6 @@ impl Session {
         self.clamp();
     }
 
-    fn grab(&mut self, what: Grab, pointer: Point) {
-        self.playback.playing = false;
-        self.mode = Mode::Pose;
-        self.discovery.shown = None;
-        let from = |p: Point| [p[0] - pointer[0], p[1] - pointer[1]];
-        match what {
-            Grab::Target(index) => {
-                let Some(pose) = self.pose else { return };
-                let Some(target) = self.targets().get(index).copied() else { return };
-                self.history.begin("Move target");
-                self.selection = Selection::Target(index);
-                self.drag = Some(Drag { pose, target: index, offset: from(target.to) });
-            }
-            Grab::Body(at, position) => {
-                self.history.begin("Add target");
-                let target = Target { at, to: position, weight: 1.0 };
-                let change = Change::AddTarget { pose: self.pose, target };
-                match self.history.preview(|design| change.apply(design)) {
-                    Ok(made) => {
-                        self.pick_out(made);
-                        if let Made::Target { pose, index } = made {
-                            self.drag = Some(Drag { pose, target: index, offset: from(position) });
-                        }
-                    }
-                    Err(error) => {
-                        self.history.cancel();
-                        self.messages.error(error.to_string());
-                    }
-                }
-            }
-        }
-    }
-
-    fn drag_to(&mut self, pointer: Point) {
-        let Some(drag) = &self.drag else { return };
-        let to = [pointer[0] + drag.offset[0], pointer[1] + drag.offset[1]];
-        let change = Change::MoveTarget { pose: drag.pose, index: drag.target, to };
-        if let Err(error) = self.history.preview(|design| change.apply(design)) {
-            self.messages.error(error.to_string());
-        }
-    }
-
-    fn release(&mut self) {
-        if self.drag.take().is_some() {
-            self.history.commit();
-        }
-    }
-
-    fn play(&mut self) {
-        let end = animation::duration_s(self.design());
-        if end <= 0.0 {
-            self.messages.info("Put at least two keyframes on the timeline to play an animation.");
-            return;
-        }
-        if self.playback.time_s >= end {
-            self.playback.time_s = 0.0;
-        }
-        self.mode = Mode::Animation;
-        self.discovery.shown = None;
-        self.playback.playing = true;
-    }
-
-    fn advance(&mut self, passed_s: f64) {
-        let end = animation::duration_s(self.design());
-        let time = self.playback.time_s + passed_s.max(0.0);
-        self.playback.time_s = if time < end {
-            time
-        } else if self.playback.looping && end > 0.0 {
-            time % end
-        } else {
-            self.playback.playing = false;
-            end
-        };
-    }
-
-    fn scrub(&mut self, time_s: f64) {
-        self.playback.playing = false;
-        self.playback.time_s = time_s.max(0.0);
-        self.discovery.shown = None;
-        self.mode = if self.design().keyframes.is_empty() { Mode::Pose } else { Mode::Animation };
-    }
-
-    /// At the playhead, or a step after the last keyframe where the playhead has one already.
-    fn set_keyframe(&mut self) {
-        let design = self.design().clone();
-        let Some(shape) = &self.shapes.realizable else { return };
-        if design.networks.is_empty() {
-            self.messages.warning("Without networks there is nothing to animate: propose and accept one first.");
-            return;
-        }
-        let mut time_s = self.playback.time_s;
-        if edit::keyframe_at(&design, time_s).is_some() {
-            time_s = animation::duration_s(&design) + defaults::KEYFRAME_SPACING_S;
-        }
-        let mut activations_mm = shape.activations_mm.clone();
-        activations_mm.resize(design.networks.len(), 0.0);
-        let pose = self.pose.and_then(|p| design.poses.get(p)).map(|p| p.name.clone());
-        let easing = Default::default();
-        self.change(Change::SetKeyframe(Keyframe { time_s, activations_mm, pose, easing }));
-        self.playback.time_s = time_s;
-    }
-
-    fn start_propose(&mut self) {
-        if let Some(why) = self.cannot_propose() {
-            self.messages.info(why);
-            return;
-        }
-        let cancel = Arc::new(AtomicBool::new(false));
-        self.discovery.serial += 1;
-        self.discovery.running = Some(Running { started: Instant::now(), cancel: cancel.clone() });
-        self.discovery.proposals.clear();
-        self.discovery.shown = None;
-        let (serial, design) = (self.discovery.serial, self.design().clone());
-        let (targets, parameters) = (self.targets().to_vec(), self.discovery.parameters.clone());
-        let propose = self.propose.clone();
-        self.jobs.start("Network discovery", move || {
-            let proposals = propose(&design, &targets, &parameters, &cancel);
-            Report::Proposed { serial, proposals }
-        });
-    }
-
-    fn cancel_propose(&mut self) {
-        if let Some(running) = self.discovery.running.take() {
-            running.cancel.store(true, Ordering::Relaxed);
-            // Whatever it still reports is not wanted.
-            self.discovery.serial += 1;
-        }
-    }
-
-    fn accept(&mut self, index: usize) {
-        if let Some(proposal) = self.discovery.proposals.get(index).cloned() {
-            self.discovery.proposals.clear();
-            self.discovery.shown = None;
-            self.change(Change::AcceptNetwork(proposal.network.clone()));
-        }
-    }
-
-    fn reject(&mut self, index: usize) {
-        if index < self.discovery.proposals.len() {
-            self.discovery.proposals.remove(index);
-            let left = self.discovery.proposals.len();
-            self.discovery.shown = self.discovery.shown.and(left.checked_sub(1)).map(|last| index.min(last));
-        }
-    }
-
     fn take_report(&mut self, report: Report) {
         match report {
             Report::Proposed { serial, proposals } => {
@@ -536,7 +445,8 @@ impl Session {
                 }
                 self.discovery.running = None;
                 if proposals.is_empty() {
-                    self.messages.warning("No network was found for this pose. Try more seeds or longer joining paths.");
+                    self.messages
+                        .warning("No network was found for this pose. Try more seeds or longer joining paths.");
                 }
                 self.discovery.proposals = proposals.into_iter().map(Arc::new).collect();
                 self.discovery.shown = if self.discovery.proposals.is_empty() { None } else { Some(0) };

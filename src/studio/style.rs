@@ -53,6 +53,8 @@ pub fn install(ctx: &egui::Context) {
         style.spacing.window_margin = Margin::same(16);
         style.spacing.menu_margin = Margin::same(6);
         style.spacing.slider_width = 110.0;
+        // Room for the scroll bar beside what is scrolled.
+        style.spacing.scroll.floating_allocated_width = 6.0;
         style.interaction.selectable_labels = false;
         style.interaction.tooltip_delay = 0.4;
     });
@@ -98,12 +100,15 @@ fn visuals(theme: Theme) -> Visuals {
     v.panel_fill = Color32::TRANSPARENT;
     v.faint_bg_color = tone(0.035);
     v.extreme_bg_color = if theme == Theme::Light { Color32::WHITE } else { color32(Color(20, 19, 18, 255)) };
-    v.window_fill = color32(mix(palette.background, Color(255, 255, 255, 255), if theme == Theme::Light { 0.6 } else { 0.05 }));
+    v.window_fill =
+        color32(mix(palette.background, Color(255, 255, 255, 255), if theme == Theme::Light { 0.6 } else { 0.05 }));
     v.window_stroke = Stroke::new(1.0, tone(0.16));
     v.window_corner_radius = CornerRadius::same(10);
     v.menu_corner_radius = CornerRadius::same(8);
-    v.warn_fg_color = if theme == Theme::Light { Color32::from_rgb(176, 92, 0) } else { Color32::from_rgb(246, 178, 84) };
-    v.error_fg_color = if theme == Theme::Light { Color32::from_rgb(186, 28, 34) } else { Color32::from_rgb(255, 122, 112) };
+    v.warn_fg_color =
+        if theme == Theme::Light { Color32::from_rgb(176, 92, 0) } else { Color32::from_rgb(246, 178, 84) };
+    v.error_fg_color =
+        if theme == Theme::Light { Color32::from_rgb(186, 28, 34) } else { Color32::from_rgb(255, 122, 112) };
     let shadow = Shadow { offset: [0, 4], blur: 16, spread: 0, color: Color32::from_black_alpha(40) };
     v.popup_shadow = shadow;
     v.window_shadow = shadow;

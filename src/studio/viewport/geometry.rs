@@ -3,8 +3,8 @@
 //! A capsule is a segment with a radius: round lines are chains of them, discs are capsules of no length, rings have an
 //! inner radius. Everything is anti-aliased by the shaders alone, so one sample a pixel is enough.
 
+use crate::mesh::Mesh;
 use crate::outline::Point;
-use crate::picture::scene::boundary_loops;
 use crate::picture::{Color, Item, Scene};
 use bytemuck::{Pod, Zeroable};
 use std::ops::Range;
@@ -73,8 +73,8 @@ impl Geometry {
         let corner = |node: usize| Corner { position: f32s(points[node]), outward: [0.0; 2], coverage: 1.0, color };
         let whole = triangles.iter().filter(|t| t.iter().all(|&n| n < points.len()));
         self.corners.extend(whole.flat_map(|t| t.map(corner)));
-        let mesh = crate::mesh::Mesh { nodes: points.to_vec(), triangles: triangles.to_vec() };
-        for edge in boundary_loops(&mesh) {
+        let mesh = Mesh { nodes: points.to_vec(), triangles: triangles.to_vec() };
+        for edge in mesh.boundary() {
             let outward = miters(&edge, points);
             let rim: Vec<[Corner; 2]> = edge
                 .iter()
@@ -187,7 +187,8 @@ mod tests {
 
     #[test]
     fn painting_order_is_kept_and_runs_are_merged() {
-        let line = |closed| Item::Line { points: vec![[0.0; 2], [1.0, 0.0], [1.0, 1.0]], width: 2.0, color: RED, closed };
+        let line =
+            |closed| Item::Line { points: vec![[0.0; 2], [1.0, 0.0], [1.0, 1.0]], width: 2.0, color: RED, closed };
         let disc = Item::Disc { center: [0.0; 2], radius: 5.0, fill: RED, stroke: Some((2.0, RED)) };
         let geometry = Geometry::of(&Scene { items: vec![square(), line(false), line(true), disc, square()] });
         assert_eq!(geometry.capsules.len(), 2 + 3 + 2);

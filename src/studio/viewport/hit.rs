@@ -44,16 +44,14 @@ pub fn test(design: &Design, targets: &[Target], nodes: &[Point], p: Point, mm_p
 
 /// The point of the body under `p`; a node within reach is preferred, and a miss by little is forgiven.
 pub fn body_point(mesh: &Mesh, nodes: &[Point], p: Point, mm_per_pixel: f64) -> Option<BodyPoint> {
-    let inside = mesh.triangles.iter().enumerate().find_map(|(triangle, t)| {
-        let weights = barycentric(t.map(|n| nodes[n]), p)?;
-        weights.iter().all(|w| *w >= 0.0).then_some(BodyPoint { triangle, weights })
-    });
-    let node = mesh.nearest_node(p, nodes);
-    let reach = f64::from(if inside.is_some() { NODE_REACH } else { EDGE_REACH }) * mm_per_pixel;
-    match nodes.get(node) {
-        Some(q) if distance(*q, p) <= reach => mesh.node_point(node).or(inside),
-        _ => inside,
+    let (nearest, miss) = mesh.locate_nearest(p, nodes)?;
+    if miss > f64::from(EDGE_REACH) * mm_per_pixel {
+        return None;
     }
+    let node = mesh.nearest_node(p, nodes);
+    let reach = f64::from(if miss > 0.0 { EDGE_REACH } else { NODE_REACH }) * mm_per_pixel;
+    let near_node = nodes.get(node).is_some_and(|&q| distance(q, p) <= reach);
+    if near_node { mesh.node_point(node).or(Some(nearest)) } else { Some(nearest) }
 }
 
 /// Index of the nearest of `points` within `reach` of `p`.
@@ -64,13 +62,6 @@ fn nearest(points: impl Iterator<Item = Point>, p: Point, reach: f64) -> Option<
         .filter(|(_, d)| *d <= reach)
         .min_by(|a, b| a.1.total_cmp(&b.1))
         .map(|(index, _)| index)
-}
-
-/// Weights of `p` in a triangle, `None` where it has no area.
-fn barycentric([a, b, c]: [Point; 3], p: Point) -> Option<[f64; 3]> {
-    let cross = |u: Point, v: Point, w: Point| (v[0] - u[0]) * (w[1] - u[1]) - (v[1] - u[1]) * (w[0] - u[0]);
-    let area = cross(a, b, c);
-    (area.abs() > f64::MIN_POSITIVE).then(|| [cross(b, c, p) / area, cross(c, a, p) / area, cross(a, b, p) / area])
 }
 
 fn distance(a: Point, b: Point) -> f64 {

@@ -1,0 +1,168 @@
+//! The window: state, and one update a frame.
+
+use super::action::Action;
+use super::files::desktop_has_dialogs;
+use super::panels::{self, Tab};
+use super::session::{Services, Session};
+use super::{shortcuts, style, viewport};
+use crate::design::Design;
+use crate::picture::palette::{Palette, Theme};
+use eframe::egui::{self, CentralPanel, Frame, Margin, Panel, ViewportCommand};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Duration;
+
+pub struct Studio {
+    session: Session,
+    panels: panels::State,
+    views: viewport::State,
+    title: String,
+}
+
+impl Studio {
+    /// `ctx` is woken up by the threads.
+    pub fn new(ctx: &egui::Context, design: Design, path: Option<PathBuf>, services: Services) -> Self {
+        style::install(ctx);
+        let wake = ctx.clone();
+        let session = Session::new(design, path, Arc::new(move || wake.request_repaint()), services);
+        style::set_theme(ctx, session.look.theme);
+        Self { session, panels: panels::State::default(), views: viewport::State::default(), title: String::new() }
+    }
+
+    /// Lets the views draw with the window's renderer, and lets the desktop's dialogs appear.
+    pub fn with_window(mut self, state: Option<&egui_wgpu::RenderState>, theme: Theme) -> Self {
+        /// eframe's pass has one sample unless it is asked for more.
+        const SAMPLES: u32 = 1;
+        if let Some(state) = state {
+            viewport::renderer::install(state, SAMPLES);
+            self.panels.gpu = true;
+        }
+        self.session.files.native_dialogs = desktop_has_dialogs();
+        self.session.look.theme = theme;
+        self
+    }
+
+    pub fn session(&self) -> &Session {
+        &self.session
+    }
+
+    /// One frame.
+    pub fn update(&mut self, ui: &mut egui::Ui) {
+        let ctx = ui.ctx().clone();
+        let (now_s, passed_s, hands_off) = ctx
+            .input(|i| (i.time, f64::from(i.stable_dt), !i.pointer.any_down() && i.pointer.press_origin().is_none()));
+        let typing = ctx.text_edit_focused();
+        self.session.tick(now_s, passed_s, hands_off && !typing);
+
+        let mut actions = Vec::new();
+        shortcuts::collect(&ctx, &self.session, &mut self.panels, typing, &mut actions);
+        self.layout(ui, &mut actions);
+        let changed = !actions.is_empty();
+        for action in actions {
+            if let Action::SetTheme(theme) = action {
+                style::set_theme(&ctx, theme);
+            }
+            self.session.apply(action);
+        }
+        if changed {
+            // So that the solver is asked, and the outcome of the actions seen, without waiting for the pointer.
+            ctx.request_repaint();
+        }
+        self.keep_awake(&ctx);
+        self.set_title(&ctx);
+        self.guard_closing(&ctx);
+    }
+
+    fn layout(&mut self, ui: &mut egui::Ui, actions: &mut Vec<Action>) {
+        let session = &self.session;
+        let bar = Frame::new().inner_margin(Margin::symmetric(6, 4));
+        Panel::top("toolbar").frame(bar).exact_size(42.0).resizable(false).show(ui, |ui| {
+            panels::toolbar::show(ui, session, actions);
+        });
+        let status = Panel::bottom("status").frame(Frame::new()).exact_size(24.0).resizable(false).show(ui, |ui| {
+            panels::status::show(ui, session);
+        });
+        let timeline =
+            Panel::bottom("timeline").frame(bar).default_size(132.0).size_range(96.0..=320.0).resizable(true);
+        let timeline = timeline.show(ui, |ui| {
+            panels::timeline::show(ui, session, &mut self.panels.timeline, actions);
+        });
+        let poses = Panel::left("poses").frame(panels::frame()).default_size(204.0).size_range(160.0..=360.0);
+        poses.show(ui, |ui| panels::poses::show(ui, session, &mut self.panels, actions));
+        let inspector = Panel::right("inspector").frame(panels::frame()).default_size(270.0).size_range(240.0..=420.0);
+        inspector.show(ui, |ui| inspect(ui, session, &mut self.panels, actions));
+        CentralPanel::no_frame().show(ui, |ui| {
+            viewport::show(ui, session, &mut self.views, self.panels.gpu, actions);
+        });
+        let above = status.response.rect.height() + timeline.response.rect.height();
+        panels::messages::show(ui.ctx(), session, above, actions);
+        panels::dialogs::show(ui.ctx(), session, actions);
+    }
+
+    /// Asks for the next frame where something moves by itself; otherwise nothing is drawn until something happens.
+    fn keep_awake(&self, ctx: &egui::Context) {
+        if self.session.playback.playing {
+            ctx.request_repaint();
+        }
+        if let Some(seconds) = self.session.messages.next_change_s() {
+            ctx.request_repaint_after(Duration::from_secs_f64(seconds.max(0.0)));
+        }
+    }
+
+    fn set_title(&mut self, ctx: &egui::Context) {
+        let mark = if self.session.history.is_modified() { "*" } else { "" };
+        let title = format!("Plushwright - {}{mark}", self.session.design().name);
+        if title != self.title {
+            ctx.send_viewport_cmd(ViewportCommand::Title(title.clone()));
+            self.title = title;
+        }
+    }
+
+    /// Closing with unsaved changes asks first.
+    fn guard_closing(&mut self, ctx: &egui::Context) {
+        if ctx.input(|i| i.viewport().close_requested()) && !self.session.files.quit {
+            self.session.apply(Action::File(super::action::FileAction::Quit));
+            if !self.session.files.quit {
+                ctx.send_viewport_cmd(ViewportCommand::CancelClose);
+                ctx.request_repaint();
+            }
+        } else if self.session.files.quit {
+            ctx.send_viewport_cmd(ViewportCommand::Close);
+        }
+    }
+}
+
+fn inspect(ui: &mut egui::Ui, session: &Session, state: &mut panels::State, actions: &mut Vec<Action>) {
+    ui.horizontal(|ui| {
+        for (tab, name) in [(Tab::Networks, "Networks"), (Tab::Settings, "Settings")] {
+            if ui.selectable_label(state.tab == tab, name).clicked() {
+                state.tab = tab;
+            }
+        }
+    });
+    ui.separator();
+    match state.tab {
+        Tab::Networks => {
+            egui::ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
+                panels::networks::show(ui, session, state, actions);
+                ui.add_space(12.0);
+                panels::discovery::show(ui, session, state, actions);
+            });
+        }
+        Tab::Settings => panels::settings::show(ui, session, actions),
+    }
+}
+
+impl eframe::App for Studio {
+    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        self.update(ui);
+    }
+
+    fn clear_color(&self, _visuals: &egui::Visuals) -> [f32; 4] {
+        style::color32(Palette::of(self.session.look.theme).background).to_normalized_gamma_f32()
+    }
+
+    fn persist_egui_memory(&self) -> bool {
+        false
+    }
+}

@@ -1,0 +1,331 @@
+//! Opening, importing, saving and exporting.
+//!
+//! Paths are asked for with the desktop's own dialogs, on a thread. Where there are none (a bare X server, a test) a
+//! field in the window takes their place.
+
+use super::action::FileAction;
+use super::jobs::Report;
+use super::session::Session;
+use crate::defaults;
+use crate::design::{Design, bundled, file};
+use crate::{mesh, outline};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// What a path is wanted for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    Open,
+    Import,
+    SaveAs,
+    Export,
+}
+
+/// What stands over the window.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Dialog {
+    /// There are unsaved changes; what was wanted is done afterwards.
+    Unsaved(Box<FileAction>),
+    Path(PathDialog),
+}
+
+/// Asks for a path in the window.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PathDialog {
+    pub purpose: Purpose,
+    pub path: String,
+    /// Of an imported outline, mm.
+    pub height_mm: f64,
+    /// Of an imported outline.
+    pub fibers: usize,
+}
+
+#[derive(Default)]
+pub struct Files {
+    pub dialog: Option<Dialog>,
+    /// What a thread is busy with, ready to be shown.
+    pub working: Option<&'static str>,
+    /// Waits for saving to succeed.
+    after_save: Option<FileAction>,
+    /// The path that the desktop's dialog was opened for.
+    picking: Option<Purpose>,
+    /// Whether the desktop has dialogs.
+    pub native_dialogs: bool,
+    /// The window should close.
+    pub quit: bool,
+}
+
+impl Purpose {
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Open => "Open a plushie",
+            Self::Import => "New plushie from an outline",
+            Self::SaveAs => "Save the plushie as",
+            Self::Export => "Export the blueprint",
+        }
+    }
+
+    /// What the button says.
+    pub fn verb(self) -> &'static str {
+        match self {
+            Self::Open => "Open",
+            Self::Import => "Create",
+            Self::SaveAs => "Save",
+            Self::Export => "Export",
+        }
+    }
+}
+
+impl PathDialog {
+    pub fn confirm(&self) -> FileAction {
+        let path = PathBuf::from(self.path.trim());
+        match self.purpose {
+            Purpose::Open => FileAction::OpenPath(path),
+            Purpose::Import => FileAction::ImportPath { path, height_mm: self.height_mm, fibers: self.fibers },
+            Purpose::SaveAs => FileAction::SavePath(path),
+            Purpose::Export => FileAction::ExportPath(path),
+        }
+    }
+}
+
+/// Whether the desktop is likely to have dialogs: on Linux they come over the session bus.
+pub fn desktop_has_dialogs() -> bool {
+    let bus = || {
+        std::env::var_os("DBUS_SESSION_BUS_ADDRESS").is_some()
+            || std::env::var_os("XDG_RUNTIME_DIR").is_some_and(|dir| Path::new(&dir).join("bus").exists())
+    };
+    !cfg!(target_os = "linux") || bus()
+}
+
+impl Session {
+    pub(super) fn file(&mut self, action: FileAction) {
+        let replaces = matches!(
+            action,
+            FileAction::Open
+                | FileAction::Import
+                | FileAction::OpenPath(_)
+                | FileAction::OpenExample(_)
+                | FileAction::ImportPath { .. }
+                | FileAction::Quit
+        );
+        // The path dialog was opened past the question, so its answer does not raise it again.
+        if replaces && self.files.dialog.is_none() && self.history.is_modified() {
+            self.files.dialog = Some(Dialog::Unsaved(Box::new(action)));
+            return;
+        }
+        self.file_unguarded(action);
+    }
+
+    fn file_unguarded(&mut self, action: FileAction) {
+        match action {
+            FileAction::Open => self.ask_path(Purpose::Open),
+            FileAction::Import => self.show_path_dialog(Purpose::Import),
+            FileAction::SaveAs => self.ask_path(Purpose::SaveAs),
+            FileAction::Export if self.design().networks.is_empty() => {
+                self.messages.warning("There is nothing to export yet: propose and accept a network first.");
+            }
+            FileAction::Export => self.show_path_dialog(Purpose::Export),
+            FileAction::Save => match self.path.clone() {
+                Some(path) => self.save(path),
+                None => self.ask_path(Purpose::SaveAs),
+            },
+            FileAction::OpenPath(path) => self.open_path(path),
+            FileAction::OpenExample(index) => self.open_example(index),
+            FileAction::ImportPath { path, height_mm, fibers } => self.import(path, height_mm, fibers),
+            FileAction::SavePath(path) => self.save(path),
+            FileAction::ExportPath(folder) => self.export(folder),
+            FileAction::CloseDialog => {
+                self.files.dialog = None;
+                self.files.after_save = None;
+            }
+            FileAction::EditDialog(dialog) => self.files.dialog = Some(Dialog::Path(dialog)),
+            FileAction::SaveAndGoOn => {
+                if let Some(Dialog::Unsaved(next)) = self.files.dialog.take() {
+                    self.files.after_save = Some(*next);
+                    self.file_unguarded(FileAction::Save);
+                }
+            }
+            FileAction::DiscardAndGoOn => {
+                if let Some(Dialog::Unsaved(next)) = self.files.dialog.take() {
+                    self.file_unguarded(*next);
+                }
+            }
+            FileAction::Browse => {
+                if let Some(Dialog::Path(dialog)) = &self.files.dialog {
+                    self.pick(dialog.purpose);
+                }
+            }
+            FileAction::Quit => self.files.quit = true,
+        }
+    }
+
+    pub(super) fn take_file_report(&mut self, report: Report) {
+        match report {
+            Report::Picked { path, at_once } => {
+                let Some(purpose) = self.files.picking.take() else { return };
+                match (path, self.files.dialog.clone()) {
+                    (Some(path), Some(Dialog::Path(dialog))) => {
+                        let path = if purpose == Purpose::Export { path.join(self.folder_name()) } else { path };
+                        let path = path.to_string_lossy().into_owned();
+                        self.files.dialog = Some(Dialog::Path(PathDialog { path, ..dialog }));
+                    }
+                    (Some(path), _) if purpose == Purpose::Open => self.open_path(path),
+                    (Some(path), _) => self.save(path),
+                    // Nobody cancels that fast: there was no dialog.
+                    (None, _) if at_once => {
+                        self.files.native_dialogs = false;
+                        if self.files.dialog.is_none() {
+                            self.show_path_dialog(purpose);
+                        } else {
+                            self.messages.info("This desktop has no file dialogs; type the path instead.");
+                        }
+                    }
+                    (None, _) => {}
+                }
+            }
+            Report::Imported(result) => {
+                self.files.working = None;
+                match result {
+                    Ok(design) => self.open(*design, None),
+                    Err(why) => self.messages.error(why),
+                }
+            }
+            Report::Exported { folder, result } => {
+                self.files.working = None;
+                match result {
+                    Ok(()) => self.messages.info(format!("The blueprint is in {}", folder.display())),
+                    Err(why) => self.messages.error(format!("The export failed: {why}")),
+                }
+            }
+            Report::Proposed { .. } | Report::Broken { .. } => {}
+        }
+    }
+
+    fn ask_path(&mut self, purpose: Purpose) {
+        if self.files.native_dialogs { self.pick(purpose) } else { self.show_path_dialog(purpose) }
+    }
+
+    fn show_path_dialog(&mut self, purpose: Purpose) {
+        let folder = self.folder();
+        let path = match purpose {
+            Purpose::Open | Purpose::Import => folder.join(""),
+            Purpose::SaveAs => self.path.clone().unwrap_or_else(|| folder.join(self.file_name())),
+            Purpose::Export => folder.join(self.folder_name()),
+        };
+        self.files.dialog = Some(Dialog::Path(PathDialog {
+            purpose,
+            path: path.to_string_lossy().into_owned(),
+            height_mm: defaults::HEIGHT_MM,
+            fibers: defaults::FIBERS,
+        }));
+    }
+
+    /// Opens the desktop's dialog.
+    fn pick(&mut self, purpose: Purpose) {
+        /// Faster than any human.
+        const AT_ONCE: Duration = Duration::from_millis(400);
+        if self.files.picking.replace(purpose).is_some() {
+            return;
+        }
+        let (folder, name) = (self.folder(), self.file_name());
+        self.jobs.start("The file dialog", move || {
+            let started = Instant::now();
+            let dialog = rfd::FileDialog::new().set_title(purpose.title()).set_directory(folder);
+            let path = match purpose {
+                Purpose::Open => dialog.add_filter("Plushies", &["plush"]).pick_file(),
+                Purpose::Import => dialog.add_filter("Outlines", &["svg"]).pick_file(),
+                Purpose::SaveAs => dialog.add_filter("Plushies", &["plush"]).set_file_name(name).save_file(),
+                Purpose::Export => dialog.pick_folder(),
+            };
+            Report::Picked { path, at_once: started.elapsed() < AT_ONCE }
+        });
+    }
+
+    fn open_path(&mut self, path: PathBuf) {
+        if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("svg")) {
+            self.show_path_dialog(Purpose::Import);
+            if let Some(Dialog::Path(dialog)) = &mut self.files.dialog {
+                dialog.path = path.to_string_lossy().into_owned();
+            }
+            return;
+        }
+        match file::read(&path) {
+            Ok(design) => {
+                self.files.dialog = None;
+                self.open(design, Some(path));
+            }
+            Err(error) => self.messages.error(error.to_string()),
+        }
+    }
+
+    fn open_example(&mut self, index: usize) {
+        let Some(example) = bundled::ALL.get(index) else { return };
+        match example.design() {
+            Ok(design) => self.open(design, None),
+            Err(error) => self.messages.error(format!("{}: {error}", example.name)),
+        }
+    }
+
+    fn import(&mut self, path: PathBuf, height_mm: f64, fibers: usize) {
+        self.files.dialog = None;
+        self.files.working = Some("Meshing the outline");
+        self.jobs.start("Import", move || {
+            let design = read_outline(&path, height_mm, fibers);
+            Report::Imported(design.map(Box::new).map_err(|why| format!("{}: {why}", path.display())))
+        });
+    }
+
+    fn save(&mut self, path: PathBuf) {
+        let path = if path.extension().is_none() { path.with_extension("plush") } else { path };
+        match file::write(&path, self.design()) {
+            Ok(()) => {
+                self.history.mark_saved();
+                self.messages.info(format!("Saved {}", path.display()));
+                self.path = Some(path);
+                self.files.dialog = None;
+                if let Some(next) = self.files.after_save.take() {
+                    self.file_unguarded(next);
+                }
+            }
+            Err(error) => self.messages.error(error.to_string()),
+        }
+    }
+
+    fn export(&mut self, folder: PathBuf) {
+        self.files.dialog = None;
+        self.files.working = Some("Exporting the blueprint");
+        let (design, export) = (self.design().clone(), self.services.export.clone());
+        self.jobs.start("Export", move || {
+            let result = export(&design, &folder);
+            Report::Exported { folder, result }
+        });
+    }
+
+    /// Where files of this plushie are likely to be.
+    fn folder(&self) -> PathBuf {
+        let beside = self.path.as_deref().and_then(Path::parent).map(Path::to_path_buf);
+        beside.filter(|p| !p.as_os_str().is_empty()).or_else(|| std::env::current_dir().ok()).unwrap_or_default()
+    }
+
+    fn file_name(&self) -> String {
+        format!("{}.plush", plain(&self.design().name))
+    }
+
+    fn folder_name(&self) -> String {
+        format!("{}-blueprint", plain(&self.design().name))
+    }
+}
+
+/// A name that every file system takes.
+fn plain(name: &str) -> String {
+    let name: String = name.trim().chars().map(|c| if c.is_alphanumeric() { c } else { '-' }).collect();
+    if name.is_empty() { "plushie".to_owned() } else { name.to_lowercase() }
+}
+
+fn read_outline(path: &Path, height_mm: f64, fibers: usize) -> Result<Design, String> {
+    let bytes = std::fs::read(path).map_err(|e| e.to_string())?;
+    let outline = outline::svg::read(&bytes, Some(height_mm)).map_err(|e| e.to_string())?;
+    let mesh = mesh::generate(&outline, fibers).map_err(|e| e.to_string())?;
+    let name = path.file_stem().map_or_else(|| "plushie".to_owned(), |s| s.to_string_lossy().into_owned());
+    Ok(Design::new(name, outline, mesh))
+}

@@ -1,0 +1,159 @@
+//! Icons drawn with a few strokes, and the buttons that carry them.
+
+use eframe::egui::{
+    Color32, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, epaint::PathShape, pos2, vec2,
+};
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Icon {
+    Undo,
+    Redo,
+    Hand,
+    Pin,
+    Fit,
+    Fibers,
+    Networks,
+    Sun,
+    Moon,
+    Plus,
+    Copy,
+    Pen,
+    Trash,
+    Play,
+    Pause,
+    Loop,
+    Key,
+    Close,
+    Check,
+}
+
+/// Side of an icon button, logical pixels.
+pub const BUTTON: f32 = 28.0;
+
+/// A square button. `name` is its accessible name, `tip` what the pointer is told (with the shortcut).
+pub fn button(ui: &mut Ui, icon: Icon, name: &str, tip: &str) -> Response {
+    draw_button(ui, icon, name, tip, None, BUTTON)
+}
+
+/// A button that is on or off.
+pub fn toggle(ui: &mut Ui, icon: Icon, name: &str, tip: &str, on: bool) -> Response {
+    draw_button(ui, icon, name, tip, Some(on), BUTTON)
+}
+
+/// For lists and headings.
+pub fn small_button(ui: &mut Ui, icon: Icon, name: &str, tip: &str) -> Response {
+    draw_button(ui, icon, name, tip, None, 22.0)
+}
+
+fn draw_button(ui: &mut Ui, icon: Icon, name: &str, tip: &str, on: Option<bool>, side: f32) -> Response {
+    let (rect, response) = ui.allocate_exact_size(Vec2::splat(side), Sense::click());
+    let enabled = ui.is_enabled();
+    response.widget_info(|| match on {
+        Some(on) => WidgetInfo::selected(Role::Button, enabled, on, name),
+        None => WidgetInfo::labeled(Role::Button, enabled, name),
+    });
+    if ui.is_rect_visible(rect) {
+        let visuals = ui.style().interact(&response);
+        let mut color = visuals.fg_stroke.color;
+        if on == Some(true) {
+            ui.painter().rect_filled(rect, 6.0, ui.visuals().selection.bg_fill);
+            color = ui.visuals().selection.stroke.color;
+        } else if response.hovered() && enabled || response.has_focus() {
+            ui.painter().rect_filled(rect, 6.0, visuals.weak_bg_fill);
+        }
+        let shapes = draw(icon, Rect::from_center_size(rect.center(), Vec2::splat(side * 0.6)), color);
+        ui.painter().extend(shapes);
+    }
+    response.on_hover_text(tip).on_disabled_hover_text(tip)
+}
+
+/// The strokes of an icon in `rect`.
+pub fn draw(icon: Icon, rect: Rect, color: Color32) -> Vec<Shape> {
+    let stroke = Stroke::new((rect.width() / 11.0).max(1.2), color);
+    let at = |x: f32, y: f32| pos2(rect.left() + x * rect.width(), rect.top() + y * rect.height());
+    let line = |points: &[(f32, f32)]| -> Shape { Shape::line(points.iter().map(|p| at(p.0, p.1)).collect(), stroke) };
+    let solid = |points: &[(f32, f32)]| -> Shape {
+        Shape::Path(PathShape::convex_polygon(points.iter().map(|p| at(p.0, p.1)).collect(), color, Stroke::NONE))
+    };
+    let arc = |center: (f32, f32), radius: f32, from: f32, to: f32| -> Shape {
+        let points = (0..=20).map(|i| {
+            let angle = (from + (to - from) * i as f32 / 20.0).to_radians();
+            at(center.0 + radius * angle.cos(), center.1 + radius * angle.sin())
+        });
+        Shape::line(points.collect(), stroke)
+    };
+    let dot = |x: f32, y: f32, r: f32| Shape::circle_filled(at(x, y), r * rect.width(), color);
+    let ring = |x: f32, y: f32, r: f32| Shape::circle_stroke(at(x, y), r * rect.width(), stroke);
+    match icon {
+        Icon::Undo => vec![arc((0.52, 0.6), 0.34, -150.0, 60.0), line(&[(0.16, 0.12), (0.2, 0.46), (0.52, 0.36)])],
+        Icon::Redo => vec![arc((0.48, 0.6), 0.34, -30.0, -240.0), line(&[(0.84, 0.12), (0.8, 0.46), (0.48, 0.36)])],
+        Icon::Hand => vec![line(&[
+            (0.2, 0.08),
+            (0.2, 0.78),
+            (0.38, 0.62),
+            (0.5, 0.92),
+            (0.64, 0.86),
+            (0.52, 0.58),
+            (0.76, 0.58),
+            (0.2, 0.08),
+        ])],
+        Icon::Pin => vec![ring(0.5, 0.3, 0.2), line(&[(0.5, 0.5), (0.5, 0.94)]), dot(0.5, 0.3, 0.07)],
+        Icon::Fit => vec![
+            line(&[(0.06, 0.32), (0.06, 0.06), (0.32, 0.06)]),
+            line(&[(0.68, 0.06), (0.94, 0.06), (0.94, 0.32)]),
+            line(&[(0.94, 0.68), (0.94, 0.94), (0.68, 0.94)]),
+            line(&[(0.32, 0.94), (0.06, 0.94), (0.06, 0.68)]),
+            dot(0.5, 0.5, 0.1),
+        ],
+        Icon::Fibers => vec![
+            line(&[(0.08, 0.88), (0.5, 0.1), (0.92, 0.88), (0.08, 0.88)]),
+            line(&[(0.29, 0.49), (0.71, 0.49), (0.5, 0.88), (0.29, 0.49)]),
+        ],
+        Icon::Networks => vec![
+            ring(0.26, 0.72, 0.18),
+            line(&[(0.4, 0.6), (0.62, 0.5), (0.9, 0.12)]),
+            line(&[(0.44, 0.72), (0.92, 0.76)]),
+        ],
+        Icon::Sun => {
+            let mut shapes = vec![ring(0.5, 0.5, 0.2)];
+            shapes.extend((0..8).map(|i| {
+                let (s, c) = (i as f32 * std::f32::consts::FRAC_PI_4).sin_cos();
+                line(&[(0.5 + 0.34 * c, 0.5 + 0.34 * s), (0.5 + 0.48 * c, 0.5 + 0.48 * s)])
+            }));
+            shapes
+        }
+        Icon::Moon => vec![arc((0.46, 0.54), 0.4, 0.0, 250.0), arc((0.72, 0.3), 0.3, 58.0, 212.0)],
+        Icon::Plus => vec![line(&[(0.5, 0.12), (0.5, 0.88)]), line(&[(0.12, 0.5), (0.88, 0.5)])],
+        Icon::Copy => vec![
+            line(&[(0.3, 0.3), (0.92, 0.3), (0.92, 0.92), (0.3, 0.92), (0.3, 0.3)]),
+            line(&[(0.3, 0.7), (0.08, 0.7), (0.08, 0.08), (0.7, 0.08), (0.7, 0.3)]),
+        ],
+        Icon::Pen => vec![line(&[(0.1, 0.9), (0.16, 0.66), (0.72, 0.1), (0.9, 0.28), (0.34, 0.84), (0.1, 0.9)])],
+        Icon::Trash => vec![
+            line(&[(0.08, 0.22), (0.92, 0.22)]),
+            line(&[(0.36, 0.2), (0.36, 0.06), (0.64, 0.06), (0.64, 0.2)]),
+            line(&[(0.2, 0.24), (0.26, 0.94), (0.74, 0.94), (0.8, 0.24)]),
+            line(&[(0.5, 0.4), (0.5, 0.78)]),
+        ],
+        Icon::Play => vec![solid(&[(0.2, 0.06), (0.92, 0.5), (0.2, 0.94)])],
+        Icon::Pause => vec![
+            solid(&[(0.16, 0.08), (0.4, 0.08), (0.4, 0.92), (0.16, 0.92)]),
+            solid(&[(0.6, 0.08), (0.84, 0.08), (0.84, 0.92), (0.6, 0.92)]),
+        ],
+        Icon::Loop => vec![
+            line(&[(0.1, 0.56), (0.1, 0.26), (0.86, 0.26)]),
+            line(&[(0.68, 0.06), (0.9, 0.26), (0.68, 0.46)]),
+            line(&[(0.9, 0.44), (0.9, 0.74), (0.14, 0.74)]),
+            line(&[(0.32, 0.54), (0.1, 0.74), (0.32, 0.94)]),
+        ],
+        Icon::Key => vec![solid(&[(0.5, 0.06), (0.94, 0.5), (0.5, 0.94), (0.06, 0.5)])],
+        Icon::Close => vec![line(&[(0.14, 0.14), (0.86, 0.86)]), line(&[(0.86, 0.14), (0.14, 0.86)])],
+        Icon::Check => vec![line(&[(0.08, 0.54), (0.38, 0.84), (0.92, 0.16)])],
+    }
+}
+
+/// A diamond around `center`.
+pub fn diamond(center: Pos2, radius: f32, fill: Color32, stroke: Stroke) -> Shape {
+    let points = [vec2(0.0, -radius), vec2(radius, 0.0), vec2(0.0, radius), vec2(-radius, 0.0)];
+    Shape::Path(PathShape::convex_polygon(points.map(|v| center + v).to_vec(), fill, stroke))
+}

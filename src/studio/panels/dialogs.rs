@@ -1,0 +1,103 @@
+//! Dialogs over the window: unsaved changes, and paths where the desktop has no dialogs of its own.
+
+use super::{Actions, primary};
+use crate::studio::action::{Action, FileAction};
+use crate::studio::files::{Dialog, PathDialog, Purpose};
+use crate::studio::session::Session;
+use eframe::egui::{Align, Context, DragValue, Id, Key, Layout, Modal, RichText, TextEdit, Ui};
+use std::path::Path;
+
+pub fn show(ctx: &Context, session: &Session, actions: &mut Actions) {
+    let Some(dialog) = &session.files.dialog else { return };
+    let modal = Modal::new(Id::unique("dialog")).show(ctx, |ui| {
+        ui.set_width(430.0);
+        match dialog {
+            Dialog::Unsaved(_) => unsaved(ui, session, actions),
+            Dialog::Path(dialog) => path(ui, session, dialog, actions),
+        }
+    });
+    if modal.should_close() {
+        actions.push(Action::File(FileAction::CloseDialog));
+    }
+}
+
+fn unsaved(ui: &mut Ui, session: &Session, actions: &mut Actions) {
+    ui.heading(format!("Save changes to “{}”?", session.design().name));
+    ui.label("Without saving they are lost.");
+    ui.add_space(10.0);
+    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        if primary(ui, true, "Save changes", 120.0).clicked() {
+            actions.push(Action::File(FileAction::SaveAndGoOn));
+        }
+        if ui.button("Discard changes").clicked() {
+            actions.push(Action::File(FileAction::DiscardAndGoOn));
+        }
+        if ui.button("Cancel").clicked() {
+            actions.push(Action::File(FileAction::CloseDialog));
+        }
+    });
+}
+
+fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, actions: &mut Actions) {
+    let mut edited = dialog.clone();
+    ui.heading(dialog.purpose.title());
+    ui.add_space(6.0);
+    let mut confirmed = false;
+    ui.horizontal(|ui| {
+        let width = ui.available_width() - if session.files.native_dialogs { 84.0 } else { 0.0 };
+        let hint = match dialog.purpose {
+            Purpose::Open | Purpose::SaveAs => "Path of a .plush file",
+            Purpose::Import => "Path of an .svg file",
+            Purpose::Export => "Path of a new folder",
+        };
+        let field = ui.add(TextEdit::singleline(&mut edited.path).hint_text(hint).desired_width(width));
+        let field = field.accessible_name("Path");
+        confirmed = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
+        if ui.memory(|m| m.focused().is_none()) {
+            field.request_focus();
+        }
+        if session.files.native_dialogs && ui.button("Browse…").clicked() {
+            actions.push(Action::File(FileAction::Browse));
+        }
+    });
+    if dialog.purpose == Purpose::Import {
+        import_settings(ui, &mut edited);
+    }
+    let path = Path::new(edited.path.trim());
+    let note = match dialog.purpose {
+        Purpose::Export => {
+            "Pattern, routings, winch tracks and controller program. The folder appears whole or not at all."
+        }
+        Purpose::SaveAs if path.is_file() && session.path.as_deref() != Some(path) => {
+            "This file exists and will be replaced."
+        }
+        Purpose::Import => "The filled shapes of the drawing are joined to one silhouette.",
+        _ => "",
+    };
+    ui.label(RichText::new(note).small().weak());
+    ui.add_space(10.0);
+    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        let verb = dialog.purpose.verb();
+        let ready = !edited.path.trim().is_empty();
+        if (primary(ui, ready, verb, 100.0).clicked() || confirmed) && ready {
+            actions.push(Action::File(edited.confirm()));
+        }
+        if ui.button("Cancel").clicked() {
+            actions.push(Action::File(FileAction::CloseDialog));
+        }
+    });
+    if edited != *dialog {
+        // Before anything that closes the dialog.
+        actions.insert(0, Action::File(FileAction::EditDialog(edited)));
+    }
+}
+
+fn import_settings(ui: &mut Ui, edited: &mut PathDialog) {
+    ui.horizontal(|ui| {
+        let label = ui.label("Height");
+        ui.add(DragValue::new(&mut edited.height_mm).range(10.0..=5000.0).suffix(" mm")).labelled_by(label.id);
+        ui.add_space(12.0);
+        let label = ui.label("Muscle fibres");
+        ui.add(DragValue::new(&mut edited.fibers).range(20..=20_000)).labelled_by(label.id);
+    });
+}

@@ -1,0 +1,83 @@
+//! The panels. Each borrows the session, read only, and says what it wants as actions.
+
+pub mod dialogs;
+pub mod discovery;
+pub mod messages;
+pub mod networks;
+pub mod poses;
+pub mod settings;
+pub mod status;
+pub mod timeline;
+pub mod toolbar;
+
+use super::action::Action;
+use super::style;
+use super::viewport::thumbnail::Thumbnails;
+use eframe::egui::{Button, Frame, Margin, Response, RichText, Ui};
+
+/// What belongs to the controls alone: half-typed text, which tab is open.
+#[derive(Default)]
+pub struct State {
+    pub tab: Tab,
+    /// A name being typed, and what it is for.
+    pub renaming: Option<(Renamed, String)>,
+    pub timeline: timeline::State,
+    pub thumbnails: Thumbnails,
+    /// Whether pictures can be drawn.
+    pub gpu: bool,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Tab {
+    #[default]
+    Networks,
+    Settings,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Renamed {
+    Pose(usize),
+    Network(usize),
+    Plushie,
+}
+
+/// Of side panels: no fill, see [`style`].
+pub fn frame() -> Frame {
+    Frame::new().inner_margin(Margin::symmetric(12, 10))
+}
+
+/// A heading of a panel.
+pub fn heading(ui: &mut Ui, text: &str) {
+    ui.label(RichText::new(text).strong().size(13.5));
+}
+
+/// The one button of a panel that matters most.
+pub fn primary(ui: &mut Ui, enabled: bool, text: &str, width: f32) -> Response {
+    let theme = style::theme_of(ui.visuals());
+    let label = RichText::new(text).strong().color(style::on_accent(theme));
+    wide(ui, enabled, Button::new(label).fill(style::accent(theme)), width)
+}
+
+/// A button of a given width, its text in the middle.
+pub fn wide(ui: &mut Ui, enabled: bool, button: Button<'_>, width: f32) -> Response {
+    ui.add_enabled_ui(enabled, |ui| ui.add_sized([width, 30.0], button)).inner
+}
+
+/// A text field that is taken with Enter or a click elsewhere and dropped with Escape.
+pub fn name_field(ui: &mut Ui, renaming: &mut Option<(Renamed, String)>, label: &str) -> Option<(Renamed, String)> {
+    let (what, text) = renaming.as_mut()?;
+    let what = *what;
+    let response = ui.add(eframe::egui::TextEdit::singleline(text).desired_width(f32::INFINITY)).accessible_name(label);
+    if !response.has_focus() && !response.lost_focus() {
+        response.request_focus();
+    }
+    if response.lost_focus() {
+        let dropped = ui.input(|i| i.key_pressed(eframe::egui::Key::Escape));
+        let (_, text) = renaming.take()?;
+        return (!dropped).then_some((what, text));
+    }
+    None
+}
+
+/// Wanted, in the order in which it was asked for.
+pub type Actions = Vec<Action>;

@@ -1,0 +1,63 @@
+//! The winch-tendon networks that are built in.
+
+use super::{Actions, Renamed, State, heading, name_field};
+use crate::picture::palette::Palette;
+use crate::studio::action::Action;
+use crate::studio::change::Change;
+use crate::studio::icons::{self, Icon};
+use crate::studio::session::{Selection, Session};
+use crate::studio::style;
+use eframe::egui::{Align, Button, Layout, RichText, Sense, Ui, vec2};
+
+pub fn show(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actions) {
+    heading(ui, "Winch-tendon networks");
+    let design = session.design();
+    if design.networks.is_empty() {
+        ui.label(RichText::new("None yet. Pose the plushie, then propose a network.").weak());
+        return;
+    }
+    ui.scope(|ui| {
+        ui.spacing_mut().item_spacing.y = 2.0;
+        rows(ui, session, state, actions);
+    });
+}
+
+fn rows(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actions) {
+    let palette = Palette::of(session.look.theme);
+    for (index, network) in session.design().networks.iter().enumerate() {
+        if matches!(state.renaming, Some((Renamed::Network(i), _)) if i == index) {
+            if let Some((_, name)) = name_field(ui, &mut state.renaming, "Network name") {
+                actions.push(Action::Change(Change::RenameNetwork(index, name)));
+            }
+            continue;
+        }
+        ui.horizontal(|ui| {
+            let (chip, _) = ui.allocate_exact_size(vec2(12.0, 24.0), Sense::hover());
+            ui.painter().circle_filled(chip.center(), 5.0, style::color32(palette.winch(index)));
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                let tip = "Delete this network (Delete)";
+                if icons::small_button(ui, Icon::Trash, &format!("Delete network {}", network.name), tip).clicked() {
+                    actions.push(Action::Change(Change::RemoveNetwork(index)));
+                }
+                let wound = session.shapes.realizable.as_ref().and_then(|s| s.activations_mm.get(index));
+                let detail = format!(
+                    "{} tendon{}  {:>5.1} mm",
+                    network.tendons.len(),
+                    if network.tendons.len() == 1 { "" } else { "s" },
+                    wound.copied().unwrap_or(0.0)
+                );
+                let button = Button::selectable(session.selection == Selection::Network(index), &network.name)
+                    .right_text(RichText::new(detail).small().weak())
+                    .truncate()
+                    .min_size(vec2(ui.available_width(), 24.0));
+                let response = ui.add(button).accessible_name(format!("Network {}", network.name));
+                let response = response.on_hover_text("Cable wound now. Double-click to rename");
+                if response.double_clicked() {
+                    state.renaming = Some((Renamed::Network(index), network.name.clone()));
+                } else if response.clicked() {
+                    actions.push(Action::Select(Selection::Network(index)));
+                }
+            });
+        });
+    }
+}

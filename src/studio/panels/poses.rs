@@ -1,0 +1,158 @@
+//! Poses of the plushie, and the targets of the current one.
+
+use super::{Actions, Renamed, State, heading, name_field};
+use crate::studio::action::Action;
+use crate::studio::change::Change;
+use crate::studio::icons::{self, Icon};
+use crate::studio::session::{Mode, Selection, Session};
+use eframe::egui::{Align, Button, DragValue, Layout, RichText, ScrollArea, Ui, vec2};
+
+pub fn show(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actions) {
+    title(ui, session, state, actions);
+    ui.add_space(8.0);
+    pose_buttons(ui, session, state, actions);
+    ScrollArea::vertical().auto_shrink([false, true]).max_height(ui.available_height() * 0.55).show(ui, |ui| {
+        list(ui, session, state, actions);
+    });
+    ui.add_space(10.0);
+    targets(ui, session, actions);
+}
+
+/// The plushie's name, which a double click edits.
+fn title(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actions) {
+    if matches!(state.renaming, Some((Renamed::Plushie, _))) {
+        if let Some((_, name)) = name_field(ui, &mut state.renaming, "Plushie name") {
+            actions.push(Action::Change(Change::Rename(name)));
+        }
+        return;
+    }
+    let name = &session.design().name;
+    let label = RichText::new(name).size(19.0).strong();
+    let response = ui.add(Button::new(label).frame(false).truncate());
+    let response = response.on_hover_text("Double-click to rename the plushie");
+    if response.double_clicked() {
+        state.renaming = Some((Renamed::Plushie, name.clone()));
+    }
+    let design = session.design();
+    let body = format!("{} fibres, {:.0} mm", design.fiber_routings().len(), design.body_length_mm());
+    ui.label(RichText::new(body).small().weak());
+}
+
+fn pose_buttons(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actions) {
+    ui.horizontal(|ui| {
+        heading(ui, "Poses");
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            ui.spacing_mut().item_spacing.x = 2.0;
+            if icons::small_button(ui, Icon::Plus, "Add pose", "Add a pose (Ctrl+Shift+N)").clicked() {
+                actions.push(Action::Change(Change::AddPose));
+            }
+            let Some(pose) = session.pose else { return };
+            if icons::small_button(ui, Icon::Trash, "Delete pose", "Delete this pose").clicked() {
+                actions.push(Action::Change(Change::RemovePose(pose)));
+            }
+            if icons::small_button(ui, Icon::Copy, "Duplicate pose", "Duplicate this pose (Ctrl+D)").clicked() {
+                actions.push(Action::Change(Change::DuplicatePose(pose)));
+            }
+            if icons::small_button(ui, Icon::Pen, "Rename pose", "Rename this pose (F2)").clicked() {
+                begin_rename(session, state);
+            }
+        });
+    });
+}
+
+/// Starts to edit the name of the current pose.
+pub fn begin_rename(session: &Session, state: &mut State) {
+    if let Some((index, pose)) = session.pose.and_then(|index| Some((index, session.design().poses.get(index)?))) {
+        state.renaming = Some((Renamed::Pose(index), pose.name.clone()));
+    }
+}
+
+fn list(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actions) {
+    ui.spacing_mut().item_spacing.y = 2.0;
+    let in_pose = session.mode == Mode::Pose;
+    let row = |ui: &mut Ui, name: &str, detail: &str, selected: bool| {
+        let button = Button::selectable(selected, name)
+            .right_text(RichText::new(detail).small().weak())
+            .truncate()
+            .min_size(vec2(ui.available_width(), 26.0));
+        // Without the detail, which is for the eye.
+        ui.add(button).accessible_name(name)
+    };
+    let rest = row(ui, "Rest", "", in_pose && session.pose.is_none());
+    if rest.on_hover_text("The body as it was cut").clicked() {
+        actions.push(Action::SelectPose(None));
+    }
+    for (index, pose) in session.design().poses.iter().enumerate() {
+        if matches!(state.renaming, Some((Renamed::Pose(i), _)) if i == index) {
+            if let Some((_, name)) = name_field(ui, &mut state.renaming, "Pose name") {
+                actions.push(Action::Change(Change::RenamePose(index, name)));
+            }
+            continue;
+        }
+        let detail = match pose.targets.len() {
+            0 => "no targets".to_owned(),
+            1 => "1 target".to_owned(),
+            n => format!("{n} targets"),
+        };
+        let response = row(ui, &pose.name, &detail, in_pose && session.pose == Some(index));
+        if response.double_clicked() {
+            state.renaming = Some((Renamed::Pose(index), pose.name.clone()));
+        } else if response.clicked() {
+            actions.push(Action::SelectPose(Some(index)));
+        }
+    }
+}
+
+fn targets(ui: &mut Ui, session: &Session, actions: &mut Actions) {
+    if session.mode == Mode::Animation {
+        hint(ui, "The views show the animation. Choose a pose, or drag the body, to go on posing.");
+        return;
+    }
+    let Some(pose) = session.pose else {
+        hint(ui, "Drag any point of the body, in either view, to begin a pose.");
+        return;
+    };
+    ui.horizontal(|ui| {
+        heading(ui, "Targets");
+        if session.targets().is_empty() {
+            return;
+        }
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            if icons::small_button(ui, Icon::Trash, "Remove all targets", "Remove all targets of this pose").clicked() {
+                actions.push(Action::Change(Change::ClearTargets(pose)));
+            }
+        });
+    });
+    if session.targets().is_empty() {
+        hint(ui, "Drag any point of the body, in either view: the drag becomes a target.");
+        return;
+    }
+    ScrollArea::vertical().id_salt("targets").auto_shrink([false, true]).show(ui, |ui| {
+        ui.spacing_mut().item_spacing.y = 2.0;
+        for (index, target) in session.targets().iter().enumerate() {
+            ui.horizontal(|ui| {
+                let selected = session.selection == Selection::Target(index);
+                let name = format!("Target {}", index + 1);
+                if ui.add(Button::selectable(selected, name).min_size(vec2(78.0, 24.0))).clicked() {
+                    actions.push(Action::Select(Selection::Target(index)));
+                }
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                    let tip = "Remove this target (Delete)";
+                    if icons::small_button(ui, Icon::Close, &format!("Remove target {}", index + 1), tip).clicked() {
+                        actions.push(Action::Change(Change::RemoveTarget { pose, index }));
+                    }
+                    let mut weight = target.weight;
+                    let value = DragValue::new(&mut weight).range(0.01..=100.0).speed(0.02).max_decimals(2);
+                    let response = ui.add(value).accessible_name(format!("Weight of target {}", index + 1));
+                    if response.on_hover_text("Weight: how much this target counts").changed() {
+                        actions.push(Action::Live(Change::WeighTarget { pose, index, weight }));
+                    }
+                });
+            });
+        }
+    });
+}
+
+fn hint(ui: &mut Ui, text: &str) {
+    ui.label(RichText::new(text).weak());
+}

@@ -1,0 +1,149 @@
+//! Settings of the document: body, fibres, tendons, fabrication, motors.
+
+use super::{Actions, heading};
+use crate::design::Material;
+use crate::studio::action::Action;
+use crate::studio::change::Change;
+use crate::studio::session::Session;
+use eframe::egui::{ComboBox, DragValue, Grid, ScrollArea, Ui};
+use std::ops::RangeInclusive;
+
+pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
+    ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
+        section(ui, "Body", |ui| body(ui, session, actions));
+        section(ui, "Muscle fibres", |ui| fibers(ui, session, actions));
+        section(ui, "Tendons", |ui| tendons(ui, session, actions));
+        section(ui, "Fabrication", |ui| fabrication(ui, session, actions));
+        section(ui, "Motors", |ui| controller(ui, session, actions));
+    });
+}
+
+fn section(ui: &mut Ui, name: &str, rows: impl FnOnce(&mut Ui)) {
+    heading(ui, name);
+    Grid::new(name).num_columns(2).min_col_width(110.0).spacing([8.0, 4.0]).show(ui, rows);
+    ui.add_space(10.0);
+}
+
+/// A row with a number. True if it was changed.
+fn number(ui: &mut Ui, name: &str, unit: &str, tip: &str, value: &mut f64, range: RangeInclusive<f64>) -> bool {
+    let label = ui.label(name).on_hover_text(tip);
+    let speed = (*value * 0.01).max(1e-3);
+    let suffix = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+    let drag = DragValue::new(value).range(range).speed(speed).max_decimals(3).suffix(suffix);
+    let changed = ui.add(drag).labelled_by(label.id).on_hover_text(tip).changed();
+    ui.end_row();
+    changed
+}
+
+/// A row with a count. True if it was changed.
+fn count(ui: &mut Ui, name: &str, unit: &str, tip: &str, value: &mut u32, range: RangeInclusive<u32>) -> bool {
+    let label = ui.label(name).on_hover_text(tip);
+    let speed = (f64::from(*value) * 0.01).max(0.1);
+    let suffix = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+    let drag = DragValue::new(value).range(range).speed(speed).suffix(suffix);
+    let changed = ui.add(drag).labelled_by(label.id).on_hover_text(tip).changed();
+    ui.end_row();
+    changed
+}
+
+fn body(ui: &mut Ui, session: &Session, actions: &mut Actions) {
+    let mut material = session.design().material;
+    let label = ui.label("Material").on_hover_text("How the stuffed body answers to strain");
+    let (neo, stvk) = ("Neo-Hookean", "St. Venant-Kirchhoff");
+    let (shear, other) = match material {
+        Material::NeoHookean { mu, kappa } => (mu, kappa),
+        Material::StVenantKirchhoff { mu, lambda } => (mu, lambda),
+    };
+    let name = if matches!(material, Material::NeoHookean { .. }) { neo } else { stvk };
+    let combo = ComboBox::from_id_salt("material").selected_text(name).width(130.0).show_ui(ui, |ui| {
+        ui.selectable_value(&mut material, Material::NeoHookean { mu: shear, kappa: other }, neo);
+        ui.selectable_value(&mut material, Material::StVenantKirchhoff { mu: shear, lambda: other }, stvk);
+    });
+    combo.response.labelled_by(label.id);
+    ui.end_row();
+    let (mu, second, second_name) = match &mut material {
+        Material::NeoHookean { mu, kappa } => (mu, kappa, "Kappa"),
+        Material::StVenantKirchhoff { mu, lambda } => (mu, lambda, "Lambda"),
+    };
+    number(ui, "Mu", "N/mm", "Shear modulus, thickness multiplied in", mu, 1e-3..=1e3);
+    number(ui, second_name, "N/mm", "Resistance to change of area, thickness multiplied in", second, 1e-3..=1e3);
+    if material != session.design().material {
+        actions.push(Action::Live(Change::Material(material)));
+    }
+}
+
+fn fibers(ui: &mut Ui, session: &Session, actions: &mut Actions) {
+    let mut f = session.design().fibers.clone();
+    number(
+        ui,
+        "Fibre stiffness",
+        "N/mm",
+        "K of a muscle fibre; the taut stiffness is twice that",
+        &mut f.stiffness,
+        1e-3..=1e3,
+    );
+    number(ui, "Largest contraction", "", "As a fraction of the rest length", &mut f.max_contraction, 0.05..=0.95);
+    if f != session.design().fibers {
+        actions.push(Action::Live(Change::Fibers(f)));
+    }
+}
+
+fn tendons(ui: &mut Ui, session: &Session, actions: &mut Actions) {
+    let mut t = session.design().tendons.clone();
+    number(
+        ui,
+        "Tendon stiffness",
+        "N/mm",
+        "K of a tendon; the taut stiffness is twice that",
+        &mut t.stiffness,
+        1e-2..=1e4,
+    );
+    number(ui, "Largest winding", "", "As a fraction of the tendon's rest length", &mut t.max_contraction, 0.05..=0.95);
+    if t != session.design().tendons {
+        actions.push(Action::Live(Change::Tendons(t)));
+    }
+}
+
+fn fabrication(ui: &mut Ui, session: &Session, actions: &mut Actions) {
+    let mut f = session.design().fabrication.clone();
+    number(ui, "Seam allowance", "mm", "Felt beyond the seam", &mut f.seam_allowance_mm, 0.0..=50.0);
+    number(ui, "Tendon hole", "mm", "Diameter of the hole a needle must pass", &mut f.tendon_hole_mm, 0.1..=10.0);
+    number(
+        ui,
+        "Turning gap",
+        "mm",
+        "Opening left in the seam to turn and stuff the body",
+        &mut f.turning_gap_mm,
+        0.0..=500.0,
+    );
+    number(ui, "Spool radius", "mm", "Radius of the winch's core", &mut f.spool_radius_mm, 1.0..=100.0);
+    if f != session.design().fabrication {
+        actions.push(Action::Live(Change::Fabrication(f)));
+    }
+}
+
+fn controller(ui: &mut Ui, session: &Session, actions: &mut Actions) {
+    let mut c = session.design().controller.clone();
+    count(
+        ui,
+        "Encoder lines",
+        "",
+        "Per motor revolution; counts are four times as many",
+        &mut c.encoder_lines,
+        1..=16383,
+    );
+    number(ui, "Gear ratio", ": 1", "Motor revolutions per turn of the spool", &mut c.gear_ratio, 0.1..=5000.0);
+    number(ui, "Track rate", "Hz", "Samples a second in the winch tracks", &mut c.track_rate_hz, 1.0..=1000.0);
+    count(ui, "Speed limit", "rpm", "Motor speed limit written to the controller", &mut c.speed_rpm, 1..=30000);
+    count(
+        ui,
+        "Acceleration",
+        "rev/s²",
+        "Motor acceleration limit written to the controller",
+        &mut c.acceleration,
+        1..=30000,
+    );
+    if c != session.design().controller {
+        actions.push(Action::Live(Change::Controller(c)));
+    }
+}

@@ -1,0 +1,144 @@
+//! The row on top: files, undo, tools, what is shown, discovery, export.
+
+use super::Actions;
+use crate::design::bundled;
+use crate::picture::palette::Theme;
+use crate::studio::action::{Action, FileAction};
+use crate::studio::icons::{self, Icon};
+use crate::studio::session::{Session, Tool};
+use eframe::egui::{Align, Button, Layout, RichText, Ui, menu};
+
+pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
+    ui.horizontal_centered(|ui| {
+        ui.spacing_mut().item_spacing.x = 3.0;
+        ui.add_space(4.0);
+        file_menu(ui, actions);
+        examples_menu(ui, actions);
+        let save = ui.button("Save").on_hover_text("Save the plushie (Ctrl+S)");
+        if save.clicked() {
+            actions.push(Action::File(FileAction::Save));
+        }
+        gap(ui);
+        undo_redo(ui, session, actions);
+        gap(ui);
+        tools(ui, session, actions);
+        gap(ui);
+        shown(ui, session, actions);
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            ui.add_space(4.0);
+            theme(ui, session, actions);
+            ui.add_space(6.0);
+            let export = ui.button("Export").on_hover_text("Write patterns, routings and winch tracks (Ctrl+E)");
+            if export.clicked() {
+                actions.push(Action::File(FileAction::Export));
+            }
+        });
+    });
+}
+
+fn gap(ui: &mut Ui) {
+    ui.add_space(4.0);
+    ui.separator();
+    ui.add_space(4.0);
+}
+
+fn file_menu(ui: &mut Ui, actions: &mut Actions) {
+    let entries = [
+        ("New from outline…", "Ctrl+N", FileAction::Import),
+        ("Open…", "Ctrl+O", FileAction::Open),
+        ("Save", "Ctrl+S", FileAction::Save),
+        ("Save as…", "Ctrl+Shift+S", FileAction::SaveAs),
+        ("Export…", "Ctrl+E", FileAction::Export),
+        ("Quit", "Ctrl+Q", FileAction::Quit),
+    ];
+    menu::MenuButton::new("File").ui(ui, |ui| {
+        ui.set_min_width(190.0);
+        for (name, shortcut, action) in entries {
+            if ui.add(Button::new(name).shortcut_text(RichText::new(shortcut).weak())).clicked() {
+                actions.push(Action::File(action));
+            }
+        }
+    });
+}
+
+fn examples_menu(ui: &mut Ui, actions: &mut Actions) {
+    if bundled::ALL.is_empty() {
+        return;
+    }
+    menu::MenuButton::new("Examples").ui(ui, |ui| {
+        ui.set_min_width(120.0);
+        for (index, example) in bundled::ALL.iter().enumerate() {
+            if ui.button(example.name).clicked() {
+                actions.push(Action::File(FileAction::OpenExample(index)));
+            }
+        }
+    });
+}
+
+fn undo_redo(ui: &mut Ui, session: &Session, actions: &mut Actions) {
+    let tip = |verb: &str, label: Option<&str>, shortcut: &str| match label {
+        Some(label) => format!("{verb} “{label}” ({shortcut})"),
+        None => format!("Nothing to {} ({shortcut})", verb.to_lowercase()),
+    };
+    let (undo, redo) = (session.history.undo_label(), session.history.redo_label());
+    ui.add_enabled_ui(undo.is_some(), |ui| {
+        if icons::button(ui, Icon::Undo, "Undo", &tip("Undo", undo, "Ctrl+Z")).clicked() {
+            actions.push(Action::Undo);
+        }
+    });
+    ui.add_enabled_ui(redo.is_some(), |ui| {
+        if icons::button(ui, Icon::Redo, "Redo", &tip("Redo", redo, "Ctrl+Shift+Z or Ctrl+Y")).clicked() {
+            actions.push(Action::Redo);
+        }
+    });
+}
+
+fn tools(ui: &mut Ui, session: &Session, actions: &mut Actions) {
+    let tools = [
+        (Tool::Drag, Icon::Hand, "Drag tool", "Drag points of the body; every drag makes or moves a target (V)"),
+        (Tool::Pin, Icon::Pin, "Pin tool", "Click the body to pin it there, click a pin to remove it (P)"),
+    ];
+    for (tool, icon, name, tip) in tools {
+        if icons::toggle(ui, icon, name, tip, session.tool == tool).clicked() {
+            actions.push(Action::SetTool(tool));
+        }
+    }
+}
+
+fn shown(ui: &mut Ui, session: &Session, actions: &mut Actions) {
+    if icons::button(
+        ui,
+        Icon::Fit,
+        "Fit view",
+        "Fit the body into the views (F). Scroll to zoom, drag beside the body to pan",
+    )
+    .clicked()
+    {
+        actions.push(Action::Fit);
+    }
+    let look = &session.look;
+    if icons::toggle(
+        ui,
+        Icon::Fibers,
+        "Show fibres",
+        "Show the muscle fibres of the idealized plushie (M)",
+        look.fibers,
+    )
+    .clicked()
+    {
+        actions.push(Action::ShowFibers(!look.fibers));
+    }
+    if icons::toggle(ui, Icon::Networks, "Show networks", "Show winches and tendons (N)", look.networks).clicked() {
+        actions.push(Action::ShowNetworks(!look.networks));
+    }
+}
+
+fn theme(ui: &mut Ui, session: &Session, actions: &mut Actions) {
+    let (icon, name, other) = match session.look.theme {
+        Theme::Light => (Icon::Moon, "Dark theme", Theme::Dark),
+        Theme::Dark => (Icon::Sun, "Light theme", Theme::Light),
+    };
+    if icons::button(ui, icon, name, &format!("Switch to the {} (T)", name.to_lowercase())).clicked() {
+        actions.push(Action::SetTheme(other));
+    }
+}

@@ -1,0 +1,93 @@
+//! Keys, and files dropped on the window.
+
+use super::action::{Action, FileAction};
+use super::panels::{self, poses};
+use super::session::{Session, Tool};
+use crate::picture::palette::Theme;
+use eframe::egui::{Context, Key, KeyboardShortcut, Modifiers};
+
+pub fn collect(ctx: &Context, session: &Session, panels: &mut panels::State, typing: bool, actions: &mut Vec<Action>) {
+    for file in ctx.input(|i| i.raw.dropped_files.clone()) {
+        actions.push(Action::File(FileAction::OpenPath(file.path().to_path_buf())));
+    }
+    if session.files.dialog.is_some() {
+        return;
+    }
+    let command = Modifiers::COMMAND;
+    let both = Modifiers::COMMAND | Modifiers::SHIFT;
+    let pressed = |modifiers, key| ctx.input_mut(|i| i.consume_shortcut(&KeyboardShortcut::new(modifiers, key)));
+    // The longer ones first: a shortcut also matches with more modifiers held.
+    for (modifiers, key, action) in [
+        (both, Key::S, Action::File(FileAction::SaveAs)),
+        (command, Key::S, Action::File(FileAction::Save)),
+        (command, Key::O, Action::File(FileAction::Open)),
+        (command, Key::E, Action::File(FileAction::Export)),
+        (command, Key::Q, Action::File(FileAction::Quit)),
+    ] {
+        if pressed(modifiers, key) {
+            actions.push(action);
+        }
+    }
+    if typing {
+        return;
+    }
+    if pressed(both, Key::N) {
+        actions.push(Action::Change(super::change::Change::AddPose));
+    } else if pressed(command, Key::N) {
+        actions.push(Action::File(FileAction::Import));
+    }
+    if pressed(both, Key::Z) || pressed(command, Key::Y) {
+        actions.push(Action::Redo);
+    } else if pressed(command, Key::Z) {
+        actions.push(Action::Undo);
+    }
+    if let Some(pose) = session.pose.filter(|_| pressed(command, Key::D)) {
+        actions.push(Action::Change(super::change::Change::DuplicatePose(pose)));
+    }
+    plain_keys(ctx, session, panels, actions);
+}
+
+/// Single keys, while nothing is typed.
+fn plain_keys(ctx: &Context, session: &Session, panels: &mut panels::State, actions: &mut Vec<Action>) {
+    let pressed = |key| ctx.input_mut(|i| i.modifiers.is_none() && i.consume_key(Modifiers::NONE, key));
+    let other_theme = match session.look.theme {
+        Theme::Light => Theme::Dark,
+        Theme::Dark => Theme::Light,
+    };
+    let space = if session.playback.playing { Action::Pause } else { Action::Play };
+    for (key, action) in [
+        (Key::Delete, Action::DeleteSelected),
+        (Key::V, Action::SetTool(Tool::Drag)),
+        (Key::P, Action::SetTool(Tool::Pin)),
+        (Key::F, Action::Fit),
+        (Key::M, Action::ShowFibers(!session.look.fibers)),
+        (Key::N, Action::ShowNetworks(!session.look.networks)),
+        (Key::T, Action::SetTheme(other_theme)),
+        (Key::G, Action::Propose),
+        (Key::K, Action::AddKeyframe),
+        (Key::L, Action::SetLooping(!session.playback.looping)),
+    ] {
+        if pressed(key) {
+            actions.push(action);
+        }
+    }
+    // A focused button is pressed by Space and Enter.
+    let free = ctx.memory(|m| m.focused()).is_none();
+    if free && pressed(Key::Space) {
+        actions.push(space);
+    }
+    if pressed(Key::F2) {
+        poses::begin_rename(session, panels);
+    }
+    if let Some(index) = session.discovery.shown {
+        if free && pressed(Key::Enter) {
+            actions.push(Action::Accept(index));
+        } else if pressed(Key::Backspace) {
+            actions.push(Action::Reject(index));
+        }
+    }
+    if pressed(Key::Escape) {
+        let running = session.discovery.running.is_some() && !session.is_dragging();
+        actions.push(if running { Action::CancelPropose } else { Action::Escape });
+    }
+}

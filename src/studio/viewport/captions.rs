@@ -1,0 +1,76 @@
+//! Words and a scale over a view.
+
+use super::camera::Camera;
+use super::{Pane, Plushie};
+use crate::picture::scene::Stage;
+use crate::studio::session::Session;
+use eframe::egui::{Align2, FontId, Pos2, Rect, Stroke, Ui, Vec2};
+
+pub fn show(ui: &Ui, pane: &Pane<'_>) {
+    let Pane { session, plushie, rect, camera } = *pane;
+    let painter = ui.painter_at(rect);
+    let (title, detail) = match (plushie, session.shown_proposal()) {
+        (Plushie::Idealized, Some(_)) => ("Idealized", stage_name(session.discovery.stage).to_owned()),
+        (Plushie::Realizable, Some(p)) => {
+            ("Realizable", format!("with the proposal, error {:.1} %", 100.0 * p.error_after))
+        }
+        (Plushie::Idealized, None) => ("Idealized", "muscle fibres".to_owned()),
+        (Plushie::Realizable, None) => ("Realizable", networks_text(session)),
+    };
+    let corner = rect.left_top() + Vec2::new(14.0, 10.0);
+    let text = ui.visuals().strong_text_color();
+    let weak = ui.visuals().weak_text_color();
+    let title = painter.text(corner, Align2::LEFT_TOP, title, FontId::proportional(15.0), text);
+    painter.text(
+        title.right_bottom() + Vec2::new(8.0, -1.5),
+        Align2::LEFT_BOTTOM,
+        detail,
+        FontId::proportional(12.0),
+        weak,
+    );
+    scale_bar(ui, rect, camera);
+}
+
+fn stage_name(stage: Stage) -> &'static str {
+    match stage {
+        Stage::Activation => "activation graph",
+        Stage::Seeds => "seeds and starting component",
+        Stage::Tree => "winch tree with joining paths",
+        Stage::Result => "winch and tendons",
+    }
+}
+
+fn networks_text(session: &Session) -> String {
+    match session.design().networks.len() {
+        0 => "no winches yet".to_owned(),
+        1 => "1 winch".to_owned(),
+        n => format!("{n} winches"),
+    }
+}
+
+/// A length in mm, lower left.
+fn scale_bar(ui: &Ui, rect: Rect, camera: Camera) {
+    let Some(length_mm) = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 5000.0]
+        .into_iter()
+        .find(|mm| mm * camera.scale > 48.0)
+    else {
+        return;
+    };
+    let painter = ui.painter_at(rect);
+    let weak = ui.visuals().weak_text_color();
+    let stroke = Stroke::new(1.5, weak);
+    let start = rect.left_bottom() + Vec2::new(14.0, -14.0);
+    let end: Pos2 = start + Vec2::new(length_mm * camera.scale, 0.0);
+    painter.line_segment([start, end], stroke);
+    for p in [start, end] {
+        painter.line_segment([p - Vec2::new(0.0, 3.0), p + Vec2::new(0.0, 3.0)], stroke);
+    }
+    let text = format!("{length_mm:.0} mm");
+    painter.text(
+        start.lerp(end, 0.5) - Vec2::new(0.0, 4.0),
+        Align2::CENTER_BOTTOM,
+        text,
+        FontId::proportional(11.0),
+        weak,
+    );
+}

@@ -1,0 +1,496 @@
+//! The window, driven by accessible names. No display and no graphics adapter are needed.
+#![cfg(feature = "studio")]
+
+use eframe::egui::{self, Key, Modifiers, Pos2, pos2, vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use plushwright::design::{Design, Network, Pin, Tendon};
+use plushwright::discovery::Stages;
+use plushwright::engine::{Proposal, Shape};
+use plushwright::mesh::Mesh;
+use plushwright::outline::Outline;
+use plushwright::picture::palette::Theme;
+use plushwright::studio::app::Studio;
+use plushwright::studio::messages::Level;
+use plushwright::studio::session::{Selection, Services, Session};
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::time::{Duration, Instant};
+
+type Window = Harness<'static, Option<Studio>>;
+
+/// A bar of 6 x 2 squares, 120 x 40 mm, its left end pinned.
+fn bar() -> Design {
+    let (across, up) = (7, 3);
+    let nodes = (0..up).flat_map(|j| (0..across).map(move |i| [20.0 * i as f64, 20.0 * j as f64])).collect();
+    let mut triangles = Vec::new();
+    for j in 0..up - 1 {
+        for i in 0..across - 1 {
+            let [a, b, c, d] = [j * across + i, j * across + i + 1, (j + 1) * across + i + 1, (j + 1) * across + i];
+            triangles.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    let outer = vec![[0.0, 0.0], [120.0, 0.0], [120.0, 40.0], [0.0, 40.0]];
+    let mut design = Design::new("Bar", Outline { outer, holes: Vec::new() }, Mesh { nodes, triangles });
+    for node in [0, 7, 14] {
+        let at = design.mesh.node_point(node).unwrap();
+        design.pins.push(Pin { at, position: None, stiffness: 20.0 });
+    }
+    design
+}
+
+/// A winch at the left end with a tendon along the top, as discovery might propose.
+fn network() -> Network {
+    let tendon = Tendon { routing: vec![14, 15, 16, 17, 18, 19], ratio: 1.0, slack_mm: 0.0 };
+    Network { name: "winch 1".to_owned(), tendons: vec![tendon] }
+}
+
+fn proposal(design: &Design, error_after: f64) -> Proposal {
+    Proposal {
+        network: network(),
+        parameters: Default::default(),
+        stages: Stages::default(),
+        preview: Shape { nodes: design.mesh.nodes.clone(), ..Shape::default() },
+        error_before: 0.2,
+        error_after,
+    }
+}
+
+/// Proposes two networks at once.
+fn services() -> Services {
+    Services {
+        propose: Arc::new(|design, _, _, _| vec![proposal(design, 0.05), proposal(design, 0.1)]),
+        export: Arc::new(|_, folder| {
+            std::fs::create_dir(folder).map_err(|e| e.to_string())?;
+            std::fs::write(folder.join("pattern.svg"), "<svg/>").map_err(|e| e.to_string())
+        }),
+    }
+}
+
+fn window(design: Design) -> Window {
+    window_with(design, services())
+}
+
+fn window_with(design: Design, services: Services) -> Window {
+    let mut given = Some((design, services));
+    let mut window = Harness::builder().with_size(vec2(1280.0, 800.0)).build_ui_state(
+        move |ui, studio: &mut Option<Studio>| {
+            let studio = studio.get_or_insert_with(|| {
+                let (design, services) = given.take().expect("made once");
+                Studio::new(ui.ctx(), design, None, services)
+            });
+            studio.update(ui);
+        },
+        None,
+    );
+    settle(&mut window);
+    window
+}
+
+fn session(window: &Window) -> &Session {
+    window.state().as_ref().expect("made in the first frame").session()
+}
+
+/// Runs frames until the solver has answered and no thread is busy.
+fn settle(window: &mut Window) {
+    wait(window, |s| s.is_settled() && s.discovery().running.is_none() && !s.is_working());
+    window.run();
+}
+
+fn wait(window: &mut Window, done: impl Fn(&Session) -> bool) {
+    let started = Instant::now();
+    loop {
+        window.step();
+        if done(session(window)) {
+            return;
+        }
+        assert!(started.elapsed() < Duration::from_secs(60), "nothing happened");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+}
+
+fn click(window: &mut Window, name: &str) {
+    window.get_by_label(name).click();
+    settle(window);
+}
+
+fn press(window: &mut Window, modifiers: Modifiers, key: Key) {
+    window.key_press_modifiers(modifiers, key);
+    settle(window);
+}
+
+/// Where a point of the body is on the screen; both views fit the bar in the same way.
+fn on_screen(window: &Window, view: &str, p: [f64; 2]) -> Pos2 {
+    let rect = window.get_by_label(view).rect();
+    let scale = (rect.width() / (120.0 * 1.32)).min(rect.height() / (40.0 * 1.32));
+    let center = rect.center();
+    pos2(center.x + (p[0] as f32 - 60.0) * scale, center.y - (p[1] as f32 - 20.0) * scale)
+}
+
+fn drag(window: &mut Window, from: Pos2, to: Pos2) {
+    window.hover_at(from);
+    window.step();
+    window.drag_at(from);
+    window.step();
+    for i in 1..=4 {
+        window.hover_at(from.lerp(to, i as f32 / 4.0));
+        window.step();
+    }
+    window.drop_at(to);
+    settle(window);
+}
+
+/// Drags the free end of the bar up.
+fn pose(window: &mut Window, view: &str) {
+    let (from, to) = (on_screen(window, view, [120.0, 20.0]), on_screen(window, view, [115.0, 45.0]));
+    drag(window, from, to);
+}
+
+fn with_network() -> Window {
+    let mut design = bar();
+    design.networks.push(network());
+    let mut window = window(design);
+    pose(&mut window, "Realizable view");
+    window
+}
+
+#[test]
+fn everything_has_an_accessible_name() {
+    let mut window = window(bar());
+    for name in [
+        "File",
+        "Save",
+        "Undo",
+        "Redo",
+        "Drag tool",
+        "Pin tool",
+        "Fit view",
+        "Show fibres",
+        "Show networks",
+        "Export",
+        "Dark theme",
+        "Add pose",
+        "Rest",
+        "Idealized view",
+        "Realizable view",
+        "Networks",
+        "Settings",
+        "Propose networks",
+        "Play",
+        "Loop",
+        "Add keyframe",
+        "Timeline",
+    ] {
+        window.get_by_label(name);
+    }
+    // `run` checks that no control is without a name.
+    click(&mut window, "Settings");
+    for name in ["Mu", "Kappa", "Tendon stiffness", "Seam allowance", "Gear ratio"] {
+        assert!(window.query_by_label(name).is_some() || window.query_all_by_label(name).count() > 0, "{name}");
+    }
+}
+
+#[test]
+fn dragging_the_body_makes_a_pose_that_both_plushies_follow() {
+    for view in ["Idealized view", "Realizable view"] {
+        let mut design = bar();
+        design.networks.push(network());
+        let mut window = window(design);
+        let rest = session(&window).design().mesh.nodes.clone();
+        pose(&mut window, view);
+        let session = session(&window);
+        assert_eq!(session.design().poses.len(), 1);
+        let target = session.design().poses[0].targets[0];
+        assert!((target.to[0] - 115.0).abs() < 1.0 && (target.to[1] - 45.0).abs() < 1.0, "{:?}", target.to);
+        assert_eq!(session.selection(), Selection::Target(0));
+        let end =
+            |shape: &Option<Arc<Shape>>| session.design().mesh.position(&target.at, &shape.as_ref().unwrap().nodes);
+        let start = session.design().mesh.position(&target.at, &rest);
+        assert!(end(&session.shapes().idealized)[1] > start[1] + 15.0);
+        assert!(end(&session.shapes().realizable)[1] > start[1] + 1.0);
+    }
+}
+
+#[test]
+fn one_drag_is_one_undo_step_and_a_click_is_none() {
+    let mut window = window(bar());
+    let p = on_screen(&window, "Idealized view", [60.0, 20.0]);
+    window.drag_at(p);
+    window.step();
+    window.drop_at(p);
+    settle(&mut window);
+    assert_eq!(session(&window).history().undo_label(), None);
+    pose(&mut window, "Idealized view");
+    assert_eq!(session(&window).history().undo_label(), Some("Add target"));
+    // The goal itself can be dragged on.
+    let (from, to) =
+        (on_screen(&window, "Idealized view", [115.0, 45.0]), on_screen(&window, "Idealized view", [110.0, 50.0]));
+    drag(&mut window, from, to);
+    assert_eq!(session(&window).design().poses[0].targets.len(), 1);
+    assert_eq!(session(&window).history().undo_label(), Some("Move target"));
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    assert!(session(&window).design().poses.is_empty());
+    assert!(!session(&window).history().is_modified());
+    press(&mut window, Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    press(&mut window, Modifiers::COMMAND, Key::Y);
+    let to = session(&window).design().poses[0].targets[0].to;
+    assert!((to[0] - 110.0).abs() < 1.0 && (to[1] - 50.0).abs() < 1.0);
+}
+
+#[test]
+fn a_drag_beside_the_body_moves_the_picture_and_f_fits_it_again() {
+    let mut window = window(bar());
+    let from = on_screen(&window, "Idealized view", [60.0, 70.0]);
+    drag(&mut window, from, from + vec2(40.0, 10.0));
+    assert!(session(&window).look().camera.is_some());
+    assert!(session(&window).design().poses.is_empty());
+    press(&mut window, Modifiers::NONE, Key::F);
+    assert!(session(&window).look().camera.is_none());
+}
+
+#[test]
+fn pins_by_tool_and_by_menu() {
+    let mut window = window(bar());
+    click(&mut window, "Pin tool");
+    let p = on_screen(&window, "Realizable view", [80.0, 20.0]);
+    for count in [4, 3] {
+        window.hover_at(p);
+        window.drag_at(p);
+        window.drop_at(p);
+        settle(&mut window);
+        assert_eq!(session(&window).design().pins.len(), count);
+    }
+    press(&mut window, Modifiers::NONE, Key::V);
+    window.hover_at(p);
+    for pressed in [true, false] {
+        let button = egui::PointerButton::Secondary;
+        window.event(egui::Event::PointerButton { pos: p, button, pressed, modifiers: Modifiers::NONE });
+    }
+    settle(&mut window);
+    click(&mut window, "Pin this point");
+    assert_eq!(session(&window).design().pins.len(), 4);
+}
+
+#[test]
+fn poses_are_added_renamed_duplicated_deleted_and_everything_undone() {
+    let mut window = window(bar());
+    let before = session(&window).design().clone();
+    click(&mut window, "Add pose");
+    pose(&mut window, "Idealized view");
+    press(&mut window, Modifiers::NONE, Key::F2);
+    window.get_by_label("Pose name").type_text(" wave");
+    settle(&mut window);
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    assert_eq!(session(&window).design().poses[0].name, "Pose 1 wave");
+    click(&mut window, "Duplicate pose");
+    assert_eq!(session(&window).design().poses.len(), 2);
+    assert_eq!(session(&window).pose(), Some(1));
+    assert_eq!(session(&window).design().poses[1].targets.len(), 1);
+    click(&mut window, "Delete pose");
+    click(&mut window, "Remove target 1");
+    click(&mut window, "Rest");
+    assert_eq!(session(&window).pose(), None);
+    let mut steps = 0;
+    while session(&window).history().undo_label().is_some() {
+        click(&mut window, "Undo");
+        steps += 1;
+    }
+    assert_eq!(steps, 6);
+    assert_eq!(**session(&window).design(), *before);
+    while session(&window).history().redo_label().is_some() {
+        click(&mut window, "Redo");
+    }
+    assert_eq!(session(&window).design().poses.len(), 1);
+    assert!(session(&window).design().poses[0].targets.is_empty());
+}
+
+#[test]
+fn the_delete_key_removes_what_is_selected() {
+    let mut window = window(bar());
+    pose(&mut window, "Idealized view");
+    press(&mut window, Modifiers::NONE, Key::Delete);
+    assert!(session(&window).design().poses[0].targets.is_empty());
+}
+
+#[test]
+fn networks_are_proposed_previewed_rejected_and_accepted() {
+    let mut window = window(bar());
+    assert!(session(&window).cannot_propose().is_some());
+    pose(&mut window, "Idealized view");
+    click(&mut window, "Propose networks");
+    assert_eq!(session(&window).discovery().proposals.len(), 2);
+    assert!(session(&window).shown_proposal().is_some());
+    for stage in ["Activity", "Seeds", "Tree", "Result"] {
+        click(&mut window, stage);
+    }
+    click(&mut window, "Proposal 2");
+    assert_eq!(session(&window).discovery().shown, Some(1));
+    click(&mut window, "Reject");
+    assert_eq!(session(&window).discovery().proposals.len(), 1);
+    click(&mut window, "Accept");
+    assert_eq!(session(&window).design().networks.len(), 1);
+    assert!(session(&window).discovery().proposals.is_empty());
+    click(&mut window, "Delete network winch 1");
+    click(&mut window, "Undo");
+    click(&mut window, "Undo");
+    assert!(session(&window).design().networks.is_empty());
+}
+
+#[test]
+fn discovery_can_be_cancelled() {
+    let propose: plushwright::studio::session::Propose = Arc::new(|design, _, _, cancel| {
+        while !cancel.load(Ordering::Relaxed) {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        vec![proposal(design, 0.1)]
+    });
+    let mut window = window_with(bar(), Services { propose, ..services() });
+    pose(&mut window, "Idealized view");
+    window.get_by_label("Propose networks").click();
+    wait(&mut window, |s| s.discovery().running.is_some());
+    window.step();
+    window.get_by_label("Cancel").click();
+    settle(&mut window);
+    assert!(session(&window).discovery().proposals.is_empty());
+    window.get_by_label("Propose networks");
+}
+
+#[test]
+fn what_goes_wrong_is_said_and_can_be_dismissed() {
+    let services = Services { propose: Arc::new(|_, _, _, _| panic!("out of yarn")), ..services() };
+    let mut window = window_with(bar(), services);
+    pose(&mut window, "Idealized view");
+    click(&mut window, "Propose networks");
+    let message = session(&window).messages().list().last().unwrap().clone();
+    assert_eq!(message.level, Level::Error);
+    assert!(message.text.contains("out of yarn"));
+    click(&mut window, "Dismiss message");
+    assert!(session(&window).messages().list().is_empty());
+    press(&mut window, Modifiers::COMMAND, Key::O);
+    click(&mut window, "Discard changes");
+    window.get_by_label("Path").type_text("does-not-exist.plush");
+    settle(&mut window);
+    click(&mut window, "Open");
+    assert!(session(&window).messages().list().iter().any(|m| m.level == Level::Error));
+}
+
+#[test]
+fn keyframes_are_added_dragged_eased_deleted() {
+    let mut window = with_network();
+    click(&mut window, "Add keyframe");
+    click(&mut window, "Rest");
+    click(&mut window, "Add keyframe");
+    let keyframes = session(&window).design().keyframes.clone();
+    assert_eq!(keyframes.len(), 2);
+    assert_eq!((keyframes[0].time_s, keyframes[1].time_s), (0.0, 1.0));
+    assert!(keyframes[0].activations_mm[0] > 0.0, "{keyframes:?}");
+    assert_eq!(keyframes[0].pose.as_deref(), Some("Pose 1"));
+    let (first, second) = (window.get_by_label("Keyframe 1").rect(), window.get_by_label("Keyframe 2").rect());
+    let second_long = second.center().x - first.center().x;
+    drag(&mut window, second.center(), second.center() + vec2(second_long, 0.0));
+    assert!((session(&window).design().keyframes[1].time_s - 2.0).abs() < 1e-9);
+    assert_eq!(session(&window).history().undo_label(), Some("Move keyframe"));
+    // Past the other one: they change places, and the drag stays with the one in hand.
+    drag(&mut window, first.center(), first.center() + vec2(second_long * 3.0, 0.0));
+    let times: Vec<f64> = session(&window).design().keyframes.iter().map(|k| k.time_s).collect();
+    assert!((times[0] - 2.0).abs() < 1e-9 && (times[1] - 3.0).abs() < 1e-9, "{times:?}");
+    assert_eq!(session(&window).design().keyframes[1].pose.as_deref(), Some("Pose 1"));
+    press(&mut window, Modifiers::NONE, Key::Delete);
+    assert_eq!(session(&window).design().keyframes.len(), 1);
+    for _ in 0..5 {
+        press(&mut window, Modifiers::COMMAND, Key::Z);
+    }
+    assert!(session(&window).design().keyframes.is_empty());
+}
+
+#[test]
+fn the_animation_plays_and_can_be_scrubbed() {
+    let mut window = with_network();
+    click(&mut window, "Add keyframe");
+    click(&mut window, "Rest");
+    click(&mut window, "Add keyframe");
+    window.get_by_label("Play").click();
+    window.run_steps(6);
+    let (time, playing) = (session(&window).playback().time_s, session(&window).playback().playing);
+    assert!(playing && time > 0.0, "{time}");
+    window.get_by_label("Pause").click();
+    settle(&mut window);
+    let rect = window.get_by_label("Timeline").rect();
+    let (first, second) = (window.get_by_label("Keyframe 1").rect(), window.get_by_label("Keyframe 2").rect());
+    let middle = pos2((first.center().x + second.center().x) / 2.0, rect.center().y);
+    window.drag_at(middle);
+    window.step();
+    window.drop_at(middle);
+    settle(&mut window);
+    assert!((session(&window).playback().time_s - 0.5).abs() < 0.01);
+    let keyframes = &session(&window).design().keyframes;
+    let halfway = keyframes[0].activations_mm[0] / 2.0;
+    let wound = session(&window).shapes().realizable.as_ref().unwrap().activations_mm[0];
+    assert!((wound - halfway).abs() < 0.05 * halfway, "{wound} {halfway}");
+}
+
+#[test]
+fn a_slider_is_one_undo_step() {
+    let mut window = window(bar());
+    click(&mut window, "Settings");
+    let value = window.get_by_role_and_label(egui::accesskit::Role::SpinButton, "Seam allowance").rect().center();
+    drag(&mut window, value, value + vec2(60.0, 0.0));
+    assert!(session(&window).design().fabrication.seam_allowance_mm > 8.0);
+    assert_eq!(session(&window).history().undo_label(), Some("Fabrication settings"));
+    click(&mut window, "Undo");
+    assert_eq!(session(&window).design().fabrication.seam_allowance_mm, 8.0);
+    assert_eq!(session(&window).history().undo_label(), None);
+}
+
+#[test]
+fn saving_opening_and_exporting() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("bar.plush");
+    let mut window = with_network();
+    press(&mut window, Modifiers::COMMAND, Key::S);
+    type_path(&mut window, &path);
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    assert!(path.is_file());
+    assert!(!session(&window).history().is_modified());
+    let blueprint = folder.path().join("blueprint");
+    press(&mut window, Modifiers::COMMAND, Key::E);
+    type_path(&mut window, &blueprint);
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    assert!(blueprint.join("pattern.svg").is_file());
+    click(&mut window, "Delete pose");
+    press(&mut window, Modifiers::COMMAND, Key::O);
+    click(&mut window, "Save changes");
+    type_path(&mut window, &path);
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    assert!(session(&window).design().poses.is_empty());
+    assert_eq!(session(&window).history().undo_label(), None);
+}
+
+fn type_path(window: &mut Window, path: &std::path::Path) {
+    window.get_by_label("Path").focus();
+    window.step();
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.step();
+    window.get_by_label("Path").type_text(&path.to_string_lossy());
+    settle(window);
+}
+
+#[test]
+fn the_theme_can_be_switched() {
+    let mut window = window(bar());
+    click(&mut window, "Dark theme");
+    assert_eq!(session(&window).look().theme, Theme::Dark);
+    assert!(window.ctx.global_style().visuals.dark_mode);
+    click(&mut window, "Light theme");
+    assert_eq!(session(&window).look().theme, Theme::Light);
+}
+
+#[test]
+fn nothing_is_drawn_while_nothing_changes() {
+    let mut window = window(bar());
+    pose(&mut window, "Idealized view");
+    window.run();
+    let viewport = window.output().viewport_output.values().next().unwrap();
+    assert_eq!(viewport.repaint_delay, Duration::MAX);
+}
