@@ -367,7 +367,8 @@ fn patch_tests_are_exact_on_irregular_meshes() {
         let reachable = if name.starts_with("St") { 2 } else { 4 };
         for f in &deformations[..reachable] {
             let mesh = mesh();
-            let expected: Vec<f64> = mesh.nodes.iter().flat_map(|p| [f * nalgebra::Vector2::from(*p)]).flat_map(|p| [p.x, p.y]).collect();
+            let expected: Vec<f64> =
+                mesh.nodes.iter().flat_map(|p| [f * nalgebra::Vector2::from(*p)]).flat_map(|p| [p.x, p.y]).collect();
             let pull = term_gradient(&mesh.body(material(), None), &expected);
             // A pin gives way by force over stiffness: its anchor stands that much further out.
             let k = 50.0;
@@ -506,9 +507,8 @@ fn free_bodies_come_to_rest_up_to_their_rigid_motion() {
     let mut held = mesh.model(neo_hookean(), bent(&mesh), mesh.left_pins(100.0), Vec::new());
     assert_eq!(held.free_pieces(), 0);
     settle(&mut held, &rest);
-    let lengths = |model: &Model, x: &[f64]| -> Vec<f64> {
-        model.contractile.elements.iter().map(|e| e.length(x)).collect()
-    };
+    let lengths =
+        |model: &Model, x: &[f64]| -> Vec<f64> { model.contractile.elements.iter().map(|e| e.length(x)).collect() };
     let mut free = mesh.model(neo_hookean(), bent(&mesh), Pins::default(), Vec::new());
     assert_eq!(free.free_pieces(), 1);
     let state = settle(&mut free, &rest);
