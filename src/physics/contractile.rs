@@ -19,6 +19,9 @@ use super::pattern::Scatter;
 /// zero. Far below anything a mesh can resolve.
 const ZERO_SEGMENT: f64 = 1e-12;
 
+/// Part of `U'' l` that counts as force at work: rounding of the coordinates leaves 1e-16 of it.
+const ROUNDING: f64 = 1e-6;
+
 /// What never changes about an element.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Element {
@@ -251,12 +254,15 @@ impl Energy for Contractile {
         }
     }
 
+    /// The tension, and what rounding of the coordinates makes of a stiff spring.
     fn add_force_scale(&self, x: &[f64], scale: &mut [f64]) {
         for (e, law) in self.elements.iter().zip(&self.laws) {
-            let (tau, _) = law.tension_and_tangent(e, e.length(x));
+            let length = e.length(x);
+            let (tau, tangent) = law.tension_and_tangent(e, length);
+            let force = tau + ROUNDING * tangent * length;
             for &n in &e.routing {
-                scale[2 * n] += tau;
-                scale[2 * n + 1] += tau;
+                scale[2 * n] += force;
+                scale[2 * n + 1] += force;
             }
         }
     }

@@ -14,13 +14,13 @@ pub struct StaticsSettings {
     pub tolerance: f64,
     /// Where rounding stops progress, a residual below this fraction still counts as converged.
     pub stagnation_tolerance: f64,
-    /// Newton steps.
+    /// Newton steps. Ordinary bodies take fewer than 30; cables a million times stiffer than the body take hundreds.
     pub max_iterations: usize,
 }
 
 impl Default for StaticsSettings {
     fn default() -> Self {
-        Self { tolerance: 1e-12, stagnation_tolerance: 1e-8, max_iterations: 200 }
+        Self { tolerance: 1e-12, stagnation_tolerance: 1e-8, max_iterations: 1000 }
     }
 }
 
@@ -28,6 +28,8 @@ impl Default for StaticsSettings {
 const SUFFICIENT_DECREASE: f64 = 1e-4;
 /// Halvings before a step counts as failed: a factor of about 1e-12.
 const MAX_HALVINGS: usize = 40;
+/// A step capped below this leads nowhere: triangles have collapsed against the edge of the material's domain.
+const SMALLEST_STEP: f64 = 1e-12;
 /// Relative rounding of an energy sum: differences below it say nothing.
 const ENERGY_ROUNDING: f64 = 1e-13;
 
@@ -137,7 +139,8 @@ pub fn solve(
         let slope: f64 = gradient.iter().zip(&step).map(|(g, s)| g * s).sum();
         let mut t = model.step_limit(&x, &step);
         let mut accepted = false;
-        for _ in 0..MAX_HALVINGS {
+        let halvings = if t < SMALLEST_STEP { 0 } else { MAX_HALVINGS };
+        for _ in 0..halvings {
             for ((p, x), s) in trial.iter_mut().zip(&x).zip(&step) {
                 *p = x + t * s;
             }

@@ -43,7 +43,10 @@ const FIRST_PULL: f64 = 0.3;
 /// Part of the way that a held element's rest length moves towards its bound per iteration.
 const BOUND_APPROACH: f64 = 0.6;
 /// Hysteresis of releasing a held element, relative to the largest derivative by tension.
-const RELEASE_MARGIN: f64 = 1e-6;
+const RELEASE_MARGIN: f64 = 1e-7;
+
+/// Growth of that margin for an element with every release.
+const RELUCTANCE: f64 = 2.0;
 
 /// A free fibre: a winch with one element.
 struct Fiber {
@@ -54,6 +57,8 @@ struct Fiber {
     longest: f64,
     /// Where the element is held at present.
     held: Option<Held>,
+    /// Factor on the margin of its release: grows with every release, so that no element comes and goes for ever.
+    reluctance: f64,
 }
 
 impl Fiber {
@@ -167,7 +172,7 @@ impl Run {
                 } else {
                     None
                 };
-                Fiber { element, ratio, shortest, longest, held }
+                Fiber { element, ratio, shortest, longest, held, reluctance: 1.0 }
             })
             .collect();
         let mu = model.body.material().shear_modulus();
@@ -218,6 +223,7 @@ impl Run {
         }
         question.model.gradient(&self.x, &mut solved[rows * n..][..n]);
         objective.rest_gradient(&self.x, &mut solved[(rows + 1) * n..][..n]);
+        self.add_held_tension(question, &mut solved[(rows + 1) * n..][..n]);
         question.model.solve_many(&mut solved, rows + 2);
         let u = solved[rows * n..(rows + 1) * n].to_vec();
         let v = solved[(rows + 1) * n..].to_vec();
@@ -230,6 +236,13 @@ impl Run {
         let jacobian = DMatrix::from_fn(rows, free.len(), |r, c| -rate(free[c], &solved[r * n..(r + 1) * n]));
         let linear = DVector::from_fn(free.len(), |c, _| -rate(free[c], &v));
         let now = DVector::from_fn(free.len(), |c, _| self.tension[free[c]]);
+        let limit = |c: usize, longest: bool| {
+            let fiber = &self.fibers[free[c]];
+            let element = &elements[fiber.element];
+            element.tension(element.length(&self.x) - if longest { fiber.longest } else { fiber.shortest })
+        };
+        let lowest = DVector::from_fn(free.len(), |c, _| limit(c, true));
+        let highest = DVector::from_fn(free.len(), |c, _| limit(c, false));
 
         let mut dx = vec![0.0; n];
         let mut q = residual.clone();
@@ -240,6 +253,8 @@ impl Run {
                 jacobian: &jacobian,
                 linear: &linear,
                 now: &now,
+                lowest: &lowest,
+                highest: &highest,
                 rho: self.rho,
                 nu: self.nu,
             };
@@ -281,6 +296,20 @@ impl Run {
         }
         self.judge(question);
         Some(Progress { longest: step * longest(&dx), settled, factorizations })
+    }
+
+    /// Adds the derivative by `x` of `rho/2 tau^2` of the held elements: `rho tau U'' dl/dx`.
+    fn add_held_tension(&self, question: &Question, out: &mut [f64]) {
+        for fiber in &self.fibers {
+            if let Some(Held { rest, .. }) = fiber.held {
+                let element = &question.model.contractile.elements[fiber.element];
+                let gamma = element.length(&self.x) - rest;
+                let factor = self.rho * element.tension(gamma) * element.tangent(gamma);
+                if factor != 0.0 {
+                    element.add_length_gradient(&self.x, factor, out);
+                }
+            }
+        }
     }
 
     /// `sqrt(q) (S x - x')`, each target's pull limited in length; whether any was.
@@ -331,6 +360,7 @@ impl Run {
         let mut changed = !released.is_empty();
         for k in released {
             self.fibers[k].held = None;
+            self.fibers[k].reluctance *= RELUCTANCE;
         }
         for (fiber, tau) in self.fibers.iter_mut().zip(&mut self.tension) {
             let element = &question.model.contractile.elements[fiber.element];
@@ -366,45 +396,22 @@ impl Run {
 
     /// The elements held at their bound whose release lowers `O`.
     ///
-    /// `dO/dtau = rho tau - G p_0`, where `p_0` lacks the element's own stiffness. `p` has it (its spring is in `H`):
-    /// `G p_0 = G p / (1 - U'' g H^-1 g)`. Only elements that could pass are worth that solve. An element on its way to its
-    /// bound pulls too much or too little, so that its slope says nothing yet.
-    fn released(&self, question: &mut Question, p: &[f64], margin: f64) -> Vec<usize> {
-        let mut candidates = Vec::new();
-        let mut columns = Vec::new();
-        for (k, fiber) in self.fibers.iter().enumerate() {
-            let Some(Held { rest, bound }) = fiber.held else { continue };
+    /// `dO/dalpha_c = U'' (rho tau - G p)` with `p = H^-1 dO/dx`, the springs of held elements in both. An element on its way
+    /// to its bound pulls too much or too little, so that its slope says nothing yet.
+    fn released(&self, question: &Question, p: &[f64], margin: f64) -> Vec<usize> {
+        let release = |fiber: &Fiber| {
+            let Some(Held { rest, bound }) = fiber.held else { return false };
             let element = &question.model.contractile.elements[fiber.element];
             let tau = element.tension(element.length(&self.x) - rest);
-            let own = self.rho * tau - element.length_rate(&self.x, p);
-            let possible = match bound {
-                Bound::Shortest => own > 0.0,
-                Bound::Longest => true,
+            let slope = self.rho * tau - element.length_rate(&self.x, p);
+            let margin = margin * fiber.reluctance;
+            let called = match bound {
+                Bound::Shortest => slope > margin,
+                Bound::Longest => slope < -margin,
             };
-            if rest == fiber.goal(bound) && possible {
-                candidates.push((k, bound, tau));
-                columns.resize(columns.len() + self.x.len(), 0.0);
-                let start = columns.len() - self.x.len();
-                element.add_length_gradient(&self.x, 1.0, &mut columns[start..]);
-            }
-        }
-        question.model.solve_many(&mut columns, candidates.len());
-        candidates
-            .into_iter()
-            .zip(columns.chunks_exact(self.x.len()))
-            .filter(|((k, bound, tau), column)| {
-                let element = &question.model.contractile.elements[self.fibers[*k].element];
-                let Some(Held { rest, .. }) = self.fibers[*k].held else { return false };
-                let tangent = element.tangent(element.length(&self.x) - rest);
-                let share = (1.0 - tangent * element.length_rate(&self.x, column)).max(1e-9);
-                let slope = self.rho * tau - element.length_rate(&self.x, p) / share;
-                match bound {
-                    Bound::Shortest => slope > margin || *tau == 0.0,
-                    Bound::Longest => slope < -margin,
-                }
-            })
-            .map(|((k, ..), _)| k)
-            .collect()
+            rest == fiber.goal(bound) && (called || tau == 0.0)
+        };
+        (0..self.fibers.len()).filter(|k| release(&self.fibers[*k])).collect()
     }
 
     /// Keeps the best state near equilibrium, and lets `nu` follow success.
@@ -437,11 +444,7 @@ impl Run {
             .zip(&self.tension)
             .map(|(fiber, tau)| {
                 let e = &question.model.contractile.elements[fiber.element];
-                let rest = match fiber.held {
-                    Some(Held { bound, .. }) => fiber.goal(bound),
-                    None => e.length(x) - e.deformation(*tau),
-                };
-                (e.alpha0 - rest) / fiber.ratio
+                (e.alpha0 - e.length(x) + e.deformation(*tau)) / fiber.ratio
             })
             .collect();
         question.actuation.clamp(&mut beta);
@@ -449,33 +452,41 @@ impl Run {
     }
 }
 
-/// `min 1/2 |r_0 + J (tau - tau_k)|^2 + c (tau - tau_k) + rho/2 |tau|^2 + nu/2 |tau - tau_k|^2` over `tau >= 0`.
+/// `min 1/2 |r_0 + J (tau - tau_k)|^2 + c (tau - tau_k) + rho/2 |tau|^2 + nu/2 |tau - tau_k|^2` over `lowest <= tau <= highest`.
 ///
-/// With `q` the residual at the solution, `tau(q) = max(0, (nu tau_k - c - J^T q)/(rho + nu))`; `q` solves
+/// With `q` the residual at the solution, `tau(q) = clamp((nu tau_k - c - J^T q)/(rho + nu))`; `q` solves
 /// `q = r_0 + J (tau(q) - tau_k)`, the gradient of a convex function, found by a semismooth Newton method.
 struct Dual<'a> {
     residual: &'a DVector<f64>,
     jacobian: &'a DMatrix<f64>,
     linear: &'a DVector<f64>,
     now: &'a DVector<f64>,
+    lowest: &'a DVector<f64>,
+    highest: &'a DVector<f64>,
     rho: f64,
     nu: f64,
 }
 
 impl Dual<'_> {
+    /// `nu tau_k - c - J^T q`, by which the tensions are pulled.
+    fn pull(&self, q: &DVector<f64>) -> DVector<f64> {
+        self.now * self.nu - self.linear - self.jacobian.tr_mul(q)
+    }
+
     fn tension(&self, q: &DVector<f64>) -> DVector<f64> {
-        let pull = self.jacobian.tr_mul(q);
-        DVector::from_fn(self.now.len(), |i, _| {
-            ((self.nu * self.now[i] - self.linear[i] - pull[i]) / (self.rho + self.nu)).max(0.0)
-        })
+        let mut out = self.pull(q) / (self.rho + self.nu);
+        for i in 0..out.len() {
+            out[i] = out[i].min(self.highest[i]).max(self.lowest[i]);
+        }
+        out
     }
 
     /// Value of the dual function (to be minimised) and its gradient.
     fn value(&self, q: &DVector<f64>, tension: &DVector<f64>) -> (f64, DVector<f64>) {
         let gradient = q - self.residual - self.jacobian * (tension - self.now);
         let offset = self.residual - self.jacobian * self.now;
-        let value = 0.5 * q.norm_squared() - q.dot(&offset) + 0.5 * (self.rho + self.nu) * tension.norm_squared();
-        (value, gradient)
+        let conjugate = self.pull(q).dot(tension) - 0.5 * (self.rho + self.nu) * tension.norm_squared();
+        (0.5 * q.norm_squared() - q.dot(&offset) + conjugate, gradient)
     }
 
     fn solve(&self, start: DVector<f64>) -> (DVector<f64>, DVector<f64>) {
@@ -489,7 +500,7 @@ impl Dual<'_> {
             }
             let mut matrix = DMatrix::identity(rows, rows);
             for i in 0..tension.len() {
-                if tension[i] > 0.0 {
+                if tension[i] > self.lowest[i] && tension[i] < self.highest[i] {
                     let column = self.jacobian.column(i);
                     matrix.ger(1.0 / (self.rho + self.nu), &column, &column, 1.0);
                 }
