@@ -477,6 +477,17 @@ fn type_path(window: &mut Window, path: &std::path::Path) {
 }
 
 #[test]
+fn an_example_opens_from_the_menu() {
+    let mut window = window(bar());
+    click(&mut window, "Examples");
+    window.get_by_label("Robot").click();
+    wait(&mut window, |s| s.design().name != "Bar");
+    assert_eq!(session(&window).history().undo_label(), None);
+    assert!(!session(&window).history().is_modified());
+    wait(&mut window, |s| s.shapes().realizable.is_some());
+}
+
+#[test]
 fn the_theme_can_be_switched() {
     let mut window = window(bar());
     click(&mut window, "Dark theme");

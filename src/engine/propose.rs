@@ -15,6 +15,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Proposals returned.
 const PROPOSALS: usize = 8;
+/// Candidates that are simulated for one set of proposals, the most promising first: a few seconds of work.
+const SCREENED: usize = 100;
 /// Candidates that are posed carefully after a quick screening.
 const SETTLED: usize = 10;
 /// SEED_NUM of the wide winch trees on which the body's response selects, and their JOIN_DEPTH and JOIN_LEN.
@@ -44,7 +46,8 @@ pub fn propose(design: &Design, targets: &[Target], base: &Parameters, cancel: &
         return Vec::new();
     };
     let poses = [Known { targets, before: &before }];
-    let candidates = candidates(design, targets, &poses, base, &tendon_nums, cancel);
+    let mut candidates = candidates(design, targets, &poses, base, &tendon_nums, cancel);
+    candidates.truncate(SCREENED);
     let ranked = rank(design, candidates, &poses, cancel);
     let mut out = Vec::new();
     for (candidate, mut reached) in ranked.into_iter().take(PROPOSALS) {

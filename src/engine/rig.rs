@@ -8,6 +8,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A pose served better than this part of its rest error needs no further winch of its own.
 const SERVED: f64 = 0.02;
+/// Candidates of one pose that are simulated; the most promising come first.
+const PER_POSE: usize = 150;
 /// Rounds of improving a network by small changes of its paths.
 const POLISHING_ROUNDS: usize = 15;
 /// A round goes on from a change that leaves at most this part of the misfit.
@@ -147,7 +149,7 @@ fn gather(
         if served(k) && !all_served {
             continue;
         }
-        for candidate in candidates(design, targets, known, &base, &numbers, cancel) {
+        for candidate in candidates(design, targets, known, &base, &numbers, cancel).into_iter().take(PER_POSE) {
             if asked(&candidate.parameters) && !out.iter().any(|c| c.tendons == candidate.tendons) {
                 out.push(candidate);
             }

@@ -1,6 +1,7 @@
 //! Poses both plushies of a design, warm-started from the request before.
 
 use super::compile::{Plushie, View, compile, objective};
+use super::trial::{SAME_STATE, WINDING_STEPS};
 use super::{Outcome, Question, Request, Shape};
 use crate::design::{Design, Target};
 use crate::soft_ik::contraction::GaussNewton;
@@ -158,7 +159,15 @@ fn run(
     let mut answer = match effort {
         Effort::Thorough if !fibers => {
             let budget = Budget { iterations: THOROUGH_ITERATIONS, stop: &stop };
-            default_method::Default.solve(&mut question, &start, &budget)
+            let mut answer = default_method::Default.solve(&mut question, &start, &budget);
+            // A state that winding from rest does not lead to is not one to promise.
+            let (zero, _) = question.settle(&beta, &rest, &stop);
+            let (wound, factorizations) = question.wind(&zero, &answer.posture.beta, WINDING_STEPS, &stop);
+            answer.factorizations += factorizations;
+            if wound.objective > SAME_STATE * answer.posture.objective {
+                answer = GaussNewton::default().solve(&mut question, &wound, &budget);
+            }
+            answer
         }
         Effort::Thorough => {
             let budget = Budget { iterations: THOROUGH_ITERATIONS, stop: &stop };

@@ -9,14 +9,17 @@ use crate::soft_ik::{Actuation, Budget, Method, Posture, Question};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-/// Parts of the range of a new winch from which it is tried.
-const START_PARTS: [f64; 3] = [0.05, 0.3, 0.6];
+/// Steps in which new winches are wound over their range.
+const SCREENING_STEPS: usize = 4;
+const SETTLING_STEPS: usize = 8;
+/// Steps in which a rig is wound from rest to the pose it reached.
+pub const WINDING_STEPS: usize = 5;
 /// Gauss-Newton iterations: enough to tell networks apart, and to settle on one.
 const SCREENING_ITERATIONS: usize = 4;
 const SETTLING_ITERATIONS: usize = 25;
 
 /// Two states count as the same where their objectives agree to this factor.
-const SAME_STATE: f64 = 1.01;
+pub const SAME_STATE: f64 = 1.01;
 
 /// How carefully a rig is tried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,8 +50,8 @@ impl Trial {
         Some(Self { plushie, actuation })
     }
 
-    /// Poses the plushie. `known` is the posture of the rig without its last winches: those are tried from several
-    /// activations, and from rest as a whole.
+    /// Poses the plushie. `known` is the posture of the rig without its last winches: those are wound over their
+    /// range first.
     pub fn pose(
         &mut self,
         design: &Design,
@@ -64,31 +67,34 @@ impl Trial {
         let count = self.actuation.winches.len();
         let rest = question.model.rest.clone();
         let (old_beta, old_x) = known.map_or((&[][..], rest.as_slice()), |p| (p.beta.as_slice(), p.x.as_slice()));
-        let mut starts: Vec<Vec<f64>> = Vec::new();
-        let parts = if care == Care::Screen { &START_PARTS[1..2] } else { &START_PARTS[..] };
-        for part in parts {
-            let new = self.actuation.winches[old_beta.len().min(count)..].iter().map(|w| part * w.upper);
-            starts.push(old_beta.iter().take(count).copied().chain(new).collect());
-        }
-        starts.dedup();
-        let iterations = if care == Care::Screen { SCREENING_ITERATIONS } else { SETTLING_ITERATIONS };
-        let mut best: Option<Posture> = None;
-        for beta in starts {
-            let (start, _) = question.settle(&beta, old_x, &stop);
-            let answer = GaussNewton::default().solve(&mut question, &start, &Budget { iterations, stop: &stop });
-            let better = best.as_ref().is_none_or(|b| answer.posture.objective < b.objective);
-            if answer.posture.in_equilibrium && better {
-                best = Some(answer.posture);
+        let known_count = old_beta.len().min(count);
+        let at = |part: f64| -> Vec<f64> {
+            let new = self.actuation.winches[known_count..].iter().map(|w| part * w.upper);
+            old_beta.iter().take(count).copied().chain(new).collect()
+        };
+        // Wind what is new slowly and go on from where the body came closest.
+        let (mut posture, _) = question.settle(&at(0.0), old_x, &stop);
+        let mut closest = posture.clone();
+        let steps = match care {
+            _ if known_count == count => 0,
+            Care::Screen => SCREENING_STEPS,
+            Care::Settle => SETTLING_STEPS,
+        };
+        for step in 1..=steps {
+            (posture, _) = question.settle(&at(step as f64 / steps as f64), &posture.x, &stop);
+            if posture.in_equilibrium && posture.objective < closest.objective {
+                closest = posture.clone();
             }
         }
-        let mut posture = best.unwrap_or_else(|| question.settle(&vec![0.0; count], &rest, &stop).0);
+        let iterations = if care == Care::Screen { SCREENING_ITERATIONS } else { SETTLING_ITERATIONS };
+        let budget = Budget { iterations, stop: &stop };
+        let mut posture = GaussNewton::default().solve(&mut question, &closest, &budget).posture;
         if care == Care::Settle {
-            // A soft body can have several equilibria at the same activations. What counts is the one that winding from
-            // rest leads to.
-            let (fresh, _) = question.settle(&posture.beta, &rest, &stop);
-            if fresh.objective > SAME_STATE * posture.objective {
-                let budget = Budget { iterations, stop: &stop };
-                posture = GaussNewton::default().solve(&mut question, &fresh, &budget).posture;
+            // What counts is the equilibrium that winding from rest leads to.
+            let zero = question.settle(&vec![0.0; count], &rest, &stop).0;
+            let (wound, _) = question.wind(&zero, &posture.beta, WINDING_STEPS, &stop);
+            if wound.objective > SAME_STATE * posture.objective {
+                posture = GaussNewton::default().solve(&mut question, &wound, &budget).posture;
             }
         }
         let nodes: Vec<[f64; 2]> = posture.x.chunks_exact(2).map(|p| [p[0], p[1]]).collect();

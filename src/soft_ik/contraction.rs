@@ -28,6 +28,8 @@ impl Default for GaussNewton {
 
 /// First damping, relative to the diagonal of `J^T J`.
 const FIRST_DAMPING: f64 = 1e-4;
+/// A tangent below this part of `K` counts as slack: rounding, or the very foot of the cubic, leaves no useful derivative.
+const BARELY_TAUT: f64 = 1e-3;
 /// Damping at which no useful step is left.
 const LAST_DAMPING: f64 = 1e10;
 
@@ -107,7 +109,7 @@ impl Linearisation {
         }
         let mut base = at.beta.clone();
         for (winch, b) in question.actuation.winches.iter().zip(&mut base) {
-            if winch.members.iter().any(|&(e, _)| tangents[e] > 0.0) {
+            if winch.members.iter().any(|&(e, _)| tangents[e] > BARELY_TAUT * elements[e].stiffness) {
                 continue;
             }
             let by_tension: f64 = winch.members.iter().map(|&(e, r)| -r * elements[e].length_rate(&at.x, &pull)).sum();
@@ -116,8 +118,8 @@ impl Linearisation {
                 .iter()
                 .map(|&(e, r)| (elements[e].alpha0 - elements[e].length(&at.x) - elements[e].epsilon) / r)
                 .fold(f64::INFINITY, f64::min);
-            if by_tension < 0.0 && just_slack < winch.upper && just_slack >= *b {
-                *b = just_slack;
+            if by_tension < 0.0 && just_slack < winch.upper {
+                *b = b.max(just_slack);
                 for &(e, _) in &winch.members {
                     tangents[e] = elements[e].stiffness;
                 }

@@ -15,8 +15,8 @@ const EXPLORING_ITERATIONS: usize = 40;
 const EXPLORING_DECREASE: f64 = 1e-5;
 /// Up to this many winches are also recruited one by one.
 const SEQUENTIAL_LIMIT: usize = 12;
-/// Parts of its range from which a winch is recruited.
-const SEQUENTIAL_PARTS: [f64; 3] = [0.05, 0.3, 0.6];
+/// Steps in which a new winch is wound over its range.
+const SEQUENTIAL_STEPS: usize = 8;
 /// Up to this many free winches, starts are combined winch by winch.
 const COMBINED_STARTS: usize = 4;
 
@@ -76,7 +76,7 @@ impl Method for Default {
     }
 }
 
-/// Recruits the winches one after another: each is tried from several activations while those before it go on adjusting and
+/// Recruits the winches one after another: each is wound over its range, then adjusted together with those before it, while
 /// those after it wait. Large bends that one winch must begin are found this way.
 fn one_by_one(question: &mut Question, start: &Posture, method: &GaussNewton, budget: &Budget) -> Answer {
     let all = question.actuation;
@@ -91,24 +91,27 @@ fn one_by_one(question: &mut Question, start: &Posture, method: &GaussNewton, bu
         let winch = &all.winches[count - 1];
         let upper = if winch.upper.is_finite() { winch.upper } else { reach(&inner, count - 1) };
         let from = Posture { beta: beta[..count].to_vec(), ..best.posture.clone() };
-        let mut starts = vec![from.beta.clone()];
-        for part in SEQUENTIAL_PARTS {
-            let mut tried = from.beta.clone();
-            tried[count - 1] = part * upper;
-            some.clamp(&mut tried);
-            starts.push(tried);
-        }
         best.posture.beta = from.beta.clone();
-        for tried in starts {
+        let (mut posture, factorizations) = inner.settle(&from.beta, &from.x, budget.stop);
+        best.factorizations += factorizations;
+        // Wind the new winch slowly and go on from where the body came closest.
+        let mut closest = posture.clone();
+        let slack = posture.beta[count - 1].max(0.0_f64.max(winch.lower));
+        for step in 1..=SEQUENTIAL_STEPS {
             if (budget.stop)() {
                 break;
             }
-            let (posture, factorizations) = inner.settle(&tried, &from.x, budget.stop);
+            let mut tried = from.beta.clone();
+            tried[count - 1] = slack + (upper - slack) * step as f64 / SEQUENTIAL_STEPS as f64;
+            some.clamp(&mut tried);
+            let (next, factorizations) = inner.settle(&tried, &posture.x, budget.stop);
             best.factorizations += factorizations;
-            if posture.in_equilibrium {
-                absorb(&mut best, method.solve(&mut inner, &posture, budget));
+            posture = next;
+            if posture.in_equilibrium && posture.objective < closest.objective {
+                closest = posture.clone();
             }
         }
+        absorb(&mut best, method.solve(&mut inner, &closest, budget));
         beta[..count].copy_from_slice(&best.posture.beta);
     }
     best.posture.beta = beta;

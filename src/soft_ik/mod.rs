@@ -90,6 +90,23 @@ impl Question<'_> {
         (posture, state.factorizations)
     }
 
+    /// The equilibrium that winding from `from` leads to: the activations go to `beta` in `steps` equal steps, each settled
+    /// from the one before. A soft body can have several equilibria at the same activations; this is the one a real plushie
+    /// would be in.
+    pub fn wind(&mut self, from: &Posture, beta: &[f64], steps: usize, stop: &dyn Fn() -> bool) -> (Posture, usize) {
+        let mut posture = from.clone();
+        let mut factorizations = 0;
+        for step in 1..=steps {
+            let part = step as f64 / steps as f64;
+            let between: Vec<f64> = from.beta.iter().zip(beta).map(|(a, b)| a + part * (b - a)).collect();
+            let target = if step == steps { beta } else { &between };
+            let (next, count) = self.settle(target, &posture.x, stop);
+            posture = next;
+            factorizations += count;
+        }
+        (posture, factorizations)
+    }
+
     /// `O` at `x` with all elements springs at `contractions` (as set in the model).
     pub fn objective_at(&self, x: &[f64], contractions: &[f64]) -> f64 {
         let tensions = self.model.contractile.tensions(x);

@@ -105,11 +105,8 @@ impl Method for AllAtOnce {
                 None => break,
             }
         }
-        let mut candidates = vec![(run.x.clone(), run.activations(question, &run.x, &run.tension))];
-        if let Some((_, x, tension)) = run.best.take() {
-            let beta = run.activations(question, &x, &tension);
-            candidates.push((x, beta));
-        }
+        let mut candidates = vec![(run.x.clone(), run.activations(question))];
+        candidates.extend(run.best.take().map(|(_, x, beta)| (x, beta)));
         for (x, beta) in candidates {
             let (posture, factorizations) = question.settle(&beta, &x, &|| false);
             answer.factorizations += factorizations;
@@ -146,7 +143,7 @@ struct Run {
     /// Body size: the longer side of the rest box.
     size: f64,
     last_objective: f64,
-    /// Lowest `O` seen near equilibrium, with its state.
+    /// Lowest `O` seen near equilibrium, with its positions and activations.
     best: Option<(f64, Vec<f64>, Vec<f64>)>,
 }
 
@@ -413,9 +410,10 @@ impl Run {
         let mut gradient = vec![0.0; self.x.len()];
         question.model.gradient(&self.x, &mut gradient);
         let residual = crate::physics::statics::norm(&gradient);
-        let near = residual <= 1e-2 * question.model.force_scale(&self.x);
+        let within = self.fibers.iter().all(|f| f.held.is_none_or(|h| h.rest == f.goal(h.bound)));
+        let near = within && residual <= 1e-2 * question.model.force_scale(&self.x);
         if near && self.best.as_ref().is_none_or(|(o, ..)| value < *o) {
-            self.best = Some((value, self.x.clone(), self.tension.clone()));
+            self.best = Some((value, self.x.clone(), self.activations(question)));
         }
         if value > self.last_objective {
             self.nu *= PROXIMAL_GROWTH;
@@ -425,12 +423,13 @@ impl Run {
         self.last_objective = value;
     }
 
-    /// Activations that hold these tensions at these positions, within the bounds.
-    fn activations(&self, question: &Question, x: &[f64], tension: &[f64]) -> Vec<f64> {
+    /// Activations that hold the present tensions at the present positions, within the bounds.
+    fn activations(&self, question: &Question) -> Vec<f64> {
+        let x = &self.x;
         let mut beta: Vec<f64> = self
             .fibers
             .iter()
-            .zip(tension)
+            .zip(&self.tension)
             .map(|(fiber, tau)| {
                 let e = &question.model.contractile.elements[fiber.element];
                 (e.alpha0 - e.length(x) + e.deformation(*tau)) / fiber.ratio

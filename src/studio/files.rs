@@ -186,7 +186,11 @@ impl Session {
             Report::Imported(result) => {
                 self.files.working = None;
                 match result {
-                    Ok(design) => self.open(*design, None),
+                    Ok(design) => {
+                        self.open(*design, None);
+                        // It is nowhere but here.
+                        self.history.mark_unsaved();
+                    }
                     Err(why) => self.messages.error(why),
                 }
             }

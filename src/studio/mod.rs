@@ -9,6 +9,7 @@
 
 pub mod action;
 pub mod app;
+mod asking;
 mod blank;
 pub mod change;
 mod discovering;
@@ -19,6 +20,7 @@ pub mod jobs;
 pub mod messages;
 pub mod panels;
 mod playing;
+mod reading;
 pub mod session;
 mod shortcuts;
 pub mod style;

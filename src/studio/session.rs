@@ -1,16 +1,17 @@
 //! The state of the window, and everything that changes it.
 
 use super::action::{Action, FileAction};
+use super::asking::Asked;
 use super::change::{Change, Made};
 use super::files::Files;
 use super::jobs::{Jobs, Report, Wake};
 use super::messages::Messages;
 use super::viewport::camera::Camera;
 use crate::design::history::History;
-use crate::design::{Design, Target, animation, edit};
+use crate::design::{Design, Target, edit};
 use crate::discovery::Parameters;
 use crate::engine::worker::Worker;
-use crate::engine::{Proposal, Question, Request, Shape};
+use crate::engine::{Proposal, Shape};
 use crate::outline::Point;
 use crate::picture::palette::Theme;
 use crate::picture::scene::Stage;
@@ -90,13 +91,6 @@ pub(super) struct Drag {
     pub(super) offset: Point,
 }
 
-/// Asked of the worker last.
-struct Asked {
-    id: u64,
-    design: Arc<Design>,
-    question: Question,
-}
-
 /// Makes proposals for a design and the targets of a pose.
 pub type Propose = Arc<dyn Fn(&Design, &[Target], &Parameters, &AtomicBool) -> Vec<Proposal> + Send + Sync>;
 /// Writes the blueprint of a design into a folder.
@@ -124,15 +118,15 @@ pub struct Session {
     pub(super) files: Files,
     pub(super) jobs: Jobs,
     pub(super) services: Services,
-    worker: Worker,
+    pub(super) worker: Worker,
     pub(super) drag: Option<Drag>,
-    asked: Option<Asked>,
+    pub(super) asked: Option<Asked>,
     /// Outcomes before this one belong to another document.
-    first_id: u64,
-    answered_id: Option<u64>,
+    pub(super) first_id: u64,
+    pub(super) answered_id: Option<u64>,
     /// A keyframe to be set once the solver has settled.
-    key_wanted: bool,
-    warning: Option<String>,
+    pub(super) key_wanted: bool,
+    pub(super) warning: Option<String>,
 }
 
 impl Session {
@@ -170,96 +164,11 @@ impl Session {
         }
     }
 
-    /// The document as it is now.
-    pub fn design(&self) -> &Arc<Design> {
-        self.history.current()
-    }
-
-    pub fn history(&self) -> &History {
-        &self.history
-    }
-
-    /// The current pose; `None` is the rest shape.
-    pub fn pose(&self) -> Option<usize> {
-        self.pose
-    }
-
-    pub fn selection(&self) -> Selection {
-        self.selection
-    }
-
-    pub fn playback(&self) -> &Playback {
-        &self.playback
-    }
-
-    pub fn discovery(&self) -> &Discovery {
-        &self.discovery
-    }
-
-    pub fn shapes(&self) -> &Shapes {
-        &self.shapes
-    }
-
-    pub fn messages(&self) -> &Messages {
-        &self.messages
-    }
-
-    pub fn look(&self) -> &Look {
-        &self.look
-    }
-
-    /// Whether a thread is busy with a file.
-    pub fn is_working(&self) -> bool {
-        self.files.working.is_some()
-    }
-
-    /// Targets of the current pose; none at rest and while the animation is shown.
-    pub fn targets(&self) -> &[Target] {
-        match (self.mode, self.pose.and_then(|pose| self.design().poses.get(pose))) {
-            (Mode::Pose, Some(pose)) => &pose.targets,
-            _ => &[],
-        }
-    }
-
-    pub fn is_dragging(&self) -> bool {
-        self.drag.is_some()
-    }
-
-    /// Whether the shapes answer the newest question.
-    pub fn is_settled(&self) -> bool {
-        let resting = !self.worker.is_busy();
-        resting && self.asked.as_ref().is_some_and(|asked| self.answered_id == Some(asked.id))
-    }
-
-    /// The proposal that the views show.
-    pub fn shown_proposal(&self) -> Option<&Arc<Proposal>> {
-        self.discovery.shown.and_then(|index| self.discovery.proposals.get(index))
-    }
-
-    /// What the solver has to say about the newest shapes.
-    pub fn solver_warning(&self) -> Option<&str> {
-        self.warning.as_deref()
-    }
-
-    /// Why networks cannot be proposed now, if so.
-    pub fn cannot_propose(&self) -> Option<&'static str> {
-        if self.discovery.running.is_some() {
-            Some("Discovery is running")
-        } else if self.mode == Mode::Animation || self.targets().is_empty() {
-            Some("Choose a pose with at least one target first: drag a point of the body")
-        } else {
-            None
-        }
-    }
-
     /// Replaces the document; undo starts anew.
     pub(super) fn open(&mut self, design: Design, path: Option<PathBuf>) {
         self.cancel_propose();
         self.pose = first_pose(&design);
         self.history = History::new(design);
-        if path.is_none() {
-            self.history.mark_unsaved();
-        }
         self.path = path;
         self.selection = Selection::Nothing;
         self.mode = Mode::Pose;
@@ -460,64 +369,11 @@ impl Session {
             other => self.take_file_report(other),
         }
     }
-
-    fn take_outcome(&mut self) {
-        let Some(outcome) = self.worker.take() else { return };
-        if outcome.id < self.first_id {
-            return;
-        }
-        let nodes = self.design().mesh.nodes.len();
-        let fits = |shape: &Shape| {
-            shape.nodes.len() == nodes && shape.nodes.iter().flatten().all(|coordinate| coordinate.is_finite())
-        };
-        let warning = |shape: &Option<Shape>| shape.as_ref().and_then(|s| s.warning.clone());
-        self.warning = warning(&outcome.realizable).or_else(|| warning(&outcome.idealized));
-        self.answered_id = Some(outcome.id);
-        if let Some(shape) = outcome.idealized.filter(fits) {
-            self.shapes.idealized = Some(Arc::new(shape));
-        }
-        if let Some(shape) = outcome.realizable.filter(fits) {
-            self.shapes.realizable = Some(Arc::new(shape));
-        }
-    }
-
-    /// Submits what should be seen, if that is not what was asked last.
-    fn ask(&mut self) {
-        let design = self.design().clone();
-        let question = match self.mode {
-            Mode::Pose => Question::Targets(self.targets().to_vec()),
-            Mode::Animation => Question::Activations(animation::activations_at(&design, self.playback.time_s)),
-        };
-        if let Some(asked) = &self.asked
-            && asked.id >= self.first_id
-            && Arc::ptr_eq(&asked.design, &design)
-            && same(&asked.question, &question)
-        {
-            return;
-        }
-        let id = self.asked.as_ref().map_or(0, |asked| asked.id + 1);
-        self.worker.submit(Request {
-            id,
-            design: design.clone(),
-            question: question.clone(),
-            show_idealized: true,
-            show_realizable: true,
-        });
-        self.asked = Some(Asked { id, design, question });
-    }
 }
 
 impl Drop for Session {
     fn drop(&mut self) {
         self.cancel_propose();
-    }
-}
-
-fn same(a: &Question, b: &Question) -> bool {
-    match (a, b) {
-        (Question::Targets(a), Question::Targets(b)) => a == b,
-        (Question::Activations(a), Question::Activations(b)) => a == b,
-        _ => false,
     }
 }
 

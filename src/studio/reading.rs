@@ -1,0 +1,92 @@
+//! What panels, viewports and tests may read of the session.
+
+use super::messages::Messages;
+use super::session::{Discovery, Look, Mode, Playback, Selection, Session, Shapes};
+use crate::design::history::History;
+use crate::design::{Design, Target};
+use crate::engine::Proposal;
+use std::sync::Arc;
+
+impl Session {
+    /// The document as it is now.
+    pub fn design(&self) -> &Arc<Design> {
+        self.history.current()
+    }
+
+    pub fn history(&self) -> &History {
+        &self.history
+    }
+
+    /// The current pose; `None` is the rest shape.
+    pub fn pose(&self) -> Option<usize> {
+        self.pose
+    }
+
+    pub fn selection(&self) -> Selection {
+        self.selection
+    }
+
+    pub fn playback(&self) -> &Playback {
+        &self.playback
+    }
+
+    pub fn discovery(&self) -> &Discovery {
+        &self.discovery
+    }
+
+    pub fn shapes(&self) -> &Shapes {
+        &self.shapes
+    }
+
+    pub fn messages(&self) -> &Messages {
+        &self.messages
+    }
+
+    pub fn look(&self) -> &Look {
+        &self.look
+    }
+
+    /// Whether a thread is busy with a file.
+    pub fn is_working(&self) -> bool {
+        self.files.working.is_some()
+    }
+
+    /// Targets of the current pose; none at rest and while the animation is shown.
+    pub fn targets(&self) -> &[Target] {
+        match (self.mode, self.pose.and_then(|pose| self.design().poses.get(pose))) {
+            (Mode::Pose, Some(pose)) => &pose.targets,
+            _ => &[],
+        }
+    }
+
+    pub fn is_dragging(&self) -> bool {
+        self.drag.is_some()
+    }
+
+    /// Whether the shapes answer the newest question.
+    pub fn is_settled(&self) -> bool {
+        let resting = !self.worker.is_busy();
+        resting && self.asked.as_ref().is_some_and(|asked| self.answered_id == Some(asked.id))
+    }
+
+    /// The proposal that the views show.
+    pub fn shown_proposal(&self) -> Option<&Arc<Proposal>> {
+        self.discovery.shown.and_then(|index| self.discovery.proposals.get(index))
+    }
+
+    /// What the solver has to say about the newest shapes.
+    pub fn solver_warning(&self) -> Option<&str> {
+        self.warning.as_deref()
+    }
+
+    /// Why networks cannot be proposed now, if so.
+    pub fn cannot_propose(&self) -> Option<&'static str> {
+        if self.discovery.running.is_some() {
+            Some("Discovery is running")
+        } else if self.mode == Mode::Animation || self.targets().is_empty() {
+            Some("Choose a pose with at least one target first: drag a point of the body")
+        } else {
+            None
+        }
+    }
+}
