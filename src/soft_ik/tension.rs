@@ -6,18 +6,20 @@
 //! 1. Assemble `g = dE/dx` and the exact `H` at `(x, tau)`, where a free element contributes `tau d2l` only.
 //! 2. Solve `H [Y, u, v] = [S^T, g, Q (x - X)]`.
 //! 3. With `G` the rows `dl/dx` of free elements: `J = -Y^T G^T`, `c = -G v`, `r_0 = S (x - u) - x'`.
-//! 4. The step in tension minimises `1/2 |r_0 + J dtau|^2 + c dtau + rho/2 |tau|^2 + nu/2 |dtau|^2` with `tau >= 0`: a convex
-//!    dual of the size of the targets, solved by a semismooth Newton method ([`Dual`]).
+//! 4. The step in tension minimises `1/2 |r_0 + J dtau|^2 + c dtau + rho/2 |tau|^2 + nu/2 |dtau|^2` with every tension between
+//!    those at its bounds: a convex dual of the size of the targets, solved by a semismooth Newton method ([`Dual`]).
 //! 5. `dx = -u - H^-1 G^T dtau` is a Newton step of the statics under the new tensions, capped and line-searched on
 //!    `E(.; tau)`.
-//! 6. Elements that would leave their bounds are held, those that the objective calls back are released.
+//! 6. Elements that reach a bound are held there as springs. A held element stays part of step 4, in the same units: with
+//!    its spring in `H`, `dtau = U'' dalpha_c` at fixed `x`. Where the step moves it off its bound it is freed. So held and
+//!    free elements are decided on together, against the same targets.
 //!
 //! Tension does not vanish from the model where an element is slack, so the slack stall does not exist here. Contractions
 //! follow as `alpha_c = alpha_0 - l + U'^-1(tau)`, and a statics polish ends the work.
 
 use super::objective::PointTarget;
 use super::{Answer, Budget, Method, Posture, Question};
-use crate::physics::Law;
+use crate::physics::{Element, Law};
 use nalgebra::{DMatrix, DVector};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,19 +36,21 @@ impl Default for AllAtOnce {
 
 /// First proximal weight `nu`, in units of `rho`: robust from a cold start.
 const FIRST_PROXIMAL: f64 = 40.0;
-/// Smallest `nu`, in units of `rho`, reached where iterations go well.
-const LEAST_PROXIMAL: f64 = 2.0;
+/// Smallest `nu`, in units of `rho`, reached where iterations go well. Below it elements come and go at their bounds.
+const LEAST_PROXIMAL: f64 = 4.0;
+/// Factor on `nu` after an iteration in which `O` rose: what keeps the set of held elements from oscillating.
+const PROXIMAL_GROWTH: f64 = 2.0;
+/// Divisor of `nu` after an iteration in which `O` fell.
+const PROXIMAL_DECAY: f64 = 1.3;
 /// Longest step of a node in one iteration, as a part of the body: beyond it the linearised lengths mean nothing.
 const LONGEST_STEP: f64 = 0.25;
 /// First limit on the pull of a single target, as a part of the body; it doubles until it limits nothing.
 const FIRST_PULL: f64 = 0.3;
-/// Part of the way that a held element's rest length moves towards its bound per iteration.
-const BOUND_APPROACH: f64 = 0.6;
-/// Hysteresis of releasing a held element, relative to the largest derivative by tension.
-const RELEASE_MARGIN: f64 = 1e-7;
-
-/// Growth of that margin for an element with every release.
-const RELUCTANCE: f64 = 2.0;
+/// A held element is freed once its rest length is off its bound by this part of `alpha_0` for every time it was freed
+/// before, so that none comes and goes for ever.
+const RELEASE_DISTANCE: f64 = 0.01;
+/// Tangent, as a part of `K`, below which an element counts as slack.
+const SLACK_TANGENT: f64 = 1e-6;
 
 /// A free fibre: a winch with one element.
 struct Fiber {
@@ -55,32 +59,27 @@ struct Fiber {
     /// Rest lengths at the bounds of its activation.
     shortest: f64,
     longest: f64,
-    /// Where the element is held at present.
-    held: Option<Held>,
-    /// Factor on the margin of its release: grows with every release, so that no element comes and goes for ever.
-    reluctance: f64,
+    /// The rest length of the spring that the element is at present, where it is held at or near a bound.
+    held: Option<f64>,
+    /// How often it was freed.
+    releases: usize,
 }
 
 impl Fiber {
-    /// The rest length at a bound.
-    fn goal(&self, bound: Bound) -> f64 {
-        match bound {
-            Bound::Shortest => self.shortest,
-            Bound::Longest => self.longest,
+    /// The tensions `[lowest, highest]` between which a step may choose, at coordinates `x`.
+    ///
+    /// A free element's are those at its bounds, the length as it is. A held one's move its rest length to its bounds, with
+    /// the tangent as it is.
+    fn limits(&self, element: &Element, x: &[f64]) -> [f64; 2] {
+        let length = element.length(x);
+        match self.held {
+            None => [element.tension(length - self.longest), element.tension(length - self.shortest)],
+            Some(rest) => {
+                let (tau, tangent) = (element.tension(length - rest), element.tangent(length - rest));
+                [(tau + tangent * (rest - self.longest)).max(0.0), tau + tangent * (rest - self.shortest)]
+            }
         }
     }
-}
-
-#[derive(Clone, Copy, PartialEq)]
-struct Held {
-    rest: f64,
-    bound: Bound,
-}
-
-#[derive(Clone, Copy, PartialEq)]
-enum Bound {
-    Shortest,
-    Longest,
 }
 
 impl Method for AllAtOnce {
@@ -166,13 +165,13 @@ impl Run {
                 tension.push(tau);
                 let slop = 1e-9 * e.alpha0;
                 let held = if rest <= shortest + slop && tau > 0.0 {
-                    Some(Held { rest: shortest, bound: Bound::Shortest })
+                    Some(shortest)
                 } else if rest >= longest - slop && tau > 0.0 {
-                    Some(Held { rest: longest, bound: Bound::Longest })
+                    Some(longest)
                 } else {
                     None
                 };
-                Fiber { element, ratio, shortest, longest, held, reluctance: 1.0 }
+                Fiber { element, ratio, shortest, longest, held, releases: 0 }
             })
             .collect();
         let mu = model.body.material().shear_modulus();
@@ -201,7 +200,7 @@ impl Run {
         contractile.set_contractions(&question.actuation.fixed);
         for (fiber, tau) in self.fibers.iter().zip(&self.tension) {
             contractile.laws[fiber.element] = match fiber.held {
-                Some(held) => Law::Spring { alpha: held.rest },
+                Some(rest) => Law::Spring { alpha: rest },
                 None => Law::Tension(*tau),
             };
         }
@@ -210,6 +209,7 @@ impl Run {
     fn iterate(&mut self, question: &mut Question) -> Option<Progress> {
         let n = self.x.len();
         let objective = question.objective;
+        self.release_slack(question);
         self.set_laws(question);
         let form = question.model.factorize_for_descent(&self.x).ok()?;
         let factorizations = 1 + (form == crate::physics::HessianForm::Projected) as usize;
@@ -230,19 +230,15 @@ impl Run {
 
         let moved: Vec<f64> = self.x.iter().zip(&u).map(|(x, u)| x - u).collect();
         let (residual, limited) = self.limited_residual(&objective.targets, &moved);
-        let free: Vec<usize> = (0..self.fibers.len()).filter(|k| self.fibers[*k].held.is_none()).collect();
         let elements = &question.model.contractile.elements;
+        let count = self.fibers.len();
         let rate = |k: usize, w: &[f64]| elements[self.fibers[k].element].length_rate(&self.x, w);
-        let jacobian = DMatrix::from_fn(rows, free.len(), |r, c| -rate(free[c], &solved[r * n..(r + 1) * n]));
-        let linear = DVector::from_fn(free.len(), |c, _| -rate(free[c], &v));
-        let now = DVector::from_fn(free.len(), |c, _| self.tension[free[c]]);
-        let limit = |c: usize, longest: bool| {
-            let fiber = &self.fibers[free[c]];
-            let element = &elements[fiber.element];
-            element.tension(element.length(&self.x) - if longest { fiber.longest } else { fiber.shortest })
-        };
-        let lowest = DVector::from_fn(free.len(), |c, _| limit(c, true));
-        let highest = DVector::from_fn(free.len(), |c, _| limit(c, false));
+        let jacobian = DMatrix::from_fn(rows, count, |r, k| -rate(k, &solved[r * n..(r + 1) * n]));
+        let linear = DVector::from_fn(count, |k, _| -rate(k, &v));
+        let now = DVector::from_column_slice(&self.tension);
+        let limits: Vec<[f64; 2]> = self.fibers.iter().map(|f| f.limits(&elements[f.element], &self.x)).collect();
+        let lowest = DVector::from_fn(count, |k, _| limits[k][0]);
+        let highest = DVector::from_fn(count, |k, _| limits[k][1]);
 
         let mut dx = vec![0.0; n];
         let mut q = residual.clone();
@@ -260,10 +256,10 @@ impl Run {
             };
             (q, next) = dual.solve(q);
             dx.fill(0.0);
-            for (c, &k) in free.iter().enumerate() {
-                let change = next[c] - now[c];
+            for (k, fiber) in self.fibers.iter().enumerate() {
+                let change = next[k] - now[k];
                 if change != 0.0 {
-                    let element = &question.model.contractile.elements[self.fibers[k].element];
+                    let element = &question.model.contractile.elements[fiber.element];
                     element.add_length_gradient(&self.x, -change, &mut dx);
                 }
             }
@@ -276,22 +272,27 @@ impl Run {
             }
             self.nu *= 4.0;
         }
-        for (c, &k) in free.iter().enumerate() {
-            self.tension[k] = next[c];
-        }
-        let step = self.search(question, &dx);
-
-        // The pull of the objective on every element's length: positive where a longer element would be better.
-        let mut p = v;
-        for (r, weight) in q.iter().enumerate() {
-            for (a, y) in p.iter_mut().zip(&solved[r * n..(r + 1) * n]) {
-                *a += weight * y;
+        for k in 0..count {
+            let fiber = &mut self.fibers[k];
+            if let Some(rest) = &mut fiber.held {
+                let element = &question.model.contractile.elements[fiber.element];
+                let tangent = element.tangent(element.length(&self.x) - *rest);
+                // Exactly on the bound where the step ends there.
+                *rest = if next[k] == highest[k] {
+                    fiber.shortest
+                } else if next[k] == lowest[k] && fiber.longest.is_finite() && next[k] > 0.0 {
+                    fiber.longest
+                } else {
+                    (*rest - (next[k] - now[k]) / tangent).max(fiber.shortest).min(fiber.longest)
+                };
+            } else {
+                self.tension[k] = next[k];
             }
         }
-        let by_tension = &linear + jacobian.tr_mul(&q);
-        let changed = self.update_bounds(question, &p, &by_tension);
+        let step = self.search(question, &dx);
+        let changed = self.update_bounds(question);
         let settled = !limited && !changed && step >= 0.5;
-        if step >= 0.5 {
+        if limited && step >= 0.5 {
             self.pull *= 2.0;
         }
         self.judge(question);
@@ -301,7 +302,7 @@ impl Run {
     /// Adds the derivative by `x` of `rho/2 tau^2` of the held elements: `rho tau U'' dl/dx`.
     fn add_held_tension(&self, question: &Question, out: &mut [f64]) {
         for fiber in &self.fibers {
-            if let Some(Held { rest, .. }) = fiber.held {
+            if let Some(rest) = fiber.held {
                 let element = &question.model.contractile.elements[fiber.element];
                 let gamma = element.length(&self.x) - rest;
                 let factor = self.rho * element.tension(gamma) * element.tangent(gamma);
@@ -352,16 +353,23 @@ impl Run {
         0.0
     }
 
-    /// Holds elements that left their bounds, moves held ones to their bound, and releases those that the objective calls
-    /// back. Whether any changed.
-    fn update_bounds(&mut self, question: &mut Question, p: &[f64], by_tension: &DVector<f64>) -> bool {
-        let margin = RELEASE_MARGIN * by_tension.amax();
-        let released = self.released(question, p, margin);
-        let mut changed = !released.is_empty();
-        for k in released {
-            self.fibers[k].held = None;
-            self.fibers[k].reluctance *= RELUCTANCE;
+    /// A held element that has gone slack has no stiffness left to be held by: its tension is the unknown again.
+    fn release_slack(&mut self, question: &Question) {
+        for (fiber, tau) in self.fibers.iter_mut().zip(&mut self.tension) {
+            if let Some(rest) = fiber.held {
+                let element = &question.model.contractile.elements[fiber.element];
+                let gamma = element.length(&self.x) - rest;
+                *tau = element.tension(gamma);
+                if element.tangent(gamma) <= SLACK_TANGENT * element.stiffness {
+                    fiber.held = None;
+                }
+            }
         }
+    }
+
+    /// Holds elements that left their bounds and frees held ones that the step moved off theirs. Whether any changed.
+    fn update_bounds(&mut self, question: &Question) -> bool {
+        let mut changed = false;
         for (fiber, tau) in self.fibers.iter_mut().zip(&mut self.tension) {
             let element = &question.model.contractile.elements[fiber.element];
             let length = element.length(&self.x);
@@ -370,48 +378,28 @@ impl Run {
                 None => {
                     let rest = length - element.deformation(*tau);
                     let bound = if *tau > 0.0 && rest < fiber.shortest - slop {
-                        Bound::Shortest
+                        fiber.shortest
                     } else if rest > fiber.longest + slop && element.tension(length - fiber.longest) > *tau {
-                        Bound::Longest
+                        fiber.longest
                     } else {
                         continue;
                     };
-                    fiber.held = Some(Held { rest, bound });
+                    fiber.held = Some(bound);
+                    *tau = element.tension(length - bound);
                     changed = true;
                 }
-                Some(Held { rest, bound }) => {
-                    let goal = fiber.goal(bound);
-                    let mut next = rest + BOUND_APPROACH * (goal - rest);
-                    if (next - goal).abs() < 1e-3 * element.alpha0 {
-                        next = goal;
+                Some(rest) => {
+                    *tau = element.tension(length - rest);
+                    let inside = (rest - fiber.shortest).min(fiber.longest - rest);
+                    if inside > fiber.releases as f64 * RELEASE_DISTANCE * element.alpha0 + slop {
+                        fiber.held = None;
+                        fiber.releases += 1;
+                        changed = true;
                     }
-                    changed |= rest != goal;
-                    fiber.held = Some(Held { rest: next, bound });
-                    *tau = element.tension(length - next);
                 }
             }
         }
         changed
-    }
-
-    /// The elements held at their bound whose release lowers `O`.
-    ///
-    /// `dO/dalpha_c = U'' (rho tau - G p)` with `p = H^-1 dO/dx`, the springs of held elements in both. An element on its way
-    /// to its bound pulls too much or too little, so that its slope says nothing yet.
-    fn released(&self, question: &Question, p: &[f64], margin: f64) -> Vec<usize> {
-        let release = |fiber: &Fiber| {
-            let Some(Held { rest, bound }) = fiber.held else { return false };
-            let element = &question.model.contractile.elements[fiber.element];
-            let tau = element.tension(element.length(&self.x) - rest);
-            let slope = self.rho * tau - element.length_rate(&self.x, p);
-            let margin = margin * fiber.reluctance;
-            let called = match bound {
-                Bound::Shortest => slope > margin,
-                Bound::Longest => slope < -margin,
-            };
-            rest == fiber.goal(bound) && (called || tau == 0.0)
-        };
-        (0..self.fibers.len()).filter(|k| release(&self.fibers[*k])).collect()
     }
 
     /// Keeps the best state near equilibrium, and lets `nu` follow success.
@@ -427,10 +415,10 @@ impl Run {
         if near && self.best.as_ref().is_none_or(|(o, ..)| value < *o) {
             self.best = Some((value, self.x.clone(), self.activations(question)));
         }
-        if value > self.last_objective * 1.05 {
-            self.nu *= 3.0;
+        if value > self.last_objective {
+            self.nu *= PROXIMAL_GROWTH;
         } else {
-            self.nu = (self.nu / 1.7).max(LEAST_PROXIMAL * self.rho);
+            self.nu = (self.nu / PROXIMAL_DECAY).max(LEAST_PROXIMAL * self.rho);
         }
         self.last_objective = value;
     }
