@@ -22,7 +22,10 @@ fn deformed(x: &[f64]) -> Vec<f64> {
     moved(&bent.collect::<Vec<_>>(), 0.4, [0.3, -0.2])
 }
 
-fn materials() -> Vec<(&'static str, fn() -> Box<dyn Material>)> {
+/// A material by name, made anew for every model.
+type Named = (&'static str, fn() -> Box<dyn Material>);
+
+fn materials() -> Vec<Named> {
     vec![
         ("neo-Hookean", || Box::new(NeoHookean { mu: 0.7, kappa: 1.9 })),
         ("neo-Hookean without kappa", || Box::new(NeoHookean { mu: 0.7, kappa: 0.0 })),
@@ -76,12 +79,15 @@ fn terms() -> Vec<(String, Box<dyn Energy>)> {
     terms
 }
 
+/// Hessian at the first argument times the second.
+type Product<'a> = &'a dyn Fn(&[f64], &[f64]) -> Vec<f64>;
+
 /// What a check of derivatives needs, of a single term or of a whole model.
 struct Function<'a> {
     energy: &'a dyn Fn(&[f64]) -> f64,
     gradient: &'a dyn Fn(&[f64]) -> Vec<f64>,
     /// Hessian times vector.
-    hessian: &'a dyn Fn(&[f64], &[f64]) -> Vec<f64>,
+    hessian: Product<'a>,
 }
 
 /// Differences below this part of the quantities at hand are rounding.
