@@ -22,7 +22,11 @@ fn deformed(x: &[f64]) -> Vec<f64> {
     moved(&bent.collect::<Vec<_>>(), 0.4, [0.3, -0.2])
 }
 
-fn materials() -> Vec<(&'static str, fn() -> Box<dyn Material>)> {
+/// Makes a material anew: bodies own theirs.
+type MakeMaterial = fn() -> Box<dyn Material>;
+type NamedTerm = (String, Box<dyn Energy>);
+
+fn materials() -> Vec<(&'static str, MakeMaterial)> {
     vec![
         ("neo-Hookean", || Box::new(NeoHookean { mu: 0.7, kappa: 1.9 })),
         ("neo-Hookean without kappa", || Box::new(NeoHookean { mu: 0.7, kappa: 0.0 })),
@@ -43,10 +47,10 @@ fn stretched(routing: &[usize], epsilon: f64, part: f64, x: &[f64]) -> Element {
 }
 
 /// Every kind of energy term, at the deformed state.
-fn terms() -> Vec<(String, Box<dyn Energy>)> {
+fn terms() -> Vec<NamedTerm> {
     let mesh = mesh();
     let x = deformed(&mesh.flat());
-    let mut terms: Vec<(String, Box<dyn Energy>)> = Vec::new();
+    let mut terms: Vec<NamedTerm> = Vec::new();
     let map: Vec<f64> = (0..mesh.triangles.len()).map(|k| 0.3 + 0.1 * k as f64).collect();
     for (name, material) in materials() {
         terms.push((format!("body, {name}"), Box::new(mesh.body(material(), None))));
