@@ -5,7 +5,10 @@ use crate::studio::action::Action;
 use crate::studio::icons::{self, Icon};
 use crate::studio::messages::Level;
 use crate::studio::session::Session;
-use eframe::egui::{Align, Align2, Area, Context, Frame, Id, Label, Layout, Order, Sense, vec2};
+use eframe::egui::{Align2, Area, Context, Frame, Id, Label, Order, Sense, vec2};
+
+/// Width of a message's text, logical pixels.
+const TEXT_WIDTH: f32 = 400.0;
 
 /// `above` is how much the panels at the bottom take, logical pixels.
 pub fn show(ctx: &Context, session: &Session, above: f32, actions: &mut Actions) {
@@ -24,15 +27,17 @@ pub fn show(ctx: &Context, session: &Session, above: f32, actions: &mut Actions)
                 Level::Error => visuals.error_fg_color,
             };
             Frame::popup(ui.style()).inner_margin(8).show(ui, |ui| {
-                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                // A row as high as its text: centred layouts would take all the height there is.
+                ui.horizontal_top(|ui| {
+                    let (bar, _) = ui.allocate_exact_size(vec2(4.0, 18.0), Sense::hover());
+                    ui.painter().rect_filled(bar, 2.0, color);
+                    ui.vertical(|ui| {
+                        ui.set_width(TEXT_WIDTH);
+                        ui.add(Label::new(eframe::egui::RichText::new(&message.text).color(color)).wrap());
+                    });
                     if icons::small_button(ui, Icon::Close, "Dismiss message", "Dismiss").clicked() {
                         actions.push(Action::DismissMessage(message.id));
                     }
-                    ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                        let (bar, _) = ui.allocate_exact_size(vec2(4.0, 18.0), Sense::hover());
-                        ui.painter().rect_filled(bar, 2.0, color);
-                        ui.add(Label::new(eframe::egui::RichText::new(&message.text).color(color)).wrap());
-                    });
                 });
             });
         }
