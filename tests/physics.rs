@@ -85,8 +85,10 @@ struct Function<'a> {
     energy: &'a dyn Fn(&[f64]) -> f64,
     gradient: &'a dyn Fn(&[f64]) -> Vec<f64>,
     /// Hessian times vector.
-    hessian: &'a dyn Fn(&[f64], &[f64]) -> Vec<f64>,
+    hessian: &'a Product<'a>,
 }
+
+type Product<'a> = dyn Fn(&[f64], &[f64]) -> Vec<f64> + 'a;
 
 /// Differences below this part of the quantities at hand are rounding.
 const NOISE: f64 = 2e-10;
