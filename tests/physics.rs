@@ -22,10 +22,11 @@ fn deformed(x: &[f64]) -> Vec<f64> {
     moved(&bent.collect::<Vec<_>>(), 0.4, [0.3, -0.2])
 }
 
-/// A material by name, made anew for every model.
-type Named = (&'static str, fn() -> Box<dyn Material>);
+/// Makes a material anew: bodies own theirs.
+type MakeMaterial = fn() -> Box<dyn Material>;
+type NamedTerm = (String, Box<dyn Energy>);
 
-fn materials() -> Vec<Named> {
+fn materials() -> Vec<(&'static str, MakeMaterial)> {
     vec![
         ("neo-Hookean", || Box::new(NeoHookean { mu: 0.7, kappa: 1.9 })),
         ("neo-Hookean without kappa", || Box::new(NeoHookean { mu: 0.7, kappa: 0.0 })),
@@ -46,10 +47,10 @@ fn stretched(routing: &[usize], epsilon: f64, part: f64, x: &[f64]) -> Element {
 }
 
 /// Every kind of energy term, at the deformed state.
-fn terms() -> Vec<(String, Box<dyn Energy>)> {
+fn terms() -> Vec<NamedTerm> {
     let mesh = mesh();
     let x = deformed(&mesh.flat());
-    let mut terms: Vec<(String, Box<dyn Energy>)> = Vec::new();
+    let mut terms: Vec<NamedTerm> = Vec::new();
     let map: Vec<f64> = (0..mesh.triangles.len()).map(|k| 0.3 + 0.1 * k as f64).collect();
     for (name, material) in materials() {
         terms.push((format!("body, {name}"), Box::new(mesh.body(material(), None))));
@@ -79,16 +80,15 @@ fn terms() -> Vec<(String, Box<dyn Energy>)> {
     terms
 }
 
-/// Hessian at the first argument times the second.
-type Product<'a> = &'a dyn Fn(&[f64], &[f64]) -> Vec<f64>;
-
 /// What a check of derivatives needs, of a single term or of a whole model.
 struct Function<'a> {
     energy: &'a dyn Fn(&[f64]) -> f64,
     gradient: &'a dyn Fn(&[f64]) -> Vec<f64>,
     /// Hessian times vector.
-    hessian: Product<'a>,
+    hessian: &'a Product<'a>,
 }
+
+type Product<'a> = dyn Fn(&[f64], &[f64]) -> Vec<f64> + 'a;
 
 /// Differences below this part of the quantities at hand are rounding.
 const NOISE: f64 = 2e-10;

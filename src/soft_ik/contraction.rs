@@ -30,8 +30,6 @@ impl Default for GaussNewton {
 const FIRST_DAMPING: f64 = 1e-4;
 /// A tangent below this part of `K` counts as slack: rounding, or the very foot of the cubic, leaves no useful derivative.
 const BARELY_TAUT: f64 = 1e-3;
-/// Damping up to which a small promised decrease means that the gradient is small.
-const HONEST_DAMPING: f64 = 1.0;
 /// Damping at which no useful step is left.
 const LAST_DAMPING: f64 = 1e10;
 
@@ -53,16 +51,17 @@ impl Method for GaussNewton {
             answer.factorizations += 1;
             let Some(local) = Linearisation::new(question, &best) else { break };
             let floor = self.relative_decrease * best.objective;
-            let (mut improved, mut rejected) = (false, false);
+            let mut improved = false;
             while damping < LAST_DAMPING && !(budget.stop)() {
                 let (step, promised) = local.step(damping);
                 if promised <= floor {
-                    // Under strong damping every promise is small: that says nothing about the gradient.
-                    answer.converged = damping <= HONEST_DAMPING;
-                    if answer.converged || rejected {
+                    // Strong damping or many clipped activations make a promise small anywhere. Stationary is where no single
+                    // activation promises anything either.
+                    if local.model.best_single_promise() <= floor {
+                        answer.converged = true;
                         break;
                     }
-                    damping = HONEST_DAMPING;
+                    damping = (damping * 8.0).max(1e-8);
                     continue;
                 }
                 let mut beta: Vec<f64> = local.base.iter().zip(step.iter()).map(|(b, d)| b + d).collect();
@@ -77,7 +76,6 @@ impl Method for GaussNewton {
                     improved = true;
                     break;
                 }
-                rejected = true;
                 damping = (damping * 8.0).max(1e-8);
             }
             if !improved {

@@ -22,6 +22,18 @@ pub struct Quadratic {
 }
 
 impl Quadratic {
+    /// The largest decrease that the model promises for moving one activation alone, within its bounds.
+    pub fn best_single_promise(&self) -> f64 {
+        let curvatures = self.curvatures();
+        (0..self.gradient.len())
+            .map(|j| {
+                let (slope, curvature) = (self.gradient[j], curvatures[j].max(f64::MIN_POSITIVE));
+                let step = (-slope / curvature).max(self.lower[j]).min(self.upper[j]);
+                -slope * step - 0.5 * curvature * step * step
+            })
+            .fold(0.0, f64::max)
+    }
+
     /// The diagonal of `R^T R + D`.
     pub fn curvatures(&self) -> DVector<f64> {
         DVector::from_fn(self.gradient.len(), |j, _| self.rows.column(j).norm_squared() + self.diagonal[j])
