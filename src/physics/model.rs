@@ -9,6 +9,10 @@ use super::{Body, Contractile, Pins};
 /// far above rounding. It acts on steps only (it is not part of `E`), so that equilibria are exact.
 const RIGID_SHIFT: f64 = 1e-8;
 
+/// Stiffness that holds a mechanism (everything slack) where even the projected Hessian is singular, as a fraction of the shear
+/// modulus. Only the step feels it: larger would slow Newton down, smaller drowns in rounding.
+const MECHANISM_SHIFT: f64 = 1e-6;
+
 /// Why no model can be built.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ModelError {
@@ -132,7 +136,7 @@ impl Model {
             return Ok(HessianForm::Projected);
         }
         // A mechanism without stiffness (slack everywhere): hold it by a small part of the shear modulus.
-        let shift = 1e-6 * self.body.material().shear_modulus();
+        let shift = MECHANISM_SHIFT * self.body.material().shear_modulus();
         for d in 0..self.pattern.dimension() {
             self.values[self.pattern.diagonal(d)] += shift;
         }

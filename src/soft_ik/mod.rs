@@ -19,6 +19,7 @@
 pub mod actuation;
 pub mod contraction;
 pub mod default_method;
+mod dual;
 pub mod gradient;
 pub mod objective;
 mod quadratic;
