@@ -207,50 +207,26 @@ impl Energy for Contractile {
     }
 
     fn add_hessian(&self, x: &[f64], _form: HessianForm, out: &mut Scatter) {
-        let mut g: Vec<[f64; 2]> = Vec::new();
-        let mut curvature: Vec<(usize, usize, [f64; 3])> = Vec::new();
         for (k, (e, law)) in self.elements.iter().zip(&self.laws).enumerate() {
             let (tau, tangent) = law.tension_and_tangent(e, e.length(x));
             if tau == 0.0 && tangent == 0.0 {
                 continue;
             }
-            g.clear();
-            g.resize(self.stencils[k].len(), [0.0; 2]);
-            curvature.clear();
-            for (s, p) in e.routing.windows(2).zip(self.positions[k].windows(2)) {
-                let (dx, dy, length) = segment(x, s);
-                if length <= ZERO_SEGMENT * e.alpha0 {
-                    continue;
-                }
-                let (ux, uy) = (dx / length, dy / length);
-                g[p[0]][0] -= ux;
-                g[p[0]][1] -= uy;
-                g[p[1]][0] += ux;
-                g[p[1]][1] += uy;
-                let s = tau / length;
-                // d2 of a distance: (I - u u^T) / length, with u u^T = I - n n^T for the normal n = (-uy, ux).
-                curvature.push((p[0], p[1], [s * uy * uy, -s * ux * uy, s * ux * ux]));
+            if e.routing.len() == 2 {
+                add_straight(k, e, x, tau, tangent, out);
+            } else {
+                let positions = &self.positions[k];
+                let mut stack = [[0.0; 2]; ON_STACK];
+                let mut heap = Vec::new();
+                let count = self.stencils[k].len().max(e.routing.len());
+                let scratch = if 2 * count <= ON_STACK {
+                    &mut stack[..2 * count]
+                } else {
+                    heap.resize(2 * count, [0.0; 2]);
+                    &mut heap[..]
+                };
+                add_routed(k, e, positions, x, tau, tangent, scratch, out);
             }
-            out.add(k, |a, b| {
-                let (ga, gb) = (g[a], g[b]);
-                let mut block = [
-                    tangent * ga[0] * gb[0],
-                    tangent * ga[0] * gb[1],
-                    tangent * ga[1] * gb[0],
-                    tangent * ga[1] * gb[1],
-                ];
-                for &(p, q, c) in &curvature {
-                    let sign = ((a == p) as i32 - (a == q) as i32) * ((b == p) as i32 - (b == q) as i32);
-                    if sign != 0 {
-                        let s = sign as f64;
-                        block[0] += s * c[0];
-                        block[1] += s * c[1];
-                        block[2] += s * c[1];
-                        block[3] += s * c[2];
-                    }
-                }
-                block
-            });
         }
     }
 
@@ -266,6 +242,70 @@ impl Energy for Contractile {
             }
         }
     }
+}
+
+/// Entries of scratch memory that need no allocation: enough for a tendon through 64 nodes.
+const ON_STACK: usize = 128;
+
+/// The Hessian of an element of one segment: `U'' u u^T + tau/l n n^T` between its ends, `n` normal to `u`.
+fn add_straight(k: usize, e: &Element, x: &[f64], tau: f64, tangent: f64, out: &mut Scatter) {
+    let (dx, dy, length) = segment(x, &e.routing);
+    if length <= ZERO_SEGMENT * e.alpha0 {
+        return;
+    }
+    let (ux, uy) = (dx / length, dy / length);
+    let bend = tau / length;
+    let off = (tangent - bend) * ux * uy;
+    let block = [tangent * ux * ux + bend * uy * uy, off, off, tangent * uy * uy + bend * ux * ux];
+    let opposite = block.map(|v| -v);
+    out.add(k, |a, b| if a == b { block } else { opposite });
+}
+
+/// The same for any routing, which may pass a node several times. `scratch` has twice as many entries as the routing.
+#[allow(clippy::too_many_arguments)]
+fn add_routed(
+    k: usize,
+    e: &Element,
+    positions: &[usize],
+    x: &[f64],
+    tau: f64,
+    tangent: f64,
+    scratch: &mut [[f64; 2]],
+    out: &mut Scatter,
+) {
+    let half = scratch.len() / 2;
+    let (g, units) = scratch.split_at_mut(half);
+    g.fill([0.0; 2]);
+    for ((s, p), unit) in e.routing.windows(2).zip(positions.windows(2)).zip(units.iter_mut()) {
+        let (dx, dy, length) = segment(x, s);
+        *unit = [0.0; 2];
+        if length > ZERO_SEGMENT * e.alpha0 {
+            let (ux, uy) = (dx / length, dy / length);
+            g[p[0]][0] -= ux;
+            g[p[0]][1] -= uy;
+            g[p[1]][0] += ux;
+            g[p[1]][1] += uy;
+            // The normal times the root of tau/l: d2 of a distance is n n^T / l.
+            let root = (tau / length).sqrt();
+            *unit = [-uy * root, ux * root];
+        }
+    }
+    out.add(k, |a, b| {
+        let (ga, gb) = (g[a], g[b]);
+        let mut block =
+            [tangent * ga[0] * gb[0], tangent * ga[0] * gb[1], tangent * ga[1] * gb[0], tangent * ga[1] * gb[1]];
+        for (p, n) in positions.windows(2).zip(units.iter()) {
+            let sign = ((a == p[0]) as i32 - (a == p[1]) as i32) * ((b == p[0]) as i32 - (b == p[1]) as i32);
+            if sign != 0 {
+                let s = sign as f64;
+                block[0] += s * n[0] * n[0];
+                block[1] += s * n[0] * n[1];
+                block[2] += s * n[1] * n[0];
+                block[3] += s * n[1] * n[1];
+            }
+        }
+        block
+    });
 }
 
 #[cfg(test)]

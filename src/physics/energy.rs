@@ -37,11 +37,5 @@ pub trait Energy: Send + Sync {
     }
 
     /// Adds the magnitudes of this term's nodal forces, entry by entry: the scale against which a residual is small.
-    fn add_force_scale(&self, x: &[f64], scale: &mut [f64]) {
-        let mut gradient = vec![0.0; x.len()];
-        self.add_gradient(x, &mut gradient);
-        for (s, g) in scale.iter_mut().zip(&gradient) {
-            *s += g.abs();
-        }
-    }
+    fn add_force_scale(&self, x: &[f64], scale: &mut [f64]);
 }

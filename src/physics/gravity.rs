@@ -37,4 +37,11 @@ impl Energy for Gravity {
     }
 
     fn add_hessian(&self, _x: &[f64], _form: HessianForm, _out: &mut Scatter) {}
+
+    fn add_force_scale(&self, _x: &[f64], scale: &mut [f64]) {
+        for (f, s) in self.forces.iter().zip(scale.chunks_exact_mut(2)) {
+            s[0] += f[0].abs();
+            s[1] += f[1].abs();
+        }
+    }
 }

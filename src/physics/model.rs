@@ -100,11 +100,16 @@ impl Model {
 
     /// The forces at work: the largest sum of magnitudes of the single forces that meet in a node's component.
     pub fn force_scale(&self, x: &[f64]) -> f64 {
-        let mut scale = vec![0.0; x.len()];
+        self.force_scale_into(x, &mut vec![0.0; x.len()])
+    }
+
+    /// The same, with the sums left in `scale`.
+    pub fn force_scale_into(&self, x: &[f64], scale: &mut [f64]) -> f64 {
+        scale.fill(0.0);
         for term in self.all() {
-            term.add_force_scale(x, &mut scale);
+            term.add_force_scale(x, scale);
         }
-        scale.into_iter().fold(0.0, f64::max)
+        scale.iter().copied().fold(0.0, f64::max)
     }
 
     /// Largest step along `dx` that keeps every term inside its domain.

@@ -70,6 +70,31 @@ pub enum Cause {
     Cancelled,
 }
 
+/// What a search for equilibrium did.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    pub energy: f64,
+    /// `max |dE/dx|`.
+    pub residual: f64,
+    /// The forces at work, against which the residual is small.
+    pub force_scale: f64,
+    pub iterations: usize,
+    pub factorizations: usize,
+    pub projections: usize,
+    /// Why it is not in equilibrium; `None` where it is.
+    pub cause: Option<Cause>,
+}
+
+/// What statics works in; kept between solves, so that a warm one allocates nothing.
+#[derive(Debug, Default)]
+pub struct Workspace {
+    gradient: Vec<f64>,
+    step: Vec<f64>,
+    trial: Vec<f64>,
+    trial_gradient: Vec<f64>,
+    forces: Vec<f64>,
+}
+
 /// Minimises `E` from `start` (from rest where `start` is inverted or not finite). `cancel` is asked at every step.
 ///
 /// On success the model's factor is that of the last Newton step, not of the state returned: refactorise before taking
@@ -80,77 +105,97 @@ pub fn solve(
     settings: &StaticsSettings,
     cancel: &dyn Fn() -> bool,
 ) -> Result<Equilibrium, Box<StaticsError>> {
-    let n = model.dimension();
     let mut x = start.to_vec();
-    let mut energy = valid_energy(model, &x);
-    if !energy.is_finite() {
-        x = model.rest.clone();
-        energy = valid_energy(model, &x);
+    let done = settle(model, &mut x, settings, cancel, &mut Workspace::default());
+    let state = Equilibrium {
+        x,
+        energy: done.energy,
+        residual: done.residual,
+        iterations: done.iterations,
+        factorizations: done.factorizations,
+        projections: done.projections,
+    };
+    match done.cause {
+        None => Ok(state),
+        Some(cause) => Err(Box::new(StaticsError { cause, best: state })),
     }
-    let mut gradient = vec![0.0; n];
-    let mut step = vec![0.0; n];
-    let mut trial = vec![0.0; n];
-    let mut trial_gradient = vec![0.0; n];
-    model.gradient(&x, &mut gradient);
-    let mut state = Equilibrium {
-        x: x.clone(),
+}
+
+/// The same in place: `x` becomes the equilibrium, or the best state reached.
+pub fn settle(
+    model: &mut Model,
+    x: &mut [f64],
+    settings: &StaticsSettings,
+    cancel: &dyn Fn() -> bool,
+    work: &mut Workspace,
+) -> Progress {
+    let n = model.dimension();
+    let Workspace { gradient, step, trial, trial_gradient, forces } = work;
+    for buffer in [&mut *gradient, step, trial, trial_gradient, forces] {
+        buffer.resize(n, 0.0);
+    }
+    let mut energy = valid_energy(model, x);
+    if !energy.is_finite() {
+        x.copy_from_slice(&model.rest);
+        energy = valid_energy(model, x);
+    }
+    model.gradient(x, gradient);
+    let mut state = Progress {
         energy,
-        residual: norm(&gradient),
+        residual: norm(gradient),
+        force_scale: 0.0,
         iterations: 0,
         factorizations: 0,
         projections: 0,
+        cause: None,
     };
-    let fail = |cause, best| Err(Box::new(StaticsError { cause, best }));
     if !energy.is_finite() {
-        return fail(Cause::InvalidStart, state);
+        return Progress { cause: Some(Cause::InvalidStart), ..state };
     }
-    let settled = |residual: f64, scale: f64| residual <= settings.stagnation_tolerance * scale;
     loop {
-        let residual = norm(&gradient);
-        let scale = model.force_scale(&x);
-        state = Equilibrium { x: x.clone(), energy, residual, ..state };
-        if residual <= settings.tolerance * scale || residual == 0.0 {
-            return Ok(state);
+        state.energy = energy;
+        state.residual = norm(gradient);
+        state.force_scale = model.force_scale_into(x, forces);
+        let settled = state.residual <= settings.stagnation_tolerance * state.force_scale;
+        let unsettled = |cause: Cause| if settled { None } else { Some(cause) };
+        if state.residual <= settings.tolerance * state.force_scale || state.residual == 0.0 {
+            return state;
         }
         if state.iterations >= settings.max_iterations {
-            return if settled(residual, scale) {
-                Ok(state)
-            } else {
-                fail(unconverged(model, Cause::Iterations), state)
-            };
+            return Progress { cause: unsettled(unconverged(model, Cause::Iterations)), ..state };
         }
         if cancel() {
-            return fail(Cause::Cancelled, state);
+            return Progress { cause: Some(Cause::Cancelled), ..state };
         }
         state.iterations += 1;
         state.factorizations += 1;
-        match model.factorize_for_descent(&x) {
+        match model.factorize_for_descent(x) {
             Ok(HessianForm::Exact) => {}
             Ok(HessianForm::Projected) => {
                 state.factorizations += 1;
                 state.projections += 1;
             }
-            Err(_) => return fail(Cause::Factorization, state),
+            Err(_) => return Progress { cause: Some(Cause::Factorization), ..state },
         }
-        for (s, g) in step.iter_mut().zip(&gradient) {
+        for (s, g) in step.iter_mut().zip(gradient.iter()) {
             *s = -g;
         }
-        model.solve(&mut step);
-        let slope: f64 = gradient.iter().zip(&step).map(|(g, s)| g * s).sum();
-        let mut t = model.step_limit(&x, &step);
+        model.solve(step);
+        let slope: f64 = gradient.iter().zip(step.iter()).map(|(g, s)| g * s).sum();
+        let mut t = model.step_limit(x, step);
         let mut accepted = false;
         let halvings = if t < SMALLEST_STEP { 0 } else { MAX_HALVINGS };
         for _ in 0..halvings {
-            for ((p, x), s) in trial.iter_mut().zip(&x).zip(&step) {
+            for ((p, x), s) in trial.iter_mut().zip(x.iter()).zip(step.iter()) {
                 *p = x + t * s;
             }
-            let trial_energy = model.energy(&trial);
+            let trial_energy = model.energy(trial);
             if trial_energy <= energy + SUFFICIENT_DECREASE * t * slope && slope < 0.0 {
                 accepted = true;
             } else if trial_energy.is_finite() && (t * slope).abs() <= ENERGY_ROUNDING * energy_scale(model, energy) {
                 // Energies no longer tell states apart; forces still do.
-                model.gradient(&trial, &mut trial_gradient);
-                if norm(&trial_gradient) < residual {
+                model.gradient(trial, trial_gradient);
+                if norm(trial_gradient) < state.residual {
                     accepted = true;
                 } else {
                     break;
@@ -163,10 +208,10 @@ pub fn solve(
             t *= 0.5;
         }
         if !accepted {
-            return if settled(residual, scale) { Ok(state) } else { fail(unconverged(model, Cause::Stalled), state) };
+            return Progress { cause: unsettled(unconverged(model, Cause::Stalled)), ..state };
         }
-        std::mem::swap(&mut x, &mut trial);
-        model.gradient(&x, &mut gradient);
+        x.copy_from_slice(trial);
+        model.gradient(x, gradient);
     }
 }
 

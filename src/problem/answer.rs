@@ -5,9 +5,8 @@ use crate::physics::{
     Body, Cause, Contractile, Element, Energy, Gravity, Model, ModelError, NeoHookean, Pin, Pins, StaticsSettings,
     statics,
 };
-use crate::soft_ik::tension::AllAtOnce;
 use crate::soft_ik::{
-    self, Actuation, Budget, Method, Objective, PointTarget, Posture, Question, Winch, default_method, sensitivity,
+    self, Actuation, Budget, Objective, PointTarget, Quality, Question, Tracker, Winch, default_method, sensitivity,
 };
 use serde_json::{Map, Value, json};
 use std::time::{Duration, Instant};
@@ -27,25 +26,6 @@ pub struct Options {
 impl Default for Options {
     fn default() -> Self {
         Self { method: "default".into(), quality: Quality::Balanced, all: false, budget: Duration::from_secs(10) }
-    }
-}
-
-/// How many iterations a drag frame may take.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quality {
-    Draft,
-    Balanced,
-    Accurate,
-}
-
-impl Quality {
-    /// Iterations of the posing method for one frame.
-    pub fn frame_iterations(self) -> usize {
-        match self {
-            Self::Draft => 4,
-            Self::Balanced => 12,
-            Self::Accurate => 60,
-        }
     }
 }
 
@@ -267,7 +247,9 @@ fn answer_drag(
     let mut beta = vec![0.0; actuation.winches.len()];
     actuation.clamp(&mut beta);
     let rest = model.rest.clone();
-    let mut posture: Option<Posture> = None;
+    let mut question = Question { model, actuation: &actuation, objective: &objective };
+    let (start, _) = question.settle(&beta, &rest, stop);
+    let mut tracker = Tracker::new(&mut question, &start);
     let (mut milliseconds, mut target_error, mut iterations, mut reported) = (vec![], vec![], vec![], vec![]);
     for (k, frame) in drag.frames.iter().enumerate() {
         for (target, goal) in objective.targets.iter_mut().zip(frame) {
@@ -275,29 +257,22 @@ fn answer_drag(
         }
         let clock = Instant::now();
         let mut question = Question { model, actuation: &actuation, objective: &objective };
-        let mut start = match posture.take() {
-            Some(posture) => posture,
-            None => question.settle(&beta, &rest, stop).0,
-        };
-        let contractions = actuation.contractions(&start.beta);
-        question.model.contractile.set_contractions(&contractions);
-        start.objective = question.objective_at(&start.x, &contractions);
-        let answer = frame_answer(&mut question, &start, options.quality, stop);
+        let answer = tracker.frame(&mut question, options.quality, stop);
         milliseconds.push(clock.elapsed().as_secs_f64() * 1e3);
-        target_error.push(objective.target_error(&answer.posture.x));
+        let posture = tracker.posture();
+        target_error.push(objective.target_error(&posture.x));
         iterations.push(answer.iterations);
-        if !answer.posture.in_equilibrium {
+        if !posture.in_equilibrium {
             errors.push(format!("drag: frame {k} is not in equilibrium"));
         }
         if drag.report.contains(&k) {
             reported.push(json!({
                 "frame": k,
-                "x": points(&answer.posture.x),
-                "alpha_c": actuation.contractions(&answer.posture.beta),
-                "residual": answer.posture.residual,
+                "x": points(&posture.x),
+                "alpha_c": actuation.contractions(&posture.beta),
+                "residual": posture.residual,
             }));
         }
-        posture = Some(answer.posture);
         if stop() {
             errors.push(format!("drag: the time budget ended after frame {k}"));
             break;
@@ -313,19 +288,4 @@ fn answer_drag(
         }),
     );
     Ok(())
-}
-
-/// What the studio does for one frame, warm-started.
-pub fn frame_answer(
-    question: &mut Question,
-    start: &Posture,
-    quality: Quality,
-    stop: &dyn Fn() -> bool,
-) -> soft_ik::Answer {
-    let budget = Budget { iterations: quality.frame_iterations(), stop };
-    if question.actuation.is_fibers_only() {
-        AllAtOnce::default().solve(question, start, &budget)
-    } else {
-        soft_ik::contraction::GaussNewton::default().solve(question, start, &budget)
-    }
 }

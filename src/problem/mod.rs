@@ -7,5 +7,6 @@ pub mod answer;
 pub mod file;
 pub mod network;
 
-pub use answer::{Answered, Options, Quality, solve};
+pub use crate::soft_ik::Quality;
+pub use answer::{Answered, Options, solve};
 pub use file::{Problem, ProblemError, read};

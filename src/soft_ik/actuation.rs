@@ -21,13 +21,19 @@ pub struct Actuation {
 impl Actuation {
     /// `alpha_c` of every element.
     pub fn contractions(&self, beta: &[f64]) -> Vec<f64> {
-        let mut out = self.fixed.clone();
+        let mut out = vec![0.0; self.fixed.len()];
+        self.contractions_into(beta, &mut out);
+        out
+    }
+
+    /// The same, into `out`.
+    pub fn contractions_into(&self, beta: &[f64], out: &mut [f64]) {
+        out.copy_from_slice(&self.fixed);
         for (winch, b) in self.winches.iter().zip(beta) {
             for &(element, ratio) in &winch.members {
                 out[element] = ratio * b;
             }
         }
-        out
     }
 
     /// `Z^T v`: collects a derivative by contraction into one by activation.

@@ -19,16 +19,17 @@
 pub mod actuation;
 pub mod contraction;
 pub mod default_method;
-mod dual;
 pub mod gradient;
 pub mod objective;
 mod quadratic;
 pub mod sensitivity;
 pub mod tension;
+pub mod tracker;
 
 pub use actuation::{Actuation, Winch};
 pub use default_method::solve;
 pub use objective::{Objective, PointTarget};
+pub use tracker::{Frame, Phases, Quality, Tracker};
 
 use crate::physics::{Model, StaticsError, StaticsSettings, statics};
 

@@ -1,0 +1,89 @@
+//! All-at-once Soft IK with tension as the unknown: the fast method for many fibres.
+//!
+//! Unknowns are the positions `x` and the tensions `tau >= 0` of the free fibres; an element at one of its bounds is a
+//! spring held at that bound's rest length. One factorisation an iteration:
+//!
+//! 1. Assemble `g = dE/dx` and the exact `H` at `(x, tau)`, where a free element contributes `tau d2l` only.
+//! 2. Solve `H [Y, u, v] = [S^T, g, Q (x - X)]`.
+//! 3. With `G` the rows `dl/dx` of free elements: `J = -Y^T G^T`, `c = -G v`, `r_0 = S (x - u) - x'`.
+//! 4. The step in tension minimises `1/2 |r_0 + J dtau|^2 + c dtau + rho/2 |tau|^2 + nu/2 |dtau|^2` with every tension between
+//!    those at its bounds: a convex dual of the size of the targets, solved by a semismooth Newton method.
+//! 5. `dx = -u - H^-1 G^T dtau` is a Newton step of the statics under the new tensions, capped and line-searched on
+//!    `E(.; tau)`.
+//! 6. Elements that reach a bound are held there as springs. A held element stays part of step 4, in the same units: with
+//!    its spring in `H`, `dtau = U'' dalpha_c` at fixed `x`. Where the step moves it off its bound it is freed. So held and
+//!    free elements are decided on together, against the same targets.
+//!
+//! Tension does not vanish from the model where an element is slack, so the slack stall does not exist here. Contractions
+//! follow as `alpha_c = alpha_0 - l + U'^-1(tau)`, and a statics polish ends the work.
+//!
+//! `E` is no merit function for `O`, so a step is not judged by itself: the run keeps the best state near equilibrium, lets
+//! `nu` follow success, and goes back to that state where nothing better came for a while.
+
+mod cables;
+mod dual;
+mod fiber;
+mod run;
+
+pub(super) use run::{Run, Workspace};
+
+use super::{Answer, Budget, Method, Posture, Question};
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AllAtOnce {
+    /// Converged when no node moves further than this part of the body in an iteration.
+    pub step_tolerance: f64,
+}
+
+impl Default for AllAtOnce {
+    fn default() -> Self {
+        Self { step_tolerance: 1e-7 }
+    }
+}
+
+impl Method for AllAtOnce {
+    fn name(&self) -> &'static str {
+        "tension"
+    }
+
+    /// Panics if a winch winds several elements (a caller's mistake: see `Actuation::is_fibers_only`).
+    fn solve(&self, question: &mut Question, start: &Posture, budget: &Budget) -> Answer {
+        assert!(question.actuation.is_fibers_only(), "tension is the unknown of single elements only");
+        let mut work = Workspace::new(question);
+        let mut run = Run::new(question, start, &mut work);
+        let mut answer = Answer { posture: start.clone(), iterations: 0, factorizations: 0, converged: false };
+        while answer.iterations < budget.iterations && !(budget.stop)() {
+            answer.iterations += 1;
+            let Some(progress) = run.iterate(question, &mut work) else { break };
+            answer.factorizations += progress.factorizations;
+            if progress.settled && progress.moved <= self.step_tolerance {
+                answer.converged = true;
+                break;
+            }
+        }
+        let mut beta = start.beta.clone();
+        run.best.activations_into(question, &mut beta);
+        let (posture, factorizations) = question.settle(&beta, &run.best.x, &|| false);
+        answer.factorizations += factorizations;
+        let better = posture.objective < answer.posture.objective || !answer.posture.in_equilibrium;
+        if posture.in_equilibrium && better {
+            answer.posture = posture;
+        }
+        let contractions = question.actuation.contractions(&answer.posture.beta);
+        question.model.contractile.set_contractions(&contractions);
+        answer
+    }
+}
+
+/// The longer side of the box around flat coordinates.
+pub fn extent(x: &[f64]) -> f64 {
+    let mut low = [f64::INFINITY; 2];
+    let mut high = [f64::NEG_INFINITY; 2];
+    for p in x.chunks_exact(2) {
+        for a in 0..2 {
+            low[a] = low[a].min(p[a]);
+            high[a] = high[a].max(p[a]);
+        }
+    }
+    (high[0] - low[0]).max(high[1] - low[1])
+}

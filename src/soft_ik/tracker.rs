@@ -1,0 +1,307 @@
+//! Soft IK under the hand: one frame after another, each warm-started from the one before.
+//!
+//! What a frame shows is always finite, free of inverted triangles, within the limits of its actuators and near equilibrium:
+//! the best state that the run has seen there, settled with what is left of the frame's budget.
+//!
+//! A frame has no memory of bad states. Once the targets rest, a second run starts from the rest shape, in the frames that the
+//! first one no longer needs; where it ends no worse, its pose is taken. So the pose in which a drag comes to rest is the
+//! one that the targets alone lead to, or a better one.
+
+use super::contraction::GaussNewton;
+use super::tension::{Run, Workspace};
+use super::{Budget, Method, Posture, Question};
+use crate::physics::StaticsSettings;
+use crate::physics::statics;
+use std::time::Instant;
+
+/// How much work a frame may take: the user's trade between speed and accuracy.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Quality {
+    /// A quarter of the work of `Balanced`: follows the hand on slow machines, lags behind fast moves.
+    Draft,
+    /// What a core does in a sixtieth of a second, up to 10 000 fibres; converged in most frames of small scenes.
+    #[default]
+    Balanced,
+    /// Until nothing moves any more.
+    Accurate,
+}
+
+/// Fibres times factorisations of a balanced frame: about 16 ms on one core.
+const BALANCED_WORK: usize = 20_000;
+/// Most factorisations of a balanced frame: more than converge a warm one.
+const BALANCED_FACTORIZATIONS: usize = 24;
+const DRAFT_PART: usize = 4;
+const ACCURATE_FACTORIZATIONS: usize = 200;
+
+impl Quality {
+    /// Numeric factorisations that a frame with this many free elements may take.
+    pub fn factorizations(self, elements: usize) -> usize {
+        let balanced = (BALANCED_WORK / elements.max(1)).clamp(1, BALANCED_FACTORIZATIONS);
+        match self {
+            Self::Draft => (balanced / DRAFT_PART).max(1),
+            Self::Balanced => balanced,
+            Self::Accurate => ACCURATE_FACTORIZATIONS,
+        }
+    }
+
+    /// A frame is done when no node moves further than this part of the body in an iteration. A thousandth of a millimetre in a
+    /// plushie of 100 mm cannot be seen.
+    pub fn step_tolerance(self) -> f64 {
+        match self {
+            Self::Draft => 1e-4,
+            Self::Balanced => 1e-5,
+            Self::Accurate => 1e-7,
+        }
+    }
+}
+
+/// Where the time of a frame went, seconds.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Phases {
+    pub assembly: f64,
+    pub factorization: f64,
+    pub solves: f64,
+    pub dual: f64,
+    pub line_search: f64,
+}
+
+/// What a frame took and reached.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Frame {
+    pub iterations: usize,
+    pub factorizations: usize,
+    /// Whether nothing moves any more.
+    pub converged: bool,
+    /// `max |dE/dx|` of the state shown, and the forces at work against which it is small.
+    pub residual: f64,
+    pub force_scale: f64,
+    pub phases: Phases,
+}
+
+/// Poses one view, frame after frame.
+pub struct Tracker {
+    posture: Posture,
+    goals: Vec<[f64; 2]>,
+    fibers: Option<Fibers>,
+    statics: statics::Workspace,
+    contractions: Vec<f64>,
+    /// The posture of the frame is being changed here, so that a failure leaves the last one.
+    trial: Vec<f64>,
+    beta: Vec<f64>,
+}
+
+/// What the fibres' method keeps between frames.
+struct Fibers {
+    work: Workspace,
+    run: Run,
+    challenger: Run,
+    rest: Posture,
+    stage: Stage,
+    /// Frames since the targets moved.
+    waited: usize,
+}
+
+/// Whose turn it is while the targets rest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Stage {
+    Following,
+    /// Iterations that the challenger has taken.
+    Challenging(usize),
+    Done,
+}
+
+/// Frames without a move of the targets after which the challenger starts, converged or not.
+const CHALLENGE_AFTER: usize = 8;
+/// Iterations after which a challenger gives up.
+const CHALLENGE_ITERATIONS: usize = 120;
+/// The pose found from rest is taken where its `O` is at most this factor above that of the pose under the hand.
+const AS_GOOD: f64 = 1.001;
+/// A pose is settled to this residual, as a part of the forces at work.
+const SETTLED: f64 = 1e-10;
+/// Scenes with at least this balanced budget are always settled to the end: a few factorisations more cost little there.
+const SMALL: usize = 8;
+/// What must be reached before a pose is shown, whatever the budget.
+const SHOWN: f64 = 1e-3;
+/// Newton steps spent on that at most, before the pose of the last frame stays.
+const SETTLING_STEPS: usize = 60;
+
+impl Tracker {
+    /// Starts at a posture in equilibrium. Works out the rest pose (activations zero) too.
+    pub fn new(question: &mut Question, start: &Posture) -> Self {
+        let elements = question.model.contractile.elements.len();
+        let fibers = question.actuation.is_fibers_only() && !question.actuation.winches.is_empty();
+        let fibers = fibers.then(|| {
+            let mut zero = vec![0.0; start.beta.len()];
+            question.actuation.clamp(&mut zero);
+            let coordinates = question.model.rest.clone();
+            let (rest, _) = question.settle(&zero, &coordinates, &|| false);
+            let mut work = Workspace::new(question);
+            let challenger = Run::new(question, &rest, &mut work);
+            let run = Run::new(question, start, &mut work);
+            Fibers { work, run, challenger, rest, stage: Stage::Following, waited: 0 }
+        });
+        Self {
+            posture: start.clone(),
+            goals: question.objective.targets.iter().map(|t| t.goal).collect(),
+            fibers,
+            statics: statics::Workspace::default(),
+            contractions: vec![0.0; elements],
+            trial: start.x.clone(),
+            beta: start.beta.clone(),
+        }
+    }
+
+    /// The pose to show.
+    pub fn posture(&self) -> &Posture {
+        &self.posture
+    }
+
+    /// One frame towards the targets of the question: those of the frames before (the same points of the body, with the same
+    /// weights), at their present goals. `stop` is asked between factorisations.
+    pub fn frame(&mut self, question: &mut Question, quality: Quality, stop: &dyn Fn() -> bool) -> Frame {
+        let budget = quality.factorizations(self.posture.beta.len());
+        let targets = &question.objective.targets;
+        let moved = self.goals.iter().zip(targets).any(|(g, t)| *g != t.goal);
+        self.goals.clear();
+        self.goals.extend(targets.iter().map(|t| t.goal));
+        let Some(mut fibers) = self.fibers.take() else {
+            return self.wind(question, budget, stop);
+        };
+        fibers.work.phases = Phases::default();
+        let mut frame = Frame::default();
+        let fresh = fibers.follow(question, moved, budget, quality.step_tolerance(), &mut frame, stop);
+        if fresh {
+            self.show(question, &mut fibers, quality, budget, &mut frame, stop);
+        }
+        frame.converged = fibers.stage == Stage::Done;
+        frame.residual = self.posture.residual;
+        frame.force_scale = fibers.work.forces;
+        frame.phases = fibers.work.phases;
+        self.fibers = Some(fibers);
+        frame
+    }
+
+    /// Takes the best state of the run, its actuators within their limits, settled: to the end where the budget allows, near
+    /// enough in any case.
+    fn show(
+        &mut self,
+        question: &mut Question,
+        fibers: &mut Fibers,
+        quality: Quality,
+        budget: usize,
+        frame: &mut Frame,
+        stop: &dyn Fn() -> bool,
+    ) {
+        let clock = Instant::now();
+        let best = &fibers.run.best;
+        self.trial.copy_from_slice(&best.x);
+        best.activations_into(question, &mut self.beta);
+        question.actuation.contractions_into(&self.beta, &mut self.contractions);
+        question.model.contractile.set_contractions(&self.contractions);
+        let small = Quality::Balanced.factorizations(self.beta.len()) >= SMALL;
+        let whole = small || quality == Quality::Accurate;
+        let left = if whole { SETTLING_STEPS } else { budget.saturating_sub(frame.factorizations) };
+        let mut settle = |tolerance: f64, max_iterations: usize, x: &mut [f64]| {
+            let settings = StaticsSettings { tolerance, stagnation_tolerance: tolerance.max(1e-8), max_iterations };
+            let done = statics::settle(question.model, x, &settings, stop, &mut self.statics);
+            frame.factorizations += done.factorizations;
+            done
+        };
+        let mut done = settle(SETTLED, left, &mut self.trial);
+        if done.residual > SHOWN * done.force_scale {
+            done = settle(SHOWN, SETTLING_STEPS, &mut self.trial);
+        }
+        fibers.work.forces = done.force_scale;
+        if done.residual <= SHOWN * done.force_scale || !self.posture.in_equilibrium {
+            std::mem::swap(&mut self.posture.x, &mut self.trial);
+            std::mem::swap(&mut self.posture.beta, &mut self.beta);
+            self.posture.residual = done.residual;
+            self.posture.in_equilibrium = done.residual <= SHOWN * done.force_scale;
+        }
+        self.posture.objective = question.objective.position_value(&self.posture.x);
+        fibers.work.phases.line_search += clock.elapsed().as_secs_f64();
+    }
+
+    /// Winches of several elements: Gauss-Newton in their few activations, every trial an equilibrium.
+    fn wind(&mut self, question: &mut Question, budget: usize, stop: &dyn Fn() -> bool) -> Frame {
+        let clock = Instant::now();
+        question.actuation.contractions_into(&self.posture.beta, &mut self.contractions);
+        question.model.contractile.set_contractions(&self.contractions);
+        self.posture.objective = question.objective_at(&self.posture.x, &self.contractions);
+        let answer = GaussNewton::default().solve(question, &self.posture, &Budget { iterations: budget, stop });
+        self.posture = answer.posture;
+        let phases = Phases { line_search: clock.elapsed().as_secs_f64(), ..Phases::default() };
+        Frame {
+            iterations: answer.iterations,
+            factorizations: answer.factorizations,
+            converged: answer.converged,
+            residual: self.posture.residual,
+            force_scale: question.model.force_scale_into(&self.posture.x, &mut self.trial),
+            phases,
+        }
+    }
+}
+
+impl Fibers {
+    /// Iterates within the budget. Whether there may be something new to show.
+    fn follow(
+        &mut self,
+        question: &mut Question,
+        moved: bool,
+        budget: usize,
+        tolerance: f64,
+        frame: &mut Frame,
+        stop: &dyn Fn() -> bool,
+    ) -> bool {
+        if moved {
+            self.stage = Stage::Following;
+            self.waited = 0;
+            self.run.retarget(question, &mut self.work);
+        } else {
+            self.waited += 1;
+        }
+        let mut fresh = moved || self.waited == 1;
+        while frame.factorizations < budget && self.stage != Stage::Done && !stop() {
+            match self.stage {
+                Stage::Following => {
+                    fresh = true;
+                    let converged = self.step(question, frame, false, tolerance);
+                    if converged || (self.waited > CHALLENGE_AFTER && frame.factorizations >= budget) {
+                        self.stage = Stage::Challenging(0);
+                        self.challenger.restart(question, &self.rest.x, &self.rest.beta, &mut self.work);
+                        if moved {
+                            // The challenge can wait until the targets have rested for a frame.
+                            break;
+                        }
+                    }
+                }
+                Stage::Challenging(count) => {
+                    let converged = self.step(question, frame, true, tolerance);
+                    self.stage = Stage::Challenging(count + 1);
+                    if converged || count >= CHALLENGE_ITERATIONS {
+                        if self.challenger.best.objective <= AS_GOOD * self.run.best.objective {
+                            std::mem::swap(&mut self.run, &mut self.challenger);
+                            fresh = true;
+                        }
+                        self.stage = Stage::Done;
+                    }
+                }
+                Stage::Done => {}
+            }
+        }
+        fresh
+    }
+
+    /// One iteration of the run or its challenger; whether it has converged (or cannot go on).
+    fn step(&mut self, question: &mut Question, frame: &mut Frame, challenger: bool, tolerance: f64) -> bool {
+        let run = if challenger { &mut self.challenger } else { &mut self.run };
+        frame.iterations += 1;
+        match run.iterate(question, &mut self.work) {
+            None => true,
+            Some(progress) => {
+                frame.factorizations += progress.factorizations;
+                progress.settled && progress.moved <= tolerance
+            }
+        }
+    }
+}
