@@ -12,6 +12,7 @@ pub mod trial;
 pub mod worker;
 
 pub use propose::propose;
+pub use crate::problem::Quality;
 pub use solver::{Effort, Solver};
 
 use crate::design::{Design, Network, Target};
@@ -36,10 +37,29 @@ pub struct Shape {
     pub target_error: f64,
     /// Largest unbalanced nodal force, N.
     pub residual: f64,
+    /// The forces at work, N: what `residual` is to be compared with.
+    pub force_scale: f64,
+    /// Whether the forces balance. A shape that has not converged is the nearest state found, fit to be shown and no more.
+    pub converged: bool,
+    /// Iterations of the posing method.
     pub iterations: usize,
+    /// Numeric factorisations, those of statics included.
+    pub factorizations: usize,
+    /// From the question to this shape.
     pub milliseconds: f64,
     /// What the user should know (not converged, body free to move, ...), ready to be shown.
     pub warning: Option<String>,
+}
+
+/// Below this distance a shape counts as in equilibrium: forces balance to eight digits, which is where statics stops when
+/// rounding allows no more (dimensionless, see [`Shape::distance_from_equilibrium`]).
+pub const EQUILIBRIUM: f64 = 1e-8;
+
+impl Shape {
+    /// The largest unbalanced force as a part of the forces at work, dimensionless. Zero where nothing pulls.
+    pub fn distance_from_equilibrium(&self) -> f64 {
+        if self.residual == 0.0 { 0.0 } else { self.residual / self.force_scale.max(f64::MIN_POSITIVE) }
+    }
 }
 
 /// What the worker is asked for. The newest request wins.
@@ -49,7 +69,9 @@ pub struct Request {
     pub id: u64,
     pub design: Arc<Design>,
     pub question: Question,
-    /// A view that is not shown is not solved.
+    /// How much work a frame may take while a hand drags ([`Effort::Interactive`]).
+    pub quality: Quality,
+    /// A view that is not shown is not solved; only the winches are, where the idealized plushie builds on them.
     pub show_idealized: bool,
     pub show_realizable: bool,
 }
@@ -68,6 +90,8 @@ pub struct Outcome {
     pub id: u64,
     pub idealized: Option<Shape>,
     pub realizable: Option<Shape>,
+    /// Found with all effort while nothing newer waited, in the place of an earlier outcome of the same request.
+    pub refined: bool,
 }
 
 /// A network proposed by discovery and tried out by simulation.
