@@ -11,8 +11,8 @@ pub mod solver;
 pub mod trial;
 pub mod worker;
 
-pub use propose::propose;
 pub use crate::problem::Quality;
+pub use propose::propose;
 pub use solver::{Effort, Solver};
 
 use crate::design::{Design, Network, Target};
@@ -71,9 +71,19 @@ pub struct Request {
     pub question: Question,
     /// How much work a frame may take while a hand drags ([`Effort::Interactive`]).
     pub quality: Quality,
-    /// A view that is not shown is not solved; only the winches are, where the idealized plushie builds on them.
+    /// A view that is not shown is not solved, see [`Request::solves`].
     pub show_idealized: bool,
     pub show_realizable: bool,
+}
+
+impl Request {
+    /// Which plushies are solved: idealized, realizable. What is not shown is not, with one exception: the fibres of the
+    /// idealized plushie add to what the winches reach, so where winches have to be searched for, they are.
+    pub fn solves(&self) -> [bool; 2] {
+        let searched = matches!(&self.question, Question::Targets(targets) if !targets.is_empty());
+        let builds_on_winches = self.show_idealized && searched && !self.design.networks.is_empty();
+        [self.show_idealized, self.show_realizable || builds_on_winches]
+    }
 }
 
 #[derive(Clone, Debug)]

@@ -54,10 +54,7 @@ impl Solver {
     /// The same with a stated effort. The realizable plushie comes first; its activations are held in the idealized one.
     pub fn solve_with(&mut self, request: &Request, effort: Effort, cancel: &AtomicBool) -> Outcome {
         let design = &request.design;
-        // Winches at given activations, or at rest, are not searched for.
-        let searched = matches!(&request.question, Question::Targets(targets) if !targets.is_empty());
-        let builds_on_winches = request.show_idealized && searched && !design.networks.is_empty();
-        let needed = request.show_realizable || builds_on_winches;
+        let [_, needed] = request.solves();
         let realizable = needed.then(|| realize(&mut self.realizable, design, &request.question, effort, cancel));
         let idealized = request.show_idealized.then(|| {
             let activations = match (&realizable, &request.question) {

@@ -79,9 +79,13 @@ impl Studio {
         Panel::top("toolbar").frame(bar).exact_size(42.0).resizable(false).show(ui, |ui| {
             panels::toolbar::show(ui, session, actions);
         });
-        let status = Panel::bottom("status").frame(Frame::new()).exact_size(24.0).resizable(false).show(ui, |ui| {
-            panels::status::show(ui, session);
-        });
+        let status = Panel::bottom("status")
+            .frame(Frame::new())
+            .exact_size(panels::status::HEIGHT)
+            .resizable(false)
+            .show(ui, |ui| {
+                panels::status::show(ui, session);
+            });
         let timeline =
             Panel::bottom("timeline").frame(bar).default_size(132.0).size_range(96.0..=320.0).resizable(true);
         let timeline = timeline.show(ui, |ui| {

@@ -1,8 +1,9 @@
 //! Keys, and files dropped on the window.
 
 use super::action::{Action, FileAction};
-use super::panels::{self, poses};
+use super::panels::{self, poses, quality};
 use super::session::{Session, Tool};
+use super::viewport::Plushie;
 use crate::picture::palette::Theme;
 use eframe::egui::{Context, Key, KeyboardShortcut, Modifiers};
 
@@ -54,6 +55,7 @@ fn plain_keys(ctx: &Context, session: &Session, panels: &mut panels::State, acti
         Theme::Light => Theme::Dark,
         Theme::Dark => Theme::Light,
     };
+    let toggled = |plushie| Action::ShowView(plushie, !session.look.views.shows(plushie));
     let space = if session.playback.playing { Action::Pause } else { Action::Play };
     for (key, action) in [
         (Key::Delete, Action::DeleteSelected),
@@ -62,6 +64,9 @@ fn plain_keys(ctx: &Context, session: &Session, panels: &mut panels::State, acti
         (Key::F, Action::Fit),
         (Key::M, Action::ShowFibers(!session.look.fibers)),
         (Key::N, Action::ShowNetworks(!session.look.networks)),
+        (Key::Num1, toggled(Plushie::Idealized)),
+        (Key::Num2, toggled(Plushie::Realizable)),
+        (Key::Q, Action::SetQuality(quality::after(session.quality))),
         (Key::T, Action::SetTheme(other_theme)),
         (Key::G, Action::Propose),
         (Key::K, Action::AddKeyframe),
