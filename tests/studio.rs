@@ -542,9 +542,10 @@ fn the_status_tells_what_a_shape_cost_and_is_worth() {
 
 /// The line of the status that begins with these words.
 fn text_with(window: &Window, start: &str) -> String {
-    let lines = window.get_all_by_label_contains(&format!("{start} "));
-    let texts = lines.filter_map(|node| node.accesskit_node().value().or(node.accesskit_node().label()));
-    texts.into_iter().find(|text| text.starts_with(start)).expect("a line of figures")
+    let start = format!("{start} ");
+    let lines = window.get_all_by_label_contains(&start);
+    let mut texts = lines.filter_map(|node| node.accesskit_node().value().or(node.accesskit_node().label()));
+    texts.find(|text| text.starts_with(&start)).expect("a line of figures")
 }
 
 #[test]

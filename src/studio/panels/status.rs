@@ -90,7 +90,7 @@ fn figures(session: &Session, plushie: Plushie) -> (String, bool) {
 }
 
 /// Characters of [`shape_figures`].
-const WIDTH: usize = 58;
+const WIDTH: usize = 55;
 
 fn shape_figures(session: &Session, shape: &Shape) -> (String, bool) {
     let error = if session.targets().is_empty() {
@@ -107,7 +107,8 @@ fn shape_figures(session: &Session, shape: &Shape) -> (String, bool) {
     } else {
         "off equilibrium"
     };
-    let text = format!("{:>7.1} ms  {error}  {words:<16} {distance:>5.0e}", shape.milliseconds);
+    let distance_text = if distance == 0.0 { "0".to_owned() } else { format!("{distance:.0e}") };
+    let text = format!("{:>7.1} ms  {error}  {words:<16} {distance_text:>5}", shape.milliseconds);
     (text, distance < NEAR_EQUILIBRIUM)
 }
 
