@@ -257,15 +257,15 @@ fn a_time_budget_ends_with_the_best_so_far_and_code_3() {
 /// A body that falls has no equilibrium: what there is to say is said, what there is to write is written.
 #[test]
 fn a_shape_without_equilibrium_is_code_3() {
-    use plushwright::design::{Gravity, file};
+    use plushwright::design::{Gravity, Network, Pose, Tendon, file};
     let folder = bar();
     let f = folder.path();
-    succeed(f, &["pose", "bar.plush", "--name", "lift", "--target", "115,20=115,38", "-o", "bar.plush"]);
     let mut design = file::read(&f.join("bar.plush")).unwrap();
     design.gravity = Some(Gravity { acceleration: [0.0, -9.81], surface_density: 1e-6 });
     let top: Vec<usize> = (0..design.mesh.nodes.len()).filter(|&n| design.mesh.nodes[n][1] > 39.9).collect();
-    let tendon = plushwright::design::Tendon { routing: top, ratio: 1.0, slack_mm: 0.0 };
-    design.networks.push(plushwright::design::Network { name: "winch 1".into(), tendons: vec![tendon] });
+    let tendon = Tendon { routing: top, ratio: 1.0, slack_mm: 0.0 };
+    design.networks.push(Network { name: "winch 1".into(), tendons: vec![tendon] });
+    design.poses.push(Pose { name: "fall".into(), targets: Vec::new() });
     file::write(&f.join("falling.plush"), &design).unwrap();
 
     let check = plushwright(f, &["check", "falling.plush", "--json"]);
@@ -273,13 +273,13 @@ fn a_shape_without_equilibrium_is_code_3() {
     let figures: serde_json::Value = serde_json::from_str(&stdout(&check)).unwrap();
     assert!(figures["poses"][0]["imbalance_idealized"].as_f64().unwrap() > 1e-8, "{figures}");
     let error = String::from_utf8(check.stderr).unwrap();
-    assert!(error.starts_with("plushwright: not converged: lift, idealized: ") && error.contains("pin"), "{error}");
+    assert!(error.starts_with("plushwright: not converged: fall, idealized: ") && error.contains("pin"), "{error}");
     assert_eq!(error.lines().count(), 1);
 
     for args in [
-        &["render", "falling.plush", "-o", "out.png", "--pose", "lift", "--size", "64x32"][..],
+        &["render", "falling.plush", "-o", "out.png", "--pose", "fall", "--size", "64x32"][..],
         &["render", "falling.plush", "-o", "out.png", "--size", "64x32"],
-        &["key", "falling.plush", "--pose", "lift", "--time", "0", "-o", "out.plush"],
+        &["key", "falling.plush", "--pose", "fall", "--time", "0", "-o", "out.plush"],
     ] {
         let output = plushwright(f, args);
         let error = String::from_utf8_lossy(&output.stderr);

@@ -525,7 +525,7 @@ fn the_quality_of_the_next_frames_can_be_chosen() {
 fn the_status_tells_what_a_shape_cost_and_is_worth() {
     let mut window = with_network();
     for (view, shape) in
-        [("idealized", &session(&window).shapes().idealized), ("realizable", &session(&window).shapes().realizable)]
+        [("Idealized", &session(&window).shapes().idealized), ("Realizable", &session(&window).shapes().realizable)]
     {
         let shape = shape.as_ref().unwrap();
         assert!(shape.converged && shape.distance_from_equilibrium() < EQUILIBRIUM);
@@ -537,7 +537,7 @@ fn the_status_tells_what_a_shape_cost_and_is_worth() {
     }
     window.get_by_label_contains("Balanced quality, ");
     click(&mut window, "Rest");
-    assert!(text_with(&window, "realizable").contains("no targets"));
+    assert!(text_with(&window, "Realizable").contains("no targets"));
 }
 
 /// The line of the status that begins with these words.
@@ -557,7 +557,7 @@ fn a_view_can_be_hidden_and_is_not_solved_then() {
     assert!(window.query_by_label("Realizable view").is_none());
     assert!(window.get_by_label("Idealized view").rect().width() > 0.98 * whole);
     assert_eq!(session(&window).request().unwrap().solves(), [true, false]);
-    assert!(text_with(&window, "realizable").contains("hidden, not solved"));
+    assert!(text_with(&window, "Realizable").contains("hidden, not solved"));
     let before = session(&window).shapes().realizable.clone().unwrap();
     pose(&mut window, "Idealized view");
     assert!(Arc::ptr_eq(&before, session(&window).shapes().realizable.as_ref().unwrap()), "it was solved");

@@ -108,20 +108,24 @@ pub fn print(figures: &Figures, out: &mut dyn Write) -> Result<(), CommandError>
     }
     let width = figures.poses.iter().map(|p| p.name.chars().count()).max().unwrap_or(0).max(4);
     say(out, "")?;
-    say(out, &format!("{:width$}           rms target error (% of body length)     solved in (ms)", ""))?;
-    say(out, &format!("{:width$}  targets     rest  idealized  realizable  idealized  realizable", "pose"))?;
+    let above = "         rms target error (% of body length)         solved in (ms)  unbalanced forces (part)";
+    say(out, &format!("{:width$}  {above}", ""))?;
+    let columns = "targets     rest  idealized  realizable  idealized  realizable  idealized  realizable";
+    say(out, &format!("{:width$}  {columns}", "pose"))?;
     for p in &figures.poses {
         say(
             out,
             &format!(
-                "{:width$}  {:7}  {:7.2}  {:9.2}  {:10.2}  {:9.1}  {:10.1}",
+                "{:width$}  {:7}  {:7.2}  {:9.2}  {:10.2}  {:9.1}  {:10.1}  {:9.0e}  {:10.0e}",
                 p.name,
                 p.targets,
                 100.0 * p.error_rest,
                 100.0 * p.error_idealized,
                 100.0 * p.error_realizable,
                 p.milliseconds_idealized,
-                p.milliseconds_realizable
+                p.milliseconds_realizable,
+                p.imbalance_idealized,
+                p.imbalance_realizable
             ),
         )?;
     }

@@ -4,7 +4,7 @@ use super::Actions;
 use crate::engine::Quality;
 use crate::studio::action::Action;
 use crate::studio::session::Session;
-use eframe::egui::{ComboBox, Ui};
+use eframe::egui::{ComboBox, RichText, Ui};
 
 /// From the fastest to the most accurate.
 pub const ALL: [Quality; 3] = [Quality::Draft, Quality::Balanced, Quality::Accurate];
@@ -39,6 +39,8 @@ fn explain(quality: Quality) -> String {
 /// The selector, for the toolbar.
 pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     let mut quality = session.quality;
+    let label = ui.label(RichText::new("Quality").weak());
+    ui.add_space(3.0);
     let combo = ComboBox::from_id_salt("quality").selected_text(name(quality)).width(84.0).show_ui(ui, |ui| {
         for choice in ALL {
             ui.selectable_value(&mut quality, choice, name(choice)).on_hover_text(explain(choice));
@@ -49,7 +51,7 @@ pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
         "Quality: how much work a frame may take while the hand moves (Q for the next)\n\n{choices}\n\nWhen the hand rests, \
          the shape is refined to equilibrium with any of them."
     );
-    combo.response.accessible_name("Quality").on_hover_text(tip);
+    combo.response.labelled_by(label.id).on_hover_text(tip);
     if quality != session.quality {
         actions.push(Action::SetQuality(quality));
     }

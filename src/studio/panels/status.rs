@@ -73,8 +73,8 @@ fn state(session: &Session) -> String {
 /// Time, target error and balance of a view, in columns of fixed width; whether forces balance as far as can be seen.
 fn figures(session: &Session, plushie: Plushie) -> (String, bool) {
     let (name, shape) = match plushie {
-        Plushie::Idealized => ("idealized", &session.shapes.idealized),
-        Plushie::Realizable => ("realizable", &session.shapes.realizable),
+        Plushie::Idealized => ("Idealized", &session.shapes.idealized),
+        Plushie::Realizable => ("Realizable", &session.shapes.realizable),
     };
     let solved = session.request().is_none_or(|request| request.solves()[plushie as usize]);
     let text = match shape {
