@@ -170,7 +170,6 @@ fn everything_has_an_accessible_name() {
         "Show networks",
         "Show idealized view",
         "Show realizable view",
-        "Quality",
         "Export",
         "Dark theme",
         "Add pose",
@@ -187,6 +186,7 @@ fn everything_has_an_accessible_name() {
     ] {
         window.get_by_label(name);
     }
+    window.get_by_role_and_label(egui::accesskit::Role::ComboBox, "Quality");
     // `run` checks that no control is without a name.
     click(&mut window, "Settings");
     for name in ["Mu", "Kappa", "Tendon stiffness", "Seam allowance", "Gear ratio"] {
@@ -506,10 +506,11 @@ fn the_quality_of_the_next_frames_can_be_chosen() {
     let mut window = window(bar());
     let asked = |window: &Window| session(window).request().map(|request| request.quality);
     assert_eq!(asked(&window), Some(Quality::Balanced));
-    click(&mut window, "Quality");
+    window.get_by_role_and_label(egui::accesskit::Role::ComboBox, "Quality").click();
+    settle(&mut window);
     click(&mut window, "Accurate");
     assert_eq!(asked(&window), Some(Quality::Accurate));
-    window.get_by_label("Accurate quality, solved");
+    window.get_by_label("Accurate quality, settled");
     press(&mut window, Modifiers::NONE, Key::Q);
     assert_eq!(asked(&window), Some(Quality::Draft));
     // It belongs to the user, not to the document.

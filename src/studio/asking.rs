@@ -31,7 +31,6 @@ impl Session {
             }
             *slot = Some(Arc::new(shape));
         }
-        self.shapes.refined = refined;
     }
 
     /// Submits what should be seen, if that is not what was asked last.

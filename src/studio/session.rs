@@ -108,8 +108,6 @@ pub struct Running {
 pub struct Shapes {
     pub idealized: Option<Arc<Shape>>,
     pub realizable: Option<Arc<Shape>>,
-    /// Whether they were found with all effort, once the hand rested.
-    pub refined: bool,
 }
 
 /// A target in hand.

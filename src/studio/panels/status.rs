@@ -4,7 +4,7 @@ use super::quality;
 use crate::engine::{EQUILIBRIUM, Shape};
 use crate::studio::session::{Mode, Session, Tool};
 use crate::studio::viewport::Plushie;
-use eframe::egui::{Align, Color32, Label, Layout, RichText, Ui, vec2};
+use eframe::egui::{Align, Color32, FontId, Label, Layout, RichText, Ui, vec2};
 
 /// Height of both lines, logical pixels.
 pub const HEIGHT: f32 = 40.0;
@@ -30,14 +30,22 @@ pub fn show(ui: &mut Ui, session: &Session) {
 /// A line: words on the left as far as they fit, the figures of a view on the right, each in a place of its own.
 fn line(ui: &mut Ui, session: &Session, plushie: Plushie, words: String, color: Color32) {
     let size = vec2(ui.available_width(), (HEIGHT - 4.0) / 2.0);
+    let font = FontId::monospace(11.0);
+    // A place as wide as the longest figures: nothing jumps when they change.
+    let characters = (NAME + 1 + WIDTH) as f32;
+    let place = vec2((characters * ui.ctx().fonts_mut(|f| f.glyph_width(&font, '0'))).ceil(), size.y);
     ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
         ui.add_space(12.0);
         let (text, balanced) = figures(session, plushie);
         let figures_color = if balanced { ui.visuals().weak_text_color() } else { ui.visuals().warn_fg_color };
-        ui.label(RichText::new(text).monospace().size(11.0).color(figures_color)).on_hover_text(
-            "What a frame takes; rms distance of the targets in mm and in body lengths; how well forces balance: the largest \
-             unbalanced force as a part of the forces at work. Under 1e-8 the body is in equilibrium",
-        );
+        ui.allocate_ui_with_layout(place, Layout::left_to_right(Align::Center), |ui| {
+            ui.set_min_width(place.x);
+            let text = RichText::new(text).font(font).color(figures_color);
+            ui.add(Label::new(text).extend()).on_hover_text(
+                "What a frame takes; rms distance of the targets in mm and in body lengths; how well forces balance: the \
+                 largest unbalanced force as a part of the forces at work. Under 1e-8 the body is in equilibrium",
+            );
+        });
         ui.add_space(12.0);
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
             ui.add_space(12.0);
@@ -62,10 +70,8 @@ fn state(session: &Session) -> String {
         "following the hand"
     } else if !session.is_settled() {
         "solving…"
-    } else if session.shapes.refined {
-        "refined"
     } else {
-        "solved"
+        "settled"
     };
     format!("{} quality, {what}", quality::name(session.quality))
 }
@@ -83,12 +89,14 @@ fn figures(session: &Session, plushie: Plushie) -> (String, bool) {
         None => "not solved yet".to_owned(),
         Some(shape) => {
             let (text, balanced) = shape_figures(session, shape);
-            return (format!("{name:<10} {text}"), balanced);
+            return (format!("{name:<NAME$} {text}"), balanced);
         }
     };
-    (format!("{name:<10} {text:<WIDTH$}"), true)
+    (format!("{name:<NAME$} {text}"), true)
 }
 
+/// Characters of the longer name.
+const NAME: usize = 10;
 /// Characters of [`shape_figures`].
 const WIDTH: usize = 55;
 
