@@ -513,6 +513,13 @@ fn the_quality_of_the_next_frames_can_be_chosen() {
     window.get_by_label("Accurate quality, settled");
     press(&mut window, Modifiers::NONE, Key::Q);
     assert_eq!(asked(&window), Some(Quality::Draft));
+    // Escape closes the list and does nothing else.
+    window.get_by_role_and_label(egui::accesskit::Role::ComboBox, "Quality").click();
+    settle(&mut window);
+    assert!(window.query_by_label("Accurate").is_some());
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(window.query_by_label("Accurate").is_none());
+    assert_eq!(asked(&window), Some(Quality::Draft));
     // It belongs to the user, not to the document.
     assert!(!session(&window).history().is_modified());
     click(&mut window, "Examples");

@@ -5,7 +5,7 @@ use super::panels::{self, poses, quality};
 use super::session::{Session, Tool};
 use super::viewport::Plushie;
 use crate::picture::palette::Theme;
-use eframe::egui::{Context, Key, KeyboardShortcut, Modifiers};
+use eframe::egui::{Context, Key, KeyboardShortcut, Modifiers, Popup};
 
 pub fn collect(ctx: &Context, session: &Session, panels: &mut panels::State, typing: bool, actions: &mut Vec<Action>) {
     for file in ctx.input(|i| i.raw.dropped_files.clone()) {
@@ -91,7 +91,8 @@ fn plain_keys(ctx: &Context, session: &Session, panels: &mut panels::State, acti
             actions.push(Action::Reject(index));
         }
     }
-    if pressed(Key::Escape) {
+    // An open menu or list is closed by it instead.
+    if !Popup::is_any_open(ctx) && pressed(Key::Escape) {
         let running = session.discovery.running.is_some() && !session.is_dragging();
         actions.push(if running { Action::CancelPropose } else { Action::Escape });
     }

@@ -4,7 +4,7 @@ use super::Actions;
 use crate::engine::Quality;
 use crate::studio::action::Action;
 use crate::studio::session::Session;
-use eframe::egui::{ComboBox, RichText, Ui};
+use eframe::egui::{Button, ComboBox, RichText, Ui, vec2};
 
 /// From the fastest to the most accurate.
 pub const ALL: [Quality; 3] = [Quality::Draft, Quality::Balanced, Quality::Accurate];
@@ -26,15 +26,18 @@ pub fn after(quality: Quality) -> Quality {
     }
 }
 
-/// What it does and what it costs.
-fn explain(quality: Quality) -> String {
-    let what = match quality {
-        Quality::Draft => "least delay; the shape may trail the hand",
+/// What it costs, and what it does.
+fn explain(quality: Quality) -> (String, &'static str) {
+    let effect = match quality {
+        Quality::Draft => "least delay, the shape may trail the hand",
         Quality::Balanced => "follows the hand as closely as can be seen",
-        Quality::Accurate => "every frame is worked out to the end; large bodies may follow in jerks",
+        Quality::Accurate => "works every frame out, large bodies may jerk",
     };
-    format!("{}: up to {} iterations a frame; {what}", name(quality), quality.frame_iterations())
+    (format!("up to {} iterations a frame", quality.frame_iterations()), effect)
 }
+
+/// Width of the list of choices, logical pixels.
+const WIDTH: f32 = 450.0;
 
 /// The selector, for the toolbar.
 pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
@@ -43,13 +46,22 @@ pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     ui.add_space(3.0);
     let combo = ComboBox::from_id_salt("quality").selected_text(name(quality)).width(84.0).show_ui(ui, |ui| {
         for choice in ALL {
-            ui.selectable_value(&mut quality, choice, name(choice)).on_hover_text(explain(choice));
+            let (cost, effect) = explain(choice);
+            let detail = RichText::new(format!("{cost}; {effect}")).small().weak();
+            let button = Button::selectable(choice == quality, name(choice)).right_text(detail);
+            if ui.add(button.min_size(vec2(WIDTH, 24.0))).accessible_name(name(choice)).clicked() {
+                quality = choice;
+            }
         }
     });
-    let choices = ALL.map(explain).join("\n");
+    let choices = ALL.map(|choice| {
+        let (cost, effect) = explain(choice);
+        format!("{}: {cost}; {effect}", name(choice))
+    });
     let tip = format!(
-        "Quality: how much work a frame may take while the hand moves (Q for the next)\n\n{choices}\n\nWhen the hand rests, \
-         the shape is refined to equilibrium with any of them."
+        "Quality: how much work a frame may take while the hand moves (Q for the next)\n\n{}\n\nWhen the hand rests, the \
+         shape is refined to equilibrium with any of them.",
+        choices.join("\n")
     );
     combo.response.labelled_by(label.id).on_hover_text(tip);
     if quality != session.quality {
