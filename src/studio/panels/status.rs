@@ -68,6 +68,8 @@ fn state(session: &Session) -> String {
         "refining to equilibrium…"
     } else if session.is_dragging() {
         "following the hand"
+    } else if session.playback.playing {
+        "playing"
     } else if !session.is_settled() {
         "solving…"
     } else {
