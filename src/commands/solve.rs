@@ -51,11 +51,11 @@ pub struct Solve {
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum Effort {
-    /// Fewest iterations: least delay, may trail the hand
+    /// A part of the work of `balanced`: least delay, trails fast moves
     Draft,
-    /// Follows the hand within what can be seen
+    /// A bounded amount of work: follows the hand
     Balanced,
-    /// Iterates until nothing is gained: for figures that are compared
+    /// Until nothing moves any more: for figures that are compared
     Accurate,
 }
 

@@ -54,6 +54,9 @@ pub struct Shape {
 /// Below this distance a shape counts as in equilibrium: forces balance to eight digits, which is where statics stops when
 /// rounding allows no more (dimensionless, see [`Shape::distance_from_equilibrium`]).
 pub const EQUILIBRIUM: f64 = 1e-8;
+/// Below this distance a shape is near enough to equilibrium to be shown while a hand drags: forces balance to three digits, and
+/// what would still move can hardly be seen (dimensionless).
+pub const NEAR_EQUILIBRIUM: f64 = 1e-3;
 
 impl Shape {
     /// The largest unbalanced force as a part of the forces at work, dimensionless. Zero where nothing pulls.

@@ -3,7 +3,7 @@
 use super::session::{Mode, Session};
 use super::viewport::Plushie;
 use crate::design::animation;
-use crate::engine::{Question, Request, Shape};
+use crate::engine::{NEAR_EQUILIBRIUM, Question, Request, Shape};
 use std::sync::Arc;
 
 impl Session {
@@ -16,7 +16,8 @@ impl Session {
         let fits = |shape: &Shape| {
             shape.nodes.len() == nodes && shape.nodes.iter().flatten().all(|coordinate| coordinate.is_finite())
         };
-        let warning = |shape: &Option<Shape>| shape.as_ref().and_then(|s| s.warning.clone());
+        let warning =
+            |shape: &Option<Shape>| shape.as_ref().filter(|s| !is_on_its_way(s)).and_then(|s| s.warning.clone());
         self.warning = warning(&outcome.realizable).or_else(|| warning(&outcome.idealized));
         self.answered_id = Some(outcome.id);
         let refined = outcome.refined;
@@ -57,6 +58,11 @@ impl Session {
     }
 }
 
+/// Whether a shape only waits for a hand to rest: near equilibrium, which the figures say, and about to be refined.
+fn is_on_its_way(shape: &Shape) -> bool {
+    !shape.converged && shape.residual > 0.0 && shape.distance_from_equilibrium() < NEAR_EQUILIBRIUM
+}
+
 /// Whether two requests have the same answer.
 fn same(a: &Request, b: &Request) -> bool {
     Arc::ptr_eq(&a.design, &b.design)
@@ -69,5 +75,21 @@ fn same_question(a: &Question, b: &Question) -> bool {
         (Question::Targets(a), Question::Targets(b)) => a == b,
         (Question::Activations(a), Question::Activations(b)) => a == b,
         _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_a_shape_far_from_equilibrium_is_worth_a_warning() {
+        let shape =
+            |residual: f64, converged: bool| Shape { residual, converged, force_scale: 1.0, ..Shape::default() };
+        assert!(is_on_its_way(&shape(1e-5, false)));
+        // Far off; a body that was not solved at all; a settled one whose warning is about something else.
+        for said in [shape(0.5, false), shape(0.0, false), shape(1e-12, true)] {
+            assert!(!is_on_its_way(&said));
+        }
     }
 }

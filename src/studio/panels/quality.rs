@@ -26,18 +26,17 @@ pub fn after(quality: Quality) -> Quality {
     }
 }
 
-/// What it costs, and what it does.
-fn explain(quality: Quality) -> (String, &'static str) {
-    let effect = match quality {
-        Quality::Draft => "least delay, the shape may trail the hand",
-        Quality::Balanced => "follows the hand as closely as can be seen",
-        Quality::Accurate => "works every frame out, large bodies may jerk",
-    };
-    (format!("up to {} iterations a frame", quality.frame_iterations()), effect)
+/// What it costs and what it does.
+fn explain(quality: Quality) -> &'static str {
+    match quality {
+        Quality::Draft => "a part of the work of Balanced; least delay, trails fast moves",
+        Quality::Balanced => "a bounded amount of work a frame; follows the hand",
+        Quality::Accurate => "until nothing moves any more; large bodies may jerk",
+    }
 }
 
 /// Width of the list of choices, logical pixels.
-const WIDTH: f32 = 450.0;
+const WIDTH: f32 = 400.0;
 
 /// The selector, for the toolbar.
 pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
@@ -46,18 +45,14 @@ pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     ui.add_space(3.0);
     let combo = ComboBox::from_id_salt("quality").selected_text(name(quality)).width(84.0).show_ui(ui, |ui| {
         for choice in ALL {
-            let (cost, effect) = explain(choice);
-            let detail = RichText::new(format!("{cost}; {effect}")).small().weak();
+            let detail = RichText::new(explain(choice)).small().weak();
             let button = Button::selectable(choice == quality, name(choice)).right_text(detail);
             if ui.add(button.min_size(vec2(WIDTH, 24.0))).accessible_name(name(choice)).clicked() {
                 quality = choice;
             }
         }
     });
-    let choices = ALL.map(|choice| {
-        let (cost, effect) = explain(choice);
-        format!("{}: {cost}; {effect}", name(choice))
-    });
+    let choices = ALL.map(|choice| format!("{}: {}", name(choice), explain(choice)));
     let tip = format!(
         "Quality: how much work a frame may take while the hand moves (Q for the next)\n\n{}\n\nWhen the hand rests, the \
          shape is refined to equilibrium with any of them.",

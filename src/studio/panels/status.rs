@@ -1,15 +1,13 @@
 //! The lines at the bottom: what can be done, what the solver is at, and for each view what its shape cost and is worth.
 
 use super::quality;
-use crate::engine::{EQUILIBRIUM, Shape};
+use crate::engine::{EQUILIBRIUM, NEAR_EQUILIBRIUM, Shape};
 use crate::studio::session::{Mode, Session, Tool};
 use crate::studio::viewport::Plushie;
 use eframe::egui::{Align, Color32, FontId, Label, Layout, RichText, Ui, vec2};
 
 /// Height of both lines, logical pixels.
 pub const HEIGHT: f32 = 40.0;
-/// Nearer to equilibrium than this nobody can tell: forces balance to four digits (dimensionless).
-const NEAR_EQUILIBRIUM: f64 = 1e-4;
 
 pub fn show(ui: &mut Ui, session: &Session) {
     ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
