@@ -157,6 +157,8 @@ fn a_pose_travels_from_the_command_line_to_the_check() {
             "error_idealized",
             "error_realizable",
             "error_rest",
+            "imbalance_idealized",
+            "imbalance_realizable",
             "milliseconds_idealized",
             "milliseconds_realizable",
             "name",
@@ -215,6 +217,77 @@ fn a_problem_is_answered_on_standard_output_or_in_a_file() {
     let error = fail(f, 2, &["solve", "cut.json", "-o", "b.json"]);
     assert!(error.contains("line"), "{error}");
     assert!(!f.join("b.json").exists());
+}
+
+/// The triangle dragged away in a hundred frames: work for a while.
+fn long_drag() -> String {
+    let frames: Vec<String> = (0..20_000).map(|k| format!("[[{}, 1.2]]", f64::from(k % 100) / 100.0)).collect();
+    let drag = format!(
+        r#""objective": {{"targets": [{{"node": 2, "xy": [0, 1]}}]}},
+           "drag": {{"frames": [{}], "report": [0], "tension_regulariser": 0.001}}}}"#,
+        frames.join(",")
+    );
+    PROBLEM.replace(r#""contractions": [0.1]}"#, &drag)
+}
+
+#[test]
+fn a_time_budget_ends_with_the_best_so_far_and_code_3() {
+    let folder = tempfile::tempdir().unwrap();
+    let f = folder.path();
+    fs::write(f.join("drag.json"), long_drag()).unwrap();
+    let error = fail(f, 3, &["solve", "drag.json", "-o", "a.json", "--budget-ms", "5"]);
+    assert!(error.contains("time budget"), "{error}");
+    let answer: serde_json::Value = serde_json::from_slice(&fs::read(f.join("a.json")).unwrap()).unwrap();
+    assert_eq!(answer["converged"], false);
+    assert!(answer["error"].as_str().unwrap().contains("time budget"), "{answer}");
+    let done = answer["drag"]["milliseconds"].as_array().unwrap().len();
+    assert!(done < 20_000, "{done} frames in 5 ms");
+    // With time enough the same question is answered as without a budget.
+    fs::write(f.join("p.json"), PROBLEM).unwrap();
+    let plain: serde_json::Value = serde_json::from_str(&succeed(f, &["solve", "p.json"])).unwrap();
+    let given: serde_json::Value =
+        serde_json::from_str(&succeed(f, &["solve", "p.json", "--budget-ms", "60000"])).unwrap();
+    assert_eq!(plain, given);
+    for bad in ["0", "-5", "soon", "1.5"] {
+        let error = fail(f, 2, &["solve", "p.json", "--budget-ms", bad]);
+        assert!(error.contains(bad), "{error}");
+    }
+}
+
+/// A body that falls has no equilibrium: what there is to say is said, what there is to write is written.
+#[test]
+fn a_shape_without_equilibrium_is_code_3() {
+    use plushwright::design::{Gravity, Network, Pose, Tendon, file};
+    let folder = bar();
+    let f = folder.path();
+    let mut design = file::read(&f.join("bar.plush")).unwrap();
+    design.gravity = Some(Gravity { acceleration: [0.0, -9.81], surface_density: 1e-6 });
+    let top: Vec<usize> = (0..design.mesh.nodes.len()).filter(|&n| design.mesh.nodes[n][1] > 39.9).collect();
+    let tendon = Tendon { routing: top, ratio: 1.0, slack_mm: 0.0 };
+    design.networks.push(Network { name: "winch 1".into(), tendons: vec![tendon] });
+    design.poses.push(Pose { name: "fall".into(), targets: Vec::new() });
+    file::write(&f.join("falling.plush"), &design).unwrap();
+
+    let check = plushwright(f, &["check", "falling.plush", "--json"]);
+    assert_eq!(check.status.code(), Some(3), "{check:?}");
+    let figures: serde_json::Value = serde_json::from_str(&stdout(&check)).unwrap();
+    assert!(figures["poses"][0]["imbalance_idealized"].as_f64().unwrap() > 1e-8, "{figures}");
+    let error = String::from_utf8(check.stderr).unwrap();
+    assert!(error.starts_with("plushwright: not converged: fall, idealized: ") && error.contains("pin"), "{error}");
+    assert_eq!(error.lines().count(), 1);
+
+    for args in [
+        &["render", "falling.plush", "-o", "out.png", "--pose", "fall", "--size", "64x32"][..],
+        &["render", "falling.plush", "-o", "out.png", "--size", "64x32"],
+        &["key", "falling.plush", "--pose", "fall", "--time", "0", "-o", "out.plush"],
+    ] {
+        let output = plushwright(f, args);
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(3), "{args:?}: {error}");
+        assert!(error.contains("realizable: ") && error.lines().count() == 1, "{error}");
+        let written = if args[0] == "key" { "out.plush" } else { "out.png" };
+        fs::remove_file(f.join(written)).unwrap();
+    }
 }
 
 /// A star of three contracted edges: the winch sits in its middle.

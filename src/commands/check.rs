@@ -2,7 +2,7 @@
 
 use super::error::CommandError;
 use super::output::say_json;
-use super::{document, table};
+use super::{document, key, table};
 use clap::Args;
 use std::io::Write;
 use std::path::PathBuf;
@@ -10,7 +10,8 @@ use std::sync::atomic::AtomicBool;
 
 /// Print sizes, and how close both plushies come to each pose
 ///
-/// Target errors are rms distances in body lengths (the longer side of the rest silhouette's box); times are in ms.
+/// Target errors are rms distances in body lengths (the longer side of the rest silhouette's box); times are in ms. Where a
+/// plushie does not come to equilibrium the figures are those of the nearest state found, and the exit code is 3.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: plushwright check pig.plush --json")]
 pub struct Check {
@@ -25,6 +26,11 @@ impl Check {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
         let design = document::load(&self.design)?;
         let figures = table::figures(&design, cancel)?;
-        if self.json { say_json(out, &figures) } else { table::print(&figures, out) }
+        if self.json {
+            say_json(out, &figures)?;
+        } else {
+            table::print(&figures, out)?;
+        }
+        key::balanced(figures.unbalanced())
     }
 }

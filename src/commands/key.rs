@@ -4,7 +4,7 @@ use super::document;
 use super::error::{CommandError, check_cancel};
 use super::output::say;
 use crate::design::{Design, Easing, Keyframe, Target, edit};
-use crate::engine::{Effort, Question, Request, Shape, Solver};
+use crate::engine::{Effort, Quality, Question, Request, Shape, Solver};
 use clap::{Args, ValueEnum};
 use std::io::Write;
 use std::path::PathBuf;
@@ -12,6 +12,9 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 /// Put a pose on the timeline (as winch activations; a keyframe at the same time is replaced)
+///
+/// Where the plushie does not come to equilibrium in that pose, the best activations found are written all the same, and
+/// the exit code is 3.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: plushwright key pig.plush --pose wave --time 1.5 --ease smooth -o pig.plush")]
 pub struct Key {
@@ -51,10 +54,12 @@ impl Key {
             ));
         }
         let known = design.poses.iter().any(|p| p.name == self.pose);
-        let (activations, pose) = if !known && self.pose == "rest" {
-            (vec![0.0; design.networks.len()], None)
+        let (activations, pose, unbalanced) = if !known && self.pose == "rest" {
+            (vec![0.0; design.networks.len()], None, Vec::new())
         } else {
-            (activations(&design, &self.pose, cancel)?, Some(self.pose.clone()))
+            let shape = realizable(&design, &self.pose, cancel)?;
+            let activations = shape.activations_mm.clone();
+            (activations, Some(self.pose.clone()), unbalanced(&self.pose, &[at_rest(&design), shape]))
         };
         let text = activations.iter().map(|a| format!("{a:.2}")).collect::<Vec<_>>().join(" ");
         let easing = match self.ease {
@@ -64,18 +69,40 @@ impl Key {
         };
         put(&mut design, self.time, activations, pose, easing)?;
         document::save(&self.output, &design, cancel)?;
-        say(out, &format!("{}: {} at {} s, winches at {text} mm", self.output.display(), self.pose, self.time))
+        say(out, &format!("{}: {} at {} s, winches at {text} mm", self.output.display(), self.pose, self.time))?;
+        balanced(unbalanced)
     }
 }
 
 /// Winch activations, mm, with which the realizable plushie comes closest to a pose.
 pub fn activations(design: &Design, pose: &str, cancel: &AtomicBool) -> Result<Vec<f64>, CommandError> {
-    let [_, realizable] = solve(design, Question::Targets(targets(design, pose)?), [false, true], cancel)?;
-    let activations = realizable.activations_mm;
-    if activations.len() != design.networks.len() {
+    Ok(realizable(design, pose, cancel)?.activations_mm)
+}
+
+/// The realizable plushie, as close to a pose as it comes.
+fn realizable(design: &Design, pose: &str, cancel: &AtomicBool) -> Result<Shape, CommandError> {
+    let [_, shape] = solve(design, Question::Targets(targets(design, pose)?), [false, true], cancel)?;
+    if shape.activations_mm.len() != design.networks.len() {
         return Err(CommandError::Failed("the solver returned no activation for some winches".into()));
     }
-    Ok(activations)
+    Ok(shape)
+}
+
+/// What is to be said of shapes that did not come to equilibrium: where (a pose, say), which plushie, how far from it.
+pub fn unbalanced(place: &str, [idealized, realizable]: &[Shape; 2]) -> Vec<String> {
+    let views = [("idealized", idealized), ("realizable", realizable)];
+    let off = views.into_iter().filter(|(_, shape)| !shape.converged);
+    off.map(|(view, shape)| {
+        let distance = shape.distance_from_equilibrium();
+        let why = shape.warning.as_deref().unwrap_or("not in equilibrium").trim_end_matches('.');
+        format!("{place}, {view}: {why} (unbalanced forces are {distance:.1e} of those at work)")
+    })
+    .collect()
+}
+
+/// Fails where anything is [`unbalanced`]; for the end of a command, when what was found is written.
+pub fn balanced(unbalanced: Vec<String>) -> Result<(), CommandError> {
+    if unbalanced.is_empty() { Ok(()) } else { Err(CommandError::NotConverged(unbalanced.join("; "))) }
 }
 
 /// The targets of a pose.
@@ -97,13 +124,18 @@ pub fn solve(
         id: 0,
         design: Arc::new(design.clone()),
         question,
+        quality: Quality::Accurate,
         show_idealized: wanted[0],
         show_realizable: wanted[1],
     };
     let outcome = Solver::default().solve_with(&request, Effort::Thorough, cancel);
     check_cancel(cancel)?;
-    let rest = || Shape { nodes: design.mesh.nodes.clone(), ..Shape::default() };
+    let rest = || at_rest(design);
     Ok([outcome.idealized.unwrap_or_else(rest), outcome.realizable.unwrap_or_else(rest)])
+}
+
+fn at_rest(design: &Design) -> Shape {
+    Shape { nodes: design.mesh.nodes.clone(), converged: true, ..Shape::default() }
 }
 
 /// Puts a keyframe on the timeline; one at the same time is replaced.

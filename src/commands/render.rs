@@ -15,6 +15,8 @@ use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
 /// Draw both plushies, idealized left and realizable right, as PNG
+///
+/// A plushie that does not come to equilibrium is drawn in the nearest state found, and the exit code is 3.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: plushwright render pig.plush -o pig.png --pose wave --size 1280x720")]
 pub struct Render {
@@ -47,6 +49,11 @@ impl Render {
             }
             (None, None) => Question::Targets(Vec::new()),
         };
+        let place = match (&self.pose, self.time) {
+            (Some(pose), _) => pose.clone(),
+            (None, Some(time)) => format!("{time} s"),
+            (None, None) => "rest".to_owned(),
+        };
         let targets = match &question {
             Question::Targets(targets) => targets.clone(),
             Question::Activations(_) => Vec::new(),
@@ -54,7 +61,8 @@ impl Render {
         let shapes = key::solve(&design, question, [true, true], cancel)?;
         let bytes = picture(&design, &shapes, &targets, self.size)?;
         write_file(&self.output, &bytes, cancel)?;
-        say(out, &format!("{}: {} x {} pixels", self.output.display(), self.size.0, self.size.1))
+        say(out, &format!("{}: {} x {} pixels", self.output.display(), self.size.0, self.size.1))?;
+        key::balanced(key::unbalanced(&place, &shapes))
     }
 }
 

@@ -12,6 +12,8 @@ use std::sync::atomic::AtomicBool;
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
+/// Longest time that can be asked for: a day, ms.
+const LONGEST_MS: u64 = 86_400_000;
 /// How often a running answer looks for an interrupt.
 const CANCEL_INTERVAL: Duration = Duration::from_millis(20);
 
@@ -30,9 +32,15 @@ pub struct Solve {
     /// How contractions are found; `gradient` is Algorithm 1 of the paper
     #[arg(long, default_value = "default", value_parser = PossibleValuesParser::new(soft_ik::METHODS))]
     pub method: String,
-    /// How much work each frame of a drag may take
+    /// How much work each frame of a drag may take; no effect on other questions
     #[arg(long, value_enum, default_value_t = Effort::Balanced)]
     pub quality: Effort,
+    /// Time for the whole answer in ms; the factorisation under way is finished, then the best state so far is written
+    ///
+    /// An answer that the budget cut short has `"converged": false` and the exit code 3. How far it came depends on the
+    /// machine; without reaching the budget the same file gives the same answer.
+    #[arg(long, value_name = "MS", default_value_t = 10_000, value_parser = clap::value_parser!(u64).range(1..=LONGEST_MS))]
+    pub budget_ms: u64,
     /// Answer statics and Soft IK too where the file has a drag
     #[arg(long)]
     pub all: bool,
@@ -43,8 +51,11 @@ pub struct Solve {
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum Effort {
+    /// A part of the work of `balanced`: least delay, trails fast moves
     Draft,
+    /// A bounded amount of work: follows the hand
     Balanced,
+    /// Until nothing moves any more: for figures that are compared
     Accurate,
 }
 
@@ -81,7 +92,7 @@ impl Solve {
                 Effort::Accurate => Quality::Accurate,
             },
             all: self.all,
-            ..Options::default()
+            budget: Duration::from_millis(self.budget_ms),
         };
         let (send, receive) = channel();
         let worker = move || {

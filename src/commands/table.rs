@@ -1,7 +1,7 @@
 //! Figures of a design: sizes, and how close each pose comes to its targets.
 
 use super::error::CommandError;
-use super::key::solve;
+use super::key::{self, solve};
 use super::output::say;
 use crate::design::Design;
 use crate::engine::Question;
@@ -32,16 +32,31 @@ pub struct PoseFigures {
     pub error_realizable: f64,
     pub milliseconds_idealized: f64,
     pub milliseconds_realizable: f64,
+    /// Largest unbalanced force as a part of the forces at work.
+    pub imbalance_idealized: f64,
+    pub imbalance_realizable: f64,
+    /// Which plushies did not come to equilibrium, and how far from it they are; the command ends with these.
+    #[serde(skip)]
+    pub unbalanced: Vec<String>,
     /// What the solver had to say; shown in the table only.
     #[serde(skip)]
     pub warnings: Vec<String>,
+}
+
+impl Figures {
+    /// What is to be said of poses that did not come to equilibrium.
+    pub fn unbalanced(&self) -> Vec<String> {
+        self.poses.iter().flat_map(|pose| pose.unbalanced.iter().cloned()).collect()
+    }
 }
 
 /// Solves every pose from rest.
 pub fn figures(design: &Design, cancel: &AtomicBool) -> Result<Figures, CommandError> {
     let mut poses = Vec::with_capacity(design.poses.len());
     for pose in &design.poses {
-        let [idealized, realizable] = solve(design, Question::Targets(pose.targets.clone()), [true, true], cancel)?;
+        let shapes = solve(design, Question::Targets(pose.targets.clone()), [true, true], cancel)?;
+        let unbalanced = key::unbalanced(&pose.name, &shapes);
+        let [idealized, realizable] = shapes;
         let note =
             |view: &str, warning: &Option<String>| warning.as_ref().map(|w| format!("{}, {view}: {w}", pose.name));
         poses.push(PoseFigures {
@@ -52,6 +67,9 @@ pub fn figures(design: &Design, cancel: &AtomicBool) -> Result<Figures, CommandE
             error_realizable: realizable.target_error,
             milliseconds_idealized: idealized.milliseconds,
             milliseconds_realizable: realizable.milliseconds,
+            imbalance_idealized: idealized.distance_from_equilibrium(),
+            imbalance_realizable: realizable.distance_from_equilibrium(),
+            unbalanced,
             warnings: [note("idealized", &idealized.warning), note("realizable", &realizable.warning)]
                 .into_iter()
                 .flatten()
@@ -90,20 +108,24 @@ pub fn print(figures: &Figures, out: &mut dyn Write) -> Result<(), CommandError>
     }
     let width = figures.poses.iter().map(|p| p.name.chars().count()).max().unwrap_or(0).max(4);
     say(out, "")?;
-    say(out, &format!("{:width$}           rms target error (% of body length)     solved in (ms)", ""))?;
-    say(out, &format!("{:width$}  targets     rest  idealized  realizable  idealized  realizable", "pose"))?;
+    let above = "         rms target error (% of body length)         solved in (ms)  unbalanced forces (part)";
+    say(out, &format!("{:width$}  {above}", ""))?;
+    let columns = "targets     rest  idealized  realizable  idealized  realizable  idealized  realizable";
+    say(out, &format!("{:width$}  {columns}", "pose"))?;
     for p in &figures.poses {
         say(
             out,
             &format!(
-                "{:width$}  {:7}  {:7.2}  {:9.2}  {:10.2}  {:9.1}  {:10.1}",
+                "{:width$}  {:7}  {:7.2}  {:9.2}  {:10.2}  {:9.1}  {:10.1}  {:9.0e}  {:10.0e}",
                 p.name,
                 p.targets,
                 100.0 * p.error_rest,
                 100.0 * p.error_idealized,
                 100.0 * p.error_realizable,
                 p.milliseconds_idealized,
-                p.milliseconds_realizable
+                p.milliseconds_realizable,
+                p.imbalance_idealized,
+                p.imbalance_realizable
             ),
         )?;
     }

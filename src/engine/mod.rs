@@ -11,6 +11,7 @@ pub mod solver;
 pub mod trial;
 pub mod worker;
 
+pub use crate::problem::Quality;
 pub use propose::propose;
 pub use solver::{Effort, Solver};
 
@@ -36,10 +37,32 @@ pub struct Shape {
     pub target_error: f64,
     /// Largest unbalanced nodal force, N.
     pub residual: f64,
+    /// The forces at work, N: what `residual` is to be compared with.
+    pub force_scale: f64,
+    /// Whether the forces balance. A shape that has not converged is the nearest state found, fit to be shown and no more.
+    pub converged: bool,
+    /// Iterations of the posing method.
     pub iterations: usize,
+    /// Numeric factorisations, those of statics included.
+    pub factorizations: usize,
+    /// From the question to this shape.
     pub milliseconds: f64,
     /// What the user should know (not converged, body free to move, ...), ready to be shown.
     pub warning: Option<String>,
+}
+
+/// Below this distance a shape counts as in equilibrium: forces balance to eight digits, which is where statics stops when
+/// rounding allows no more (dimensionless, see [`Shape::distance_from_equilibrium`]).
+pub const EQUILIBRIUM: f64 = 1e-8;
+/// Below this distance a shape is near enough to equilibrium to be shown while a hand drags: forces balance to three digits, and
+/// what would still move can hardly be seen (dimensionless).
+pub const NEAR_EQUILIBRIUM: f64 = 1e-3;
+
+impl Shape {
+    /// The largest unbalanced force as a part of the forces at work, dimensionless. Zero where nothing pulls.
+    pub fn distance_from_equilibrium(&self) -> f64 {
+        if self.residual == 0.0 { 0.0 } else { self.residual / self.force_scale.max(f64::MIN_POSITIVE) }
+    }
 }
 
 /// What the worker is asked for. The newest request wins.
@@ -49,9 +72,21 @@ pub struct Request {
     pub id: u64,
     pub design: Arc<Design>,
     pub question: Question,
-    /// A view that is not shown is not solved.
+    /// How much work a frame may take while a hand drags ([`Effort::Interactive`]).
+    pub quality: Quality,
+    /// A view that is not shown is not solved, see [`Request::solves`].
     pub show_idealized: bool,
     pub show_realizable: bool,
+}
+
+impl Request {
+    /// Which plushies are solved: idealized, realizable. What is not shown is not, with one exception: the fibres of the
+    /// idealized plushie add to what the winches reach, so where winches have to be searched for, they are.
+    pub fn solves(&self) -> [bool; 2] {
+        let searched = matches!(&self.question, Question::Targets(targets) if !targets.is_empty());
+        let builds_on_winches = self.show_idealized && searched && !self.design.networks.is_empty();
+        [self.show_idealized, self.show_realizable || builds_on_winches]
+    }
 }
 
 #[derive(Clone, Debug)]
@@ -68,6 +103,8 @@ pub struct Outcome {
     pub id: u64,
     pub idealized: Option<Shape>,
     pub realizable: Option<Shape>,
+    /// Found with all effort while nothing newer waited, in the place of an earlier outcome of the same request.
+    pub refined: bool,
 }
 
 /// A network proposed by discovery and tried out by simulation.

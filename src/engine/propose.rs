@@ -7,7 +7,7 @@
 use super::response;
 use super::solver::{Effort, Solver};
 use super::trial::{Care, Reached, Trial};
-use super::{Proposal, Question, Request, Shape};
+use super::{Proposal, Quality, Question, Request, Shape};
 use crate::design::{Design, Network, Target, Tendon};
 use crate::discovery::{self, Parameters, Stages, refine};
 use std::sync::Arc;
@@ -86,6 +86,7 @@ pub fn candidates(
         id: 0,
         design: Arc::new(design.clone()),
         question: Question::Targets(targets.to_vec()),
+        quality: Quality::Accurate,
         show_idealized: true,
         show_realizable: false,
     };

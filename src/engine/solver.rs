@@ -54,13 +54,18 @@ impl Solver {
     /// The same with a stated effort. The realizable plushie comes first; its activations are held in the idealized one.
     pub fn solve_with(&mut self, request: &Request, effort: Effort, cancel: &AtomicBool) -> Outcome {
         let design = &request.design;
-        let needed = request.show_realizable || (!design.networks.is_empty() && request.show_idealized);
+        let [_, needed] = request.solves();
         let realizable = needed.then(|| realize(&mut self.realizable, design, &request.question, effort, cancel));
         let idealized = request.show_idealized.then(|| {
-            let activations = realizable.as_ref().map(|s| s.activations_mm.clone()).unwrap_or_default();
+            let activations = match (&realizable, &request.question) {
+                (Some(shape), _) => shape.activations_mm.clone(),
+                (None, Question::Activations(given)) => given.clone(),
+                (None, Question::Targets(_)) => vec![0.0; design.networks.len()],
+            };
             idealize(&mut self.idealized, design, &request.question, &activations, effort, cancel)
         });
-        Outcome { id: request.id, idealized, realizable: realizable.filter(|_| request.show_realizable) }
+        let realizable = realizable.filter(|_| request.show_realizable);
+        Outcome { id: request.id, idealized, realizable, refined: effort == Effort::Thorough }
     }
 }
 
@@ -91,7 +96,7 @@ fn realize(
     };
     let last = compiled.last.take().filter(|p| p.beta.len() == beta.len());
     let answer = run(design, plushie, targets, &actuation, last, beta, effort, cancel);
-    let mut shape = report(design, plushie, targets, &answer.posture, answer.iterations, clock);
+    let mut shape = report(design, plushie, targets, &answer.posture, clock).counted(&answer);
     if let Question::Activations(beta) = question {
         shape.activations_mm = beta.clone();
     }
@@ -125,7 +130,7 @@ fn idealize(
     let actuation = Actuation { winches, fixed };
     let last = compiled.last.take().filter(|p| p.beta.len() == beta.len());
     let answer = run(design, plushie, targets, &actuation, last, beta, effort, cancel);
-    let mut shape = report(design, plushie, targets, &answer.posture, answer.iterations, clock);
+    let mut shape = report(design, plushie, targets, &answer.posture, clock).counted(&answer);
     shape.activations_mm = activations.to_vec();
     let contractions = actuation.contractions(&answer.posture.beta);
     let tensions = plushie.model.contractile.tensions(&answer.posture.x);
@@ -255,7 +260,6 @@ pub(super) fn report(
     plushie: &Plushie,
     targets: &[Target],
     posture: &Posture,
-    iterations: usize,
     clock: Instant,
 ) -> Shape {
     let tensions = plushie.model.contractile.tensions(&posture.x);
@@ -268,7 +272,10 @@ pub(super) fn report(
         fiber_tensions: Vec::new(),
         tendon_tensions: tensions[plushie.tendons.clone()].to_vec(),
         residual: posture.residual,
-        iterations,
+        force_scale: plushie.model.force_scale(&posture.x),
+        converged: posture.in_equilibrium,
+        iterations: 0,
+        factorizations: 0,
         milliseconds: clock.elapsed().as_secs_f64() * 1e3,
         warning: warning(plushie, posture),
     }
@@ -300,6 +307,10 @@ pub fn target_error(design: &Design, targets: &[Target], nodes: &[[f64; 2]]) -> 
 }
 
 impl Shape {
+    fn counted(self, answer: &Answer) -> Self {
+        Self { iterations: answer.iterations, factorizations: answer.factorizations, ..self }
+    }
+
     /// The rest shape, with what is to be said about it.
     pub fn at_rest(design: &Design, warning: String) -> Self {
         Self {
@@ -308,5 +319,73 @@ impl Shape {
             warning: Some(warning),
             ..Self::default()
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{EQUILIBRIUM, Quality};
+    use super::*;
+    use crate::design::testing;
+    use std::sync::Arc;
+
+    fn ask(solver: &mut Solver, design: &Design, question: Question, shown: [bool; 2]) -> Outcome {
+        let design = Arc::new(design.clone());
+        let [show_idealized, show_realizable] = shown;
+        let request = Request { id: 0, design, question, quality: Quality::Balanced, show_idealized, show_realizable };
+        solver.solve(&request, &AtomicBool::new(false))
+    }
+
+    /// Whether the idealized and the realizable plushie were worked on.
+    fn worked(solver: &Solver) -> [bool; 2] {
+        [solver.idealized.is_some(), solver.realizable.is_some()]
+    }
+
+    #[test]
+    fn a_hidden_view_is_not_solved() {
+        let rigged = testing::sample();
+        let plain = Design { networks: Vec::new(), keyframes: Vec::new(), ..rigged.clone() };
+        let pose = || Question::Targets(rigged.poses[0].targets.clone());
+        for (design, question, shown) in [
+            (&plain, pose(), [true, false]),
+            (&plain, pose(), [false, true]),
+            (&rigged, pose(), [false, true]),
+            (&rigged, Question::Targets(Vec::new()), [true, false]),
+            (&rigged, Question::Activations(vec![3.0, 1.0]), [true, false]),
+        ] {
+            let mut solver = Solver::default();
+            let outcome = ask(&mut solver, design, question, shown);
+            assert_eq!([outcome.idealized.is_some(), outcome.realizable.is_some()], shown);
+            assert_eq!(worked(&solver), shown, "{} networks", design.networks.len());
+        }
+        // The fibres add to what the winches reach, so these are searched for, seen or not.
+        let mut solver = Solver::default();
+        let outcome = ask(&mut solver, &rigged, pose(), [true, false]);
+        assert!(outcome.realizable.is_none());
+        assert_eq!(worked(&solver), [true, true]);
+    }
+
+    #[test]
+    fn a_view_looks_the_same_alone() {
+        let design = testing::sample();
+        for question in [Question::Targets(Vec::new()), Question::Activations(vec![3.0, 1.0])] {
+            let together = ask(&mut Solver::default(), &design, question.clone(), [true, true]);
+            let alone = ask(&mut Solver::default(), &design, question, [true, false]);
+            let [together, alone] = [together, alone].map(|outcome| outcome.idealized.unwrap());
+            for (p, q) in together.nodes.iter().flatten().zip(alone.nodes.iter().flatten()) {
+                assert!((p - q).abs() < 1e-6, "{p} {q}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_shape_says_how_far_from_equilibrium_it_is() {
+        let design = testing::sample();
+        let outcome = ask(&mut Solver::default(), &design, Question::Activations(vec![3.0, 1.0]), [true, true]);
+        for shape in [outcome.idealized.unwrap(), outcome.realizable.unwrap()] {
+            assert!(shape.converged && shape.factorizations > 0 && shape.force_scale > 0.0);
+            assert!(shape.distance_from_equilibrium() < EQUILIBRIUM, "{}", shape.distance_from_equilibrium());
+        }
+        assert_eq!(Shape::default().distance_from_equilibrium(), 0.0);
     }
 }

@@ -105,6 +105,6 @@ impl Trial {
     pub fn shape(&mut self, design: &Design, targets: &[Target], reached: &Reached) -> Shape {
         let contractions = self.actuation.contractions(&reached.posture.beta);
         self.plushie.model.contractile.set_contractions(&contractions);
-        report(design, &self.plushie, targets, &reached.posture, 0, Instant::now())
+        report(design, &self.plushie, targets, &reached.posture, Instant::now())
     }
 }

@@ -5,9 +5,9 @@
 //! drags; only when it has run longer than [`PATIENCE`] while a newer one waits is it told to stop, and then it answers
 //! with the best state it has reached.
 //!
-//! A drag is followed with little effort, from one posture to the next, and may end in a worse pose than can be reached.
-//! So once nothing newer waits, the same question is asked again with all effort, and the answer replaces the first one
-//! where it is better. Anything newer stops that at once.
+//! A drag is followed with the effort its [`super::Quality`] allows, from one posture to the next, and may end short of
+//! equilibrium or in a worse pose than can be reached. So once nothing newer waits, the same question is asked again with all
+//! effort, and the answer replaces the first one where it is better. Anything newer stops that at once.
 
 use super::{Effort, Outcome, Question, Request, Shape, Solver};
 use std::any::Any;
@@ -104,6 +104,12 @@ impl Worker {
         let slots = self.shared.lock();
         slots.request.is_some() || slots.started.is_some() || slots.outcome.is_some()
     }
+
+    /// Whether all that runs is meant to better an answer that is out already. `wake` is called when that ends.
+    pub fn is_refining(&self) -> bool {
+        let slots = self.shared.lock();
+        slots.bettering && slots.request.is_none()
+    }
 }
 
 impl Drop for Worker {
@@ -139,7 +145,8 @@ fn answer_requests(shared: &Shared, wake: &dyn Fn(), mut solve: impl FnMut(&Requ
         let bettering = {
             let mut slots = shared.lock();
             slots.outcome = Some(outcome.clone());
-            slots.bettering = !panicked && slots.request.is_none() && !slots.stop && can_be_bettered(&request);
+            let worth_while = !panicked && can_be_bettered(&request, &outcome);
+            slots.bettering = worth_while && slots.request.is_none() && !slots.stop;
             slots.started = slots.bettering.then(Instant::now);
             shared.cancel.store(slots.stop, Ordering::Relaxed);
             slots.bettering
@@ -152,6 +159,7 @@ fn answer_requests(shared: &Shared, wake: &dyn Fn(), mut solve: impl FnMut(&Requ
             slots.started = None;
             slots.bettering = false;
             if let Some(better) = better {
+                let better = Outcome { refined: true, ..better };
                 last = Some(better.clone());
                 slots.outcome = Some(better);
             }
@@ -178,18 +186,24 @@ fn next_request(shared: &Shared) -> Option<Request> {
     }
 }
 
-/// Only an inverse problem has more than one answer.
-fn can_be_bettered(request: &Request) -> bool {
-    matches!(&request.question, Question::Targets(targets) if !targets.is_empty())
+/// Only an inverse problem has more than one answer; forces that do not balance yet can go on to.
+fn can_be_bettered(request: &Request, outcome: &Outcome) -> bool {
+    let searched = matches!(&request.question, Question::Targets(targets) if !targets.is_empty());
+    searched || [&outcome.idealized, &outcome.realizable].into_iter().flatten().any(|shape| !shape.converged)
 }
 
+/// Equilibrium comes first: a state that falls short of it may only seem to be nearer to its targets.
 fn is_better(new: &Outcome, old: &Outcome) -> bool {
-    let gain = |new: &Option<Shape>, old: &Option<Shape>| match (new, old) {
-        (Some(new), Some(old)) => old.target_error - new.target_error,
-        _ => 0.0,
-    };
-    let (idealized, realizable) = (gain(&new.idealized, &old.idealized), gain(&new.realizable, &old.realizable));
-    idealized.max(realizable) > WORTH_SHOWING && idealized.min(realizable) > -WORTH_SHOWING
+    let views = [(&new.idealized, &old.idealized), (&new.realizable, &old.realizable)];
+    let pairs = || views.into_iter().filter_map(|(new, old)| Some((new.as_ref()?, old.as_ref()?)));
+    if pairs().any(|(new, old)| old.converged && !new.converged) {
+        return false;
+    }
+    if pairs().any(|(new, old)| new.converged && !old.converged) {
+        return true;
+    }
+    let gain = |(new, old): (&Shape, &Shape)| old.target_error - new.target_error;
+    pairs().map(gain).any(|gain| gain > WORTH_SHOWING) && pairs().map(gain).all(|gain| gain > -WORTH_SHOWING)
 }
 
 /// Tells a request that outlasts [`PATIENCE`] to stop once a newer one waits.
@@ -228,6 +242,7 @@ fn after_panic(request: &Request, last: Option<&Outcome>, panic: &(dyn Any + Sen
                 activations_mm: vec![0.0; request.design.networks.len()],
                 ..Shape::default()
             });
+            shape.converged = false;
             shape.warning = Some(format!("The solver failed ({what}); the last good shape is shown."));
             shape
         })
@@ -236,12 +251,13 @@ fn after_panic(request: &Request, last: Option<&Outcome>, panic: &(dyn Any + Sen
         id: request.id,
         idealized: shape(request.show_idealized, last.and_then(|o| o.idealized.as_ref())),
         realizable: shape(request.show_realizable, last.and_then(|o| o.realizable.as_ref())),
+        refined: false,
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::Question;
+    use super::super::{Quality, Question};
     use super::*;
     use crate::design::Design;
     use std::sync::atomic::AtomicUsize;
@@ -255,14 +271,15 @@ mod tests {
             id,
             design: Arc::new(design),
             question: Question::Targets(Vec::new()),
+            quality: Quality::Balanced,
             show_idealized: true,
             show_realizable: true,
         }
     }
 
     fn rest(request: &Request) -> Outcome {
-        let shape = Shape { nodes: request.design.mesh.nodes.clone(), ..Shape::default() };
-        Outcome { id: request.id, idealized: Some(shape.clone()), realizable: Some(shape) }
+        let shape = Shape { nodes: request.design.mesh.nodes.clone(), converged: true, ..Shape::default() };
+        Outcome { id: request.id, idealized: Some(shape.clone()), realizable: Some(shape), refined: false }
     }
 
     fn waker() -> (Box<dyn Fn() + Send>, mpsc::Receiver<()>) {
@@ -363,7 +380,7 @@ mod tests {
         worker.submit(pose(1));
         woken.recv_timeout(LONG).unwrap();
         assert_eq!(worker.take().unwrap().id, 1);
-        assert!(worker.is_busy());
+        assert!(worker.is_busy() && worker.is_refining());
         worker.submit(pose(2));
         let mut newest = None;
         while worker.is_busy() {
@@ -371,7 +388,30 @@ mod tests {
             newest = worker.take().or(newest);
         }
         let outcome = newest.unwrap();
+        assert!(outcome.refined && !worker.is_refining());
         assert_eq!((outcome.id, outcome.realizable.unwrap().target_error), (2, 0.1));
+    }
+
+    #[test]
+    fn equilibrium_comes_before_a_nearer_target() {
+        let outcome = |converged: bool, target_error: f64| {
+            let mut outcome = rest(&request(1));
+            for shape in [&mut outcome.idealized, &mut outcome.realizable].into_iter().flatten() {
+                (shape.converged, shape.target_error) = (converged, target_error);
+            }
+            outcome
+        };
+        for (new, old, expected) in [
+            ((true, 0.2), (false, 0.1), true),
+            ((false, 0.1), (true, 0.2), false),
+            ((true, 0.1), (true, 0.2), true),
+            ((true, 0.2), (true, 0.2), false),
+        ] {
+            assert_eq!(is_better(&outcome(new.0, new.1), &outcome(old.0, old.1)), expected, "{new:?} {old:?}");
+        }
+        // A hidden view has no say.
+        let hidden = |outcome: Outcome| Outcome { realizable: None, ..outcome };
+        assert!(is_better(&hidden(outcome(true, 0.1)), &hidden(outcome(true, 0.2))));
     }
 
     #[test]

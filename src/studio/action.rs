@@ -3,8 +3,10 @@
 use super::change::Change;
 use super::files::PathDialog;
 use super::session::{Selection, Tool};
+use super::viewport::Plushie;
 use super::viewport::camera::Camera;
 use crate::discovery::Parameters;
+use crate::engine::Quality;
 use crate::mesh::BodyPoint;
 use crate::outline::Point;
 use crate::picture::palette::Theme;
@@ -37,6 +39,9 @@ pub enum Action {
     SetTheme(Theme),
     ShowFibers(bool),
     ShowNetworks(bool),
+    /// Shows or hides a view; one always stays.
+    ShowView(Plushie, bool),
+    SetQuality(Quality),
     SetCamera(Camera),
     /// Moves the picture, unless the drag moves a target and not `always`.
     Pan {

@@ -79,9 +79,13 @@ impl Studio {
         Panel::top("toolbar").frame(bar).exact_size(42.0).resizable(false).show(ui, |ui| {
             panels::toolbar::show(ui, session, actions);
         });
-        let status = Panel::bottom("status").frame(Frame::new()).exact_size(24.0).resizable(false).show(ui, |ui| {
-            panels::status::show(ui, session);
-        });
+        let status = Panel::bottom("status")
+            .frame(Frame::new())
+            .exact_size(panels::status::HEIGHT)
+            .resizable(false)
+            .show(ui, |ui| {
+                panels::status::show(ui, session);
+            });
         let timeline =
             Panel::bottom("timeline").frame(bar).default_size(132.0).size_range(96.0..=320.0).resizable(true);
         let timeline = timeline.show(ui, |ui| {
@@ -89,7 +93,7 @@ impl Studio {
         });
         let poses = Panel::left("poses").frame(panels::frame()).default_size(204.0).size_range(160.0..=360.0);
         poses.show(ui, |ui| panels::poses::show(ui, session, &mut self.panels, actions));
-        let inspector = Panel::right("inspector").frame(panels::frame()).default_size(270.0).size_range(240.0..=420.0);
+        let inspector = Panel::right("inspector").frame(panels::frame()).default_size(288.0).size_range(288.0..=420.0);
         inspector.show(ui, |ui| inspect(ui, session, &mut self.panels, actions));
         CentralPanel::no_frame().show(ui, |ui| {
             viewport::show(ui, session, &mut self.views, self.panels.gpu, actions);

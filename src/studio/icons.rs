@@ -13,6 +13,8 @@ pub enum Icon {
     Fit,
     Fibers,
     Networks,
+    LeftView,
+    RightView,
     Sun,
     Moon,
     Plus,
@@ -114,6 +116,11 @@ pub fn draw(icon: Icon, rect: Rect, color: Color32) -> Vec<Shape> {
             line(&[(0.4, 0.6), (0.62, 0.5), (0.9, 0.12)]),
             line(&[(0.44, 0.72), (0.92, 0.76)]),
         ],
+        Icon::LeftView | Icon::RightView => {
+            let frame = line(&[(0.04, 0.14), (0.96, 0.14), (0.96, 0.86), (0.04, 0.86), (0.04, 0.14)]);
+            let (from, to) = if icon == Icon::LeftView { (0.04, 0.46) } else { (0.54, 0.96) };
+            vec![frame, solid(&[(from, 0.14), (to, 0.14), (to, 0.86), (from, 0.86)])]
+        }
         Icon::Sun => {
             let mut shapes = vec![ring(0.5, 0.5, 0.2)];
             shapes.extend((0..8).map(|i| {

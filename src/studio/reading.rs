@@ -4,7 +4,7 @@ use super::messages::Messages;
 use super::session::{Discovery, Look, Mode, Playback, Selection, Session, Shapes};
 use crate::design::history::History;
 use crate::design::{Design, Target};
-use crate::engine::Proposal;
+use crate::engine::{Proposal, Quality, Request};
 use std::sync::Arc;
 
 impl Session {
@@ -67,6 +67,21 @@ impl Session {
     pub fn is_settled(&self) -> bool {
         let resting = !self.worker.is_busy();
         resting && self.asked.as_ref().is_some_and(|asked| self.answered_id == Some(asked.id))
+    }
+
+    /// Whether the hand rests and the shapes are being refined with all effort.
+    pub fn is_refining(&self) -> bool {
+        self.worker.is_refining()
+    }
+
+    /// How much work a frame may take.
+    pub fn quality(&self) -> Quality {
+        self.quality
+    }
+
+    /// What the solver was asked last.
+    pub fn request(&self) -> Option<&Request> {
+        self.asked.as_ref()
     }
 
     /// The proposal that the views show.

@@ -1,17 +1,17 @@
 //! The state of the window, and everything that changes it.
 
 use super::action::{Action, FileAction};
-use super::asking::Asked;
 use super::change::{Change, Made};
 use super::files::Files;
 use super::jobs::{Jobs, Report, Wake};
 use super::messages::Messages;
+use super::viewport::Plushie;
 use super::viewport::camera::Camera;
 use crate::design::history::History;
 use crate::design::{Design, Target, edit};
 use crate::discovery::Parameters;
 use crate::engine::worker::Worker;
-use crate::engine::{Proposal, Shape};
+use crate::engine::{Proposal, Quality, Request, Shape};
 use crate::outline::Point;
 use crate::picture::palette::Theme;
 use crate::picture::scene::Stage;
@@ -55,8 +55,35 @@ pub struct Look {
     pub theme: Theme,
     pub fibers: bool,
     pub networks: bool,
+    pub views: Views,
     /// `None`: fits the body.
     pub camera: Option<Camera>,
+}
+
+/// Which views are shown: one at least. What is hidden is not solved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Views {
+    Both,
+    Only(Plushie),
+}
+
+impl Views {
+    pub fn shows(self, plushie: Plushie) -> bool {
+        match self {
+            Self::Both => true,
+            Self::Only(shown) => shown == plushie,
+        }
+    }
+
+    /// With one of them shown or hidden. Where that leaves none, the other one comes back.
+    pub fn with(self, plushie: Plushie, shown: bool) -> Self {
+        let other = plushie.other();
+        match (shown, self.shows(other)) {
+            (true, true) => Self::Both,
+            (true, false) => Self::Only(plushie),
+            (false, _) => Self::Only(other),
+        }
+    }
 }
 
 /// Network discovery: what was asked, and what came of it.
@@ -112,6 +139,8 @@ pub struct Session {
     pub(super) mode: Mode,
     pub(super) playback: Playback,
     pub(super) look: Look,
+    /// Of the user's, not of the document.
+    pub(super) quality: Quality,
     pub(super) discovery: Discovery,
     pub(super) shapes: Shapes,
     pub(super) messages: Messages,
@@ -120,11 +149,12 @@ pub struct Session {
     pub(super) services: Services,
     pub(super) worker: Worker,
     pub(super) drag: Option<Drag>,
-    pub(super) asked: Option<Asked>,
+    /// Of the solver, last.
+    pub(super) asked: Option<Request>,
     /// Outcomes before this one belong to another document.
     pub(super) first_id: u64,
     pub(super) answered_id: Option<u64>,
-    /// A keyframe to be set once the solver has settled.
+    /// A keyframe to be set once the solver has settled, on the winches too if their view is hidden.
     pub(super) key_wanted: bool,
     pub(super) warning: Option<String>,
 }
@@ -140,7 +170,8 @@ impl Session {
             tool: Tool::Drag,
             mode: Mode::Pose,
             playback: Playback { time_s: 0.0, playing: false, looping: true },
-            look: Look { theme: Theme::Light, fibers: true, networks: true, camera: None },
+            look: Look { theme: Theme::Light, fibers: true, networks: true, views: Views::Both, camera: None },
+            quality: Quality::Balanced,
             discovery: Discovery {
                 parameters: Parameters::default(),
                 running: None,
@@ -202,6 +233,8 @@ impl Session {
             Action::SetTheme(theme) => self.look.theme = theme,
             Action::ShowFibers(shown) => self.look.fibers = shown,
             Action::ShowNetworks(shown) => self.look.networks = shown,
+            Action::ShowView(plushie, shown) => self.look.views = self.look.views.with(plushie, shown),
+            Action::SetQuality(quality) => self.quality = quality,
             Action::SetCamera(camera) => self.look.camera = Some(camera),
             Action::Pan { from, delta, always } => {
                 if always || self.drag.is_none() {
@@ -240,7 +273,8 @@ impl Session {
         if self.playback.playing {
             self.advance(passed_s);
         }
-        if self.key_wanted && self.mode == Mode::Pose && self.is_settled() {
+        let winches_asked = self.asked.as_ref().is_some_and(|request| request.show_realizable);
+        if self.key_wanted && self.mode == Mode::Pose && winches_asked && self.is_settled() {
             self.key_wanted = false;
             self.set_keyframe();
         }

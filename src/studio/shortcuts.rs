@@ -1,10 +1,11 @@
 //! Keys, and files dropped on the window.
 
 use super::action::{Action, FileAction};
-use super::panels::{self, poses};
+use super::panels::{self, poses, quality};
 use super::session::{Session, Tool};
+use super::viewport::Plushie;
 use crate::picture::palette::Theme;
-use eframe::egui::{Context, Key, KeyboardShortcut, Modifiers};
+use eframe::egui::{Context, Key, KeyboardShortcut, Modifiers, Popup};
 
 pub fn collect(ctx: &Context, session: &Session, panels: &mut panels::State, typing: bool, actions: &mut Vec<Action>) {
     for file in ctx.input(|i| i.raw.dropped_files.clone()) {
@@ -54,6 +55,7 @@ fn plain_keys(ctx: &Context, session: &Session, panels: &mut panels::State, acti
         Theme::Light => Theme::Dark,
         Theme::Dark => Theme::Light,
     };
+    let toggled = |plushie| Action::ShowView(plushie, !session.look.views.shows(plushie));
     let space = if session.playback.playing { Action::Pause } else { Action::Play };
     for (key, action) in [
         (Key::Delete, Action::DeleteSelected),
@@ -62,6 +64,9 @@ fn plain_keys(ctx: &Context, session: &Session, panels: &mut panels::State, acti
         (Key::F, Action::Fit),
         (Key::M, Action::ShowFibers(!session.look.fibers)),
         (Key::N, Action::ShowNetworks(!session.look.networks)),
+        (Key::Num1, toggled(Plushie::Idealized)),
+        (Key::Num2, toggled(Plushie::Realizable)),
+        (Key::Q, Action::SetQuality(quality::after(session.quality))),
         (Key::T, Action::SetTheme(other_theme)),
         (Key::G, Action::Propose),
         (Key::K, Action::AddKeyframe),
@@ -86,7 +91,8 @@ fn plain_keys(ctx: &Context, session: &Session, panels: &mut panels::State, acti
             actions.push(Action::Reject(index));
         }
     }
-    if pressed(Key::Escape) {
+    // An open menu or list is closed by it instead.
+    if !Popup::is_any_open(ctx) && pressed(Key::Escape) {
         let running = session.discovery.running.is_some() && !session.is_dragging();
         actions.push(if running { Action::CancelPropose } else { Action::Escape });
     }

@@ -96,7 +96,8 @@ fn visuals(theme: Theme) -> Visuals {
     };
     v.hyperlink_color = accent;
     v.text_cursor.stroke.color = accent;
-    v.weak_text_color = Some(tone(0.58));
+    // Five to one against the paper, small as such text often is.
+    v.weak_text_color = Some(tone(0.68));
     v.panel_fill = Color32::TRANSPARENT;
     v.faint_bg_color = tone(0.035);
     v.extreme_bg_color = if theme == Theme::Light { Color32::WHITE } else { color32(Color(20, 19, 18, 255)) };

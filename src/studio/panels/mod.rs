@@ -5,6 +5,7 @@ pub mod discovery;
 pub mod messages;
 pub mod networks;
 pub mod poses;
+pub mod quality;
 pub mod settings;
 pub mod status;
 pub mod timeline;

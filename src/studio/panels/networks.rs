@@ -7,6 +7,7 @@ use crate::studio::change::Change;
 use crate::studio::icons::{self, Icon};
 use crate::studio::session::{Selection, Session};
 use crate::studio::style;
+use crate::studio::viewport::Plushie;
 use eframe::egui::{Align, Button, Layout, RichText, Sense, Ui, vec2};
 
 pub fn show(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actions) {
@@ -39,7 +40,11 @@ fn rows(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actions
                 if icons::small_button(ui, Icon::Trash, &format!("Delete network {}", network.name), tip).clicked() {
                     actions.push(Action::Change(Change::RemoveNetwork(index)));
                 }
-                let wound = session.shapes.realizable.as_ref().and_then(|s| s.activations_mm.get(index));
+                // Both plushies have the same; a hidden one is not kept up to date.
+                let views = session.look.views;
+                let shapes = &session.shapes;
+                let newest = if views.shows(Plushie::Realizable) { &shapes.realizable } else { &shapes.idealized };
+                let wound = newest.as_ref().and_then(|s| s.activations_mm.get(index));
                 let detail = format!(
                     "{} tendon{}  {:>5.1} mm",
                     network.tendons.len(),

@@ -133,7 +133,9 @@ fn targets(ui: &mut Ui, session: &Session, actions: &mut Actions) {
             ui.horizontal(|ui| {
                 let selected = session.selection == Selection::Target(index);
                 let name = format!("Target {}", index + 1);
-                if ui.add(Button::selectable(selected, name).min_size(vec2(78.0, 24.0))).clicked() {
+                // Text on the right, even none, moves the name to the left, in line with the poses above.
+                let button = Button::selectable(selected, name).right_text("").min_size(vec2(78.0, 24.0));
+                if ui.add(button).clicked() {
                     actions.push(Action::Select(Selection::Target(index)));
                 }
                 ui.with_layout(Layout::right_to_left(Align::Center), |ui| {

@@ -8,6 +8,11 @@ use crate::studio::session::Session;
 use eframe::egui::{ComboBox, DragValue, Grid, ScrollArea, Ui};
 use std::ops::RangeInclusive;
 
+/// As wide as the longest name, so that all values stand in one column, logical pixels.
+const NAME_WIDTH: f32 = 116.0;
+/// Every value has this size, whatever it shows, logical pixels.
+const VALUE: [f32; 2] = [130.0, 24.0];
+
 pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
         section(ui, "Body", |ui| body(ui, session, actions));
@@ -20,7 +25,7 @@ pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
 
 fn section(ui: &mut Ui, name: &str, rows: impl FnOnce(&mut Ui)) {
     heading(ui, name);
-    Grid::new(name).num_columns(2).min_col_width(110.0).spacing([8.0, 4.0]).show(ui, rows);
+    Grid::new(name).num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, rows);
     ui.add_space(10.0);
 }
 
@@ -30,7 +35,7 @@ fn number(ui: &mut Ui, name: &str, unit: &str, tip: &str, value: &mut f64, range
     let speed = (*value * 0.01).max(1e-3);
     let suffix = if unit.is_empty() { String::new() } else { format!(" {unit}") };
     let drag = DragValue::new(value).range(range).speed(speed).max_decimals(3).suffix(suffix);
-    let changed = ui.add(drag).labelled_by(label.id).on_hover_text(tip).changed();
+    let changed = ui.add_sized(VALUE, drag).labelled_by(label.id).on_hover_text(tip).changed();
     ui.end_row();
     changed
 }
@@ -41,7 +46,7 @@ fn count(ui: &mut Ui, name: &str, unit: &str, tip: &str, value: &mut u32, range:
     let speed = (f64::from(*value) * 0.01).max(0.1);
     let suffix = if unit.is_empty() { String::new() } else { format!(" {unit}") };
     let drag = DragValue::new(value).range(range).speed(speed).suffix(suffix);
-    let changed = ui.add(drag).labelled_by(label.id).on_hover_text(tip).changed();
+    let changed = ui.add_sized(VALUE, drag).labelled_by(label.id).on_hover_text(tip).changed();
     ui.end_row();
     changed
 }
@@ -55,7 +60,7 @@ fn body(ui: &mut Ui, session: &Session, actions: &mut Actions) {
         Material::StVenantKirchhoff { mu, lambda } => (mu, lambda),
     };
     let name = if matches!(material, Material::NeoHookean { .. }) { neo } else { stvk };
-    let combo = ComboBox::from_id_salt("material").selected_text(name).width(130.0).show_ui(ui, |ui| {
+    let combo = ComboBox::from_id_salt("material").selected_text(name).width(VALUE[0]).truncate().show_ui(ui, |ui| {
         ui.selectable_value(&mut material, Material::NeoHookean { mu: shear, kappa: other }, neo);
         ui.selectable_value(&mut material, Material::StVenantKirchhoff { mu: shear, lambda: other }, stvk);
     });

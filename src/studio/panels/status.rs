@@ -1,25 +1,53 @@
-//! The line at the bottom: what is shown, how far it is from its targets, what the solver says.
+//! The lines at the bottom: what can be done, what the solver is at, and for each view what its shape cost and is worth.
 
+use super::quality;
+use crate::engine::{EQUILIBRIUM, NEAR_EQUILIBRIUM, Shape};
 use crate::studio::session::{Mode, Session, Tool};
-use eframe::egui::{Align, Layout, RichText, Ui};
+use crate::studio::viewport::Plushie;
+use eframe::egui::{Align, Color32, FontId, Label, Layout, RichText, Ui, vec2};
+
+/// Height of both lines, logical pixels.
+pub const HEIGHT: f32 = 40.0;
 
 pub fn show(ui: &mut Ui, session: &Session) {
-    ui.horizontal_centered(|ui| {
-        ui.add_space(6.0);
-        let small = |text: String| RichText::new(text).small();
-        if let Some(working) = session.files.working {
-            ui.label(small(format!("{working}…")).strong());
-        } else if let Some(warning) = session.solver_warning() {
-            ui.label(small(warning.to_owned()).color(ui.visuals().warn_fg_color));
-        } else {
-            ui.label(small(hint(session).to_owned()).weak());
-        }
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            ui.add_space(6.0);
-            let solving = if session.is_settled() { "" } else { "solving…    " };
-            ui.label(small(format!("{solving}{}", figures(session))).weak()).on_hover_text(
-                "Pose error of both plushies (rms distance of the targets in body lengths), and how long the solver took",
+    ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
+    ui.add_space(2.0);
+    let weak = ui.visuals().weak_text_color();
+    let warn = ui.visuals().warn_fg_color;
+    let (text, color) = if let Some(working) = session.files.working {
+        (format!("{working}…"), ui.visuals().strong_text_color())
+    } else if let Some(warning) = session.solver_warning() {
+        (warning.to_owned(), warn)
+    } else {
+        (hint(session).to_owned(), weak)
+    };
+    line(ui, session, Plushie::Idealized, text, color);
+    line(ui, session, Plushie::Realizable, state(session), weak);
+}
+
+/// A line: words on the left as far as they fit, the figures of a view on the right, each in a place of its own.
+fn line(ui: &mut Ui, session: &Session, plushie: Plushie, words: String, color: Color32) {
+    let size = vec2(ui.available_width(), (HEIGHT - 4.0) / 2.0);
+    let font = FontId::monospace(11.0);
+    // A place as wide as the longest figures: nothing jumps when they change.
+    let characters = (NAME + 1 + WIDTH) as f32;
+    let place = vec2((characters * ui.ctx().fonts_mut(|f| f.glyph_width(&font, '0'))).ceil(), size.y);
+    ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
+        ui.add_space(12.0);
+        let (text, balanced) = figures(session, plushie);
+        let figures_color = if balanced { ui.visuals().weak_text_color() } else { ui.visuals().warn_fg_color };
+        ui.allocate_ui_with_layout(place, Layout::left_to_right(Align::Center), |ui| {
+            ui.set_min_width(place.x);
+            let text = RichText::new(text).font(font).color(figures_color);
+            ui.add(Label::new(text).extend()).on_hover_text(
+                "What a frame takes; rms distance of the targets in mm and in body lengths; how well forces balance: the \
+                 largest unbalanced force as a part of the forces at work. Under 1e-8 the body is in equilibrium",
             );
+        });
+        ui.add_space(12.0);
+        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+            ui.add_space(12.0);
+            ui.add(Label::new(RichText::new(words).small().color(color)).truncate());
         });
     });
 }
@@ -32,16 +60,80 @@ fn hint(session: &Session) -> &'static str {
     }
 }
 
-fn figures(session: &Session) -> String {
-    let part = |name: &str, shape: &Option<std::sync::Arc<crate::engine::Shape>>| {
-        shape.as_ref().map(|s| {
-            if session.targets().is_empty() {
-                format!("{name} {:.0} ms", s.milliseconds)
-            } else {
-                format!("{name} {:.1} %, {:.0} ms", 100.0 * s.target_error, s.milliseconds)
-            }
-        })
+/// What the solver is at.
+fn state(session: &Session) -> String {
+    let what = if session.is_refining() {
+        "refining to equilibrium…"
+    } else if session.is_dragging() {
+        "following the hand"
+    } else if session.playback.playing {
+        "playing"
+    } else if !session.is_settled() {
+        "solving…"
+    } else {
+        "settled"
     };
-    let parts = [part("idealized", &session.shapes.idealized), part("realizable", &session.shapes.realizable)];
-    parts.into_iter().flatten().collect::<Vec<_>>().join("    ")
+    format!("{} quality, {what}", quality::name(session.quality))
+}
+
+/// Time, target error and balance of a view, in columns of fixed width; whether forces balance as far as can be seen.
+fn figures(session: &Session, plushie: Plushie) -> (String, bool) {
+    let (name, shape) = match plushie {
+        Plushie::Idealized => ("Idealized", &session.shapes.idealized),
+        Plushie::Realizable => ("Realizable", &session.shapes.realizable),
+    };
+    let solved = session.request().is_none_or(|request| request.solves()[plushie as usize]);
+    let text = match shape {
+        _ if !session.look.views.shows(plushie) && solved => "hidden, solved for its winches".to_owned(),
+        _ if !session.look.views.shows(plushie) => "hidden, not solved".to_owned(),
+        None => "not solved yet".to_owned(),
+        Some(shape) => {
+            let (text, balanced) = shape_figures(session, shape);
+            return (format!("{name:<NAME$} {text}"), balanced);
+        }
+    };
+    (format!("{name:<NAME$} {text}"), true)
+}
+
+/// Characters of the longer name.
+const NAME: usize = 10;
+/// Characters of [`shape_figures`].
+const WIDTH: usize = 55;
+
+fn shape_figures(session: &Session, shape: &Shape) -> (String, bool) {
+    let error = if session.targets().is_empty() {
+        format!("{:>19}", "no targets")
+    } else {
+        let (mm, percent) = (shape.target_error * session.design().body_length_mm(), 100.0 * shape.target_error);
+        format!("{mm:>7.2} mm {percent:>6.2} %")
+    };
+    let distance = shape.distance_from_equilibrium();
+    let words = if distance < EQUILIBRIUM && shape.converged {
+        "in equilibrium"
+    } else if distance < NEAR_EQUILIBRIUM {
+        "near equilibrium"
+    } else {
+        "off equilibrium"
+    };
+    let distance_text = if distance == 0.0 { "0".to_owned() } else { format!("{distance:.0e}") };
+    let text = format!("{:>7.1} ms  {error}  {words:<16} {distance_text:>5}", shape.milliseconds);
+    (text, distance < NEAR_EQUILIBRIUM)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::studio::session::Services;
+    use std::sync::Arc;
+
+    #[test]
+    fn figures_keep_their_width() {
+        let services = Services { propose: Arc::new(|_, _, _, _| Vec::new()), export: Arc::new(|_, _| Ok(())) };
+        let session = Session::new(crate::studio::blank::design(), None, Arc::new(|| ()), services);
+        for (milliseconds, residual, converged) in [(0.04, 0.0, true), (12.3, 3e-12, true), (4321.0, 0.5, false)] {
+            let shape = Shape { milliseconds, residual, converged, force_scale: 1.0, ..Shape::default() };
+            let (text, balanced) = shape_figures(&session, &shape);
+            assert_eq!((text.chars().count(), balanced), (WIDTH, converged), "{text}");
+        }
+    }
 }

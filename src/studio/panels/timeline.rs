@@ -164,7 +164,12 @@ fn paint_background(ui: &Ui, session: &Session, axis: &Axis) {
     curves(ui, session, axis, base);
     if session.design().keyframes.is_empty() {
         let text = "No keyframes yet. “Add keyframe” puts the current pose here.";
-        painter.text(axis.rect.center(), Align2::CENTER_CENTER, text, FontId::proportional(12.0), weak);
+        let galley = painter.layout_no_wrap(text.to_owned(), FontId::proportional(12.0), weak);
+        let place = Align2::CENTER_CENTER.anchor_size(axis.rect.center(), galley.size());
+        // Over the lines of the seconds.
+        let paper = style::color32(Palette::of(session.look.theme).background);
+        painter.rect_filled(place.expand(6.0), 0.0, paper);
+        painter.galley(place.min, galley, weak);
     }
 }
 

@@ -1,11 +1,12 @@
 //! The row on top: files, undo, tools, what is shown, discovery, export.
 
-use super::Actions;
+use super::{Actions, quality};
 use crate::design::bundled;
 use crate::picture::palette::Theme;
 use crate::studio::action::{Action, FileAction};
 use crate::studio::icons::{self, Icon};
 use crate::studio::session::{Session, Tool};
+use crate::studio::viewport::Plushie;
 use eframe::egui::{Align, Button, Layout, RichText, Ui, menu};
 
 pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
@@ -24,6 +25,10 @@ pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
         tools(ui, session, actions);
         gap(ui);
         shown(ui, session, actions);
+        gap(ui);
+        views(ui, session, actions);
+        gap(ui);
+        quality::show(ui, session, actions);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.add_space(4.0);
             theme(ui, session, actions);
@@ -130,6 +135,21 @@ fn shown(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     }
     if icons::toggle(ui, Icon::Networks, "Show networks", "Show winches and tendons (N)", look.networks).clicked() {
         actions.push(Action::ShowNetworks(!look.networks));
+    }
+}
+
+fn views(ui: &mut Ui, session: &Session, actions: &mut Actions) {
+    let idealized = "Show the idealized plushie (1). Hidden, it is not solved and costs nothing";
+    let realizable = "Show the realizable plushie (2). Hidden, it is not solved; only where the fibres build on winches these \
+                      are still wound";
+    for (plushie, icon, name, tip) in [
+        (Plushie::Idealized, Icon::LeftView, "Show idealized view", idealized),
+        (Plushie::Realizable, Icon::RightView, "Show realizable view", realizable),
+    ] {
+        let shown = session.look.views.shows(plushie);
+        if icons::toggle(ui, icon, name, tip, shown).clicked() {
+            actions.push(Action::ShowView(plushie, !shown));
+        }
     }
 }
 

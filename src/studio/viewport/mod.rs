@@ -10,7 +10,7 @@ pub mod thumbnail;
 mod tools;
 
 use super::panels::Actions;
-use super::session::Session;
+use super::session::{Session, Views};
 use crate::design::Design;
 use crate::engine::Shape;
 use crate::outline::Point;
@@ -24,6 +24,15 @@ use std::sync::Arc;
 pub enum Plushie {
     Idealized,
     Realizable,
+}
+
+impl Plushie {
+    pub fn other(self) -> Self {
+        match self {
+            Self::Idealized => Self::Realizable,
+            Self::Realizable => Self::Idealized,
+        }
+    }
 }
 
 /// What the views remember from frame to frame.
@@ -50,16 +59,15 @@ struct Pane<'a> {
     camera: Camera,
 }
 
-/// Shows both views side by side. `gpu`: whether there is anything to draw them with.
+/// Shows both views side by side, or the one that is not hidden. `gpu`: whether there is anything to draw them with.
 pub fn show(ui: &mut Ui, session: &Session, state: &mut State, gpu: bool, actions: &mut Actions) {
     let area = ui.available_rect_before_wrap();
-    let middle = area.center().x.round();
-    let line = ui.visuals().widgets.noninteractive.bg_stroke;
-    ui.painter().vline(middle, area.y_range(), line);
-    let left = Rect::from_min_max(area.min, pos2(middle - 1.0, area.bottom()));
-    let right = Rect::from_min_max(pos2(middle + 1.0, area.top()), area.max);
+    let views = session.look.views;
     let mut hovered = None;
-    for (plushie, rect) in [(Plushie::Idealized, left), (Plushie::Realizable, right)] {
+    for (plushie, rect) in rects(ui, views, area) {
+        if !views.shows(plushie) {
+            continue;
+        }
         let camera = session.look.camera.unwrap_or_else(|| fit(session.design(), rect.size()));
         let hit = view(ui, &Pane { session, plushie, rect, camera }, state, gpu, actions);
         hovered = hovered.or(hit);
@@ -70,6 +78,20 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut State, gpu: bool, action
         ui.ctx().request_repaint();
     }
     ui.allocate_rect(area, Sense::hover());
+}
+
+/// Where the views are; one that is hidden leaves its place to the other.
+fn rects(ui: &Ui, views: Views, area: Rect) -> [(Plushie, Rect); 2] {
+    let (left, right) = match views {
+        Views::Only(_) => (area, area),
+        Views::Both => {
+            let middle = area.center().x.round();
+            ui.painter().vline(middle, area.y_range(), ui.visuals().widgets.noninteractive.bg_stroke);
+            let left = Rect::from_min_max(area.min, pos2(middle - 1.0, area.bottom()));
+            (left, Rect::from_min_max(pos2(middle + 1.0, area.top()), area.max))
+        }
+    };
+    [(Plushie::Idealized, left), (Plushie::Realizable, right)]
 }
 
 /// One view; what lies under the pointer, if it is there.

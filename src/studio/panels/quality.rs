@@ -1,0 +1,65 @@
+//! The choice between speed and accuracy, and what each choice means.
+
+use super::Actions;
+use crate::engine::Quality;
+use crate::studio::action::Action;
+use crate::studio::session::Session;
+use eframe::egui::{Button, ComboBox, RichText, Ui, vec2};
+
+/// From the fastest to the most accurate.
+pub const ALL: [Quality; 3] = [Quality::Draft, Quality::Balanced, Quality::Accurate];
+
+pub fn name(quality: Quality) -> &'static str {
+    match quality {
+        Quality::Draft => "Draft",
+        Quality::Balanced => "Balanced",
+        Quality::Accurate => "Accurate",
+    }
+}
+
+/// The next one, round and round.
+pub fn after(quality: Quality) -> Quality {
+    match quality {
+        Quality::Draft => Quality::Balanced,
+        Quality::Balanced => Quality::Accurate,
+        Quality::Accurate => Quality::Draft,
+    }
+}
+
+/// What it costs and what it does.
+fn explain(quality: Quality) -> &'static str {
+    match quality {
+        Quality::Draft => "a part of the work of Balanced; least delay, trails fast moves",
+        Quality::Balanced => "a bounded amount of work a frame; follows the hand",
+        Quality::Accurate => "until nothing moves any more; large bodies may jerk",
+    }
+}
+
+/// Width of the list of choices, logical pixels.
+const WIDTH: f32 = 400.0;
+
+/// The selector, for the toolbar.
+pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
+    let mut quality = session.quality;
+    let label = ui.label(RichText::new("Quality").weak());
+    ui.add_space(3.0);
+    let combo = ComboBox::from_id_salt("quality").selected_text(name(quality)).width(84.0).show_ui(ui, |ui| {
+        for choice in ALL {
+            let detail = RichText::new(explain(choice)).small().weak();
+            let button = Button::selectable(choice == quality, name(choice)).right_text(detail);
+            if ui.add(button.min_size(vec2(WIDTH, 24.0))).accessible_name(name(choice)).clicked() {
+                quality = choice;
+            }
+        }
+    });
+    let choices = ALL.map(|choice| format!("{}: {}", name(choice), explain(choice)));
+    let tip = format!(
+        "Quality: how much work a frame may take while the hand moves (Q for the next)\n\n{}\n\nWhen the hand rests, the \
+         shape is refined to equilibrium with any of them.",
+        choices.join("\n")
+    );
+    combo.response.labelled_by(label.id).on_hover_text(tip);
+    if quality != session.quality {
+        actions.push(Action::SetQuality(quality));
+    }
+}
