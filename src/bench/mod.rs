@@ -1,0 +1,64 @@
+//! Whole studies of the solvers that anybody can repeat: one file a study, each returns a [`Report`].
+//!
+//! | study | question |
+//! | --- | --- |
+//! | [`linear`] | which sparse factorisation is the fastest for our Hessians? |
+//!
+//! A study draws all its random numbers from the session's seed ([`random`]), so that the same seed gives the same
+//! targets; times differ from run to run, so comparisons are always made within one run. Lengths are mm, times ms,
+//! target errors parts of the body length.
+
+pub mod linear;
+pub mod ordering;
+pub mod plot;
+pub mod random;
+pub mod report;
+pub mod shapes;
+pub mod statistics;
+
+pub use report::{Cell, Report, Table};
+
+use crate::mesh::MeshError;
+use crate::physics::{Cause, ModelError};
+
+/// What all studies share.
+pub struct Session<'a> {
+    /// All random numbers follow from it.
+    pub seed: u64,
+    /// Asked between steps of work; `true` ends the study.
+    pub stop: &'a dyn Fn() -> bool,
+    /// Told what is being worked on, in a few words.
+    pub progress: &'a dyn Fn(&str),
+}
+
+/// Why a study has no result.
+#[derive(Debug, thiserror::Error)]
+pub enum BenchError {
+    #[error("no bundled shape is called `{0}`; there are {known}", known = shapes::names().join(", "))]
+    NoSuchShape(String),
+    #[error("{shape}: {source}")]
+    Mesh { shape: String, source: MeshError },
+    #[error("{shape}: {source}")]
+    Model { shape: String, source: ModelError },
+    #[error("{shape} at {fibers} fibres: {source}")]
+    Statics { shape: String, fibers: usize, source: Cause },
+    #[error("{0}")]
+    Nothing(String),
+    #[error("the plot cannot be drawn: {0}")]
+    Plot(String),
+    #[error("cancelled")]
+    Cancelled,
+}
+
+impl Session<'_> {
+    /// Says what comes next, or ends the study.
+    pub fn next(&self, what: &str) -> Result<(), BenchError> {
+        self.check()?;
+        (self.progress)(what);
+        Ok(())
+    }
+
+    pub fn check(&self) -> Result<(), BenchError> {
+        if (self.stop)() { Err(BenchError::Cancelled) } else { Ok(()) }
+    }
+}
