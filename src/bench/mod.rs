@@ -2,19 +2,26 @@
 //!
 //! | study | question |
 //! | --- | --- |
+//! | [`drag`] | what does a frame under the hand cost, and how good is it? |
+//! | [`cold`] | how fast is a far target approached from rest? |
 //! | [`linear`] | which sparse factorisation is the fastest for our Hessians? |
 //!
 //! A study draws all its random numbers from the session's seed ([`random`]), so that the same seed gives the same
 //! targets; times differ from run to run, so comparisons are always made within one run. Lengths are mm, times ms,
 //! target errors parts of the body length.
 
+pub mod cold;
+pub mod drag;
+pub mod drags;
 pub mod linear;
 pub mod ordering;
 pub mod plot;
+pub mod posing;
 pub mod random;
 pub mod report;
 pub mod shapes;
 pub mod statistics;
+mod stub_tracker;
 
 pub use report::{Cell, Report, Table};
 

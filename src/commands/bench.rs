@@ -2,8 +2,11 @@
 
 use super::error::{CommandError, check_cancel};
 use super::output::{Staged, say, say_json};
-use crate::bench::{BenchError, Report, Session, linear, shapes};
-use clap::{Args, Subcommand};
+use super::solve::Effort;
+use crate::bench::drags::{Path as DragPath, SWEEP_FRAMES};
+use crate::bench::{BenchError, Report, Session, cold, drag, linear, shapes};
+use crate::problem::Quality;
+use clap::{Args, Subcommand, ValueEnum};
 use std::cell::Cell;
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -39,6 +42,46 @@ struct Common {
 
 #[derive(Debug, Subcommand)]
 enum Study {
+    /// Warm drags: time of a frame by phase, target error, distance from equilibrium and from the optimum, Algorithm 1
+    Drag {
+        /// Numbers of muscle fibres
+        #[arg(long, value_delimiter = ',', default_values_t = [414, 1055, 5000, 10_000])]
+        fibers: Vec<usize>,
+        /// Numbers of targets
+        #[arg(long, value_delimiter = ',', default_values_t = [4])]
+        targets: Vec<usize>,
+        /// Frames of each drag; 120 are a whole sweep
+        #[arg(long, default_value_t = SWEEP_FRAMES)]
+        frames: usize,
+        /// Work a frame may take
+        #[arg(long, value_enum, default_value_t = Effort::Balanced)]
+        quality: Effort,
+        /// Only targets that can be reached, or only such that cannot
+        #[arg(long, value_enum)]
+        path: Option<Reach>,
+        /// Compare with Algorithm 1 up to this many fibres
+        #[arg(long, default_value_t = 500, value_name = "FIBERS")]
+        baseline: usize,
+        #[command(flatten)]
+        common: Common,
+    },
+    /// Cold drags of 40 % of the body length: what is missing after so many factorisations
+    Cold {
+        /// Number of muscle fibres
+        #[arg(long, default_value_t = 414)]
+        fibers: usize,
+        /// Numbers of targets
+        #[arg(long, value_delimiter = ',', default_values_t = [1, 2, 3, 4])]
+        targets: Vec<usize>,
+        /// Drags of each shape and number of targets
+        #[arg(long, default_value_t = 1)]
+        draws: usize,
+        /// Work of the frames that make up the drag
+        #[arg(long, value_enum, default_value_t = Effort::Balanced)]
+        quality: Effort,
+        #[command(flatten)]
+        common: Common,
+    },
     /// The same Hessians through every variant of the sparse factorisation
     Linear {
         /// Numbers of muscle fibres
@@ -49,15 +92,43 @@ enum Study {
     },
 }
 
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Reach {
+    Reachable,
+    Unreachable,
+}
+
 impl Study {
     fn common(&self) -> &Common {
         match self {
-            Self::Linear { common, .. } => common,
+            Self::Drag { common, .. } | Self::Cold { common, .. } | Self::Linear { common, .. } => common,
         }
     }
 
     fn run(&self, session: &Session) -> Result<Report, BenchError> {
         match self {
+            Self::Drag { fibers, targets, frames, quality, path, baseline, common } => drag::Drag {
+                shapes: common.shapes(&["pig"]),
+                fibers: fibers.clone(),
+                targets: targets.clone(),
+                paths: match path {
+                    None => vec![DragPath::Reachable, DragPath::Unreachable],
+                    Some(Reach::Reachable) => vec![DragPath::Reachable],
+                    Some(Reach::Unreachable) => vec![DragPath::Unreachable],
+                },
+                frames: *frames,
+                quality: quality_of(*quality),
+                baseline_up_to: *baseline,
+            }
+            .run(session),
+            Self::Cold { fibers, targets, draws, quality, common } => cold::Cold {
+                shapes: common.shapes(&["all"]),
+                fibers: *fibers,
+                targets: targets.clone(),
+                draws: *draws,
+                quality: quality_of(*quality),
+            }
+            .run(session),
             Self::Linear { fibers, common } => {
                 linear::Linear { shapes: common.shapes(&["pig"]), fibers: fibers.clone() }.run(session)
             }
@@ -68,11 +139,11 @@ impl Study {
 impl Common {
     /// The shapes asked for, or these.
     fn shapes(&self, default: &[&str]) -> Vec<String> {
-        match self.shapes.as_slice() {
+        let named = match self.shapes.as_slice() {
             [] => default.iter().map(|&name| name.to_owned()).collect(),
-            [all] if all == "all" => shapes::names(),
             names => names.to_vec(),
-        }
+        };
+        if named == ["all"] { shapes::names() } else { named }
     }
 }
 
@@ -89,6 +160,14 @@ impl Bench {
             write(&report, folder, cancel)?;
         }
         if common.json { say_json(out, &report.json()) } else { say(out, &report.text()) }
+    }
+}
+
+fn quality_of(effort: Effort) -> Quality {
+    match effort {
+        Effort::Draft => Quality::Draft,
+        Effort::Balanced => Quality::Balanced,
+        Effort::Accurate => Quality::Accurate,
     }
 }
 
