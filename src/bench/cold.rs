@@ -60,7 +60,7 @@ impl Cold {
                     session.next(&format!("{shape}, {count} targets, draw {}", draw + 1))?;
                     let (rest, best, course) = self.drag(&mut subject, count, draw as u64, session)?;
                     let missing: Course = course.iter().map(|(k, o)| (*k, (o - best) / (rest - best))).collect();
-                    let after = |k: usize| missing.iter().take_while(|c| c.0 <= k).map(|c| c.1).reduce(f64::min);
+                    let after = |k: usize| missing.iter().take_while(|c| c.0 <= k).last().map_or(1.0, |c| c.1);
                     // From there on it stays good.
                     let enough = missing.iter().rev().take_while(|c| c.1 <= GOOD).last().map(|c| c.0);
                     let mut row: Vec<Cell> =
@@ -70,7 +70,7 @@ impl Cold {
                     row.push(enough.map_or(Cell::AtLeast(MOST as f64), Cell::from));
                     table.push(row);
                     drags += 1;
-                    at_forty.extend(after(40));
+                    at_forty.push(after(40));
                     needed.push(enough.map_or(f64::INFINITY, |k| k as f64));
                     courses.push(missing);
                 }
@@ -121,14 +121,13 @@ impl Cold {
             })
             .collect();
         let objective = towards(subject, &at, &goals);
-        let others = self.starts(subject, &mut random, session)?;
+        let others = starts(subject, &mut random)?;
         let actuation = free_fibers(subject);
         let model: &mut Model = &mut subject.plushie.model;
         let mut question = Question { model, actuation: &actuation, objective: &objective };
         let rest = at_rest(&mut question, session.stop);
-        let course = self.course(&mut question, &rest, session.stop);
-        let (last, _) = (course.1, ());
-        let mut best = course.0.iter().map(|c| c.1).fold(rest.objective, f64::min);
+        let (course, last) = self.course(&mut question, &rest, session.stop);
+        let mut best = course.iter().map(|c| c.1).fold(rest.objective, f64::min);
         let settled = others.iter().map(|beta| settle(&mut question, beta, session.stop));
         let settled: Vec<Posture> = settled.collect();
         let starts: Vec<&Posture> = [&rest, &last].into_iter().chain(&settled).collect();
@@ -138,7 +137,7 @@ impl Cold {
         let zero = vec![0.0; actuation.winches.len()];
         best = best.min(crate::soft_ik::solve(&mut question, &zero, &budget).posture.objective);
         session.check()?;
-        Ok((rest.objective, best, course.0))
+        Ok((rest.objective, best, course))
     }
 
     /// Frame by frame from rest, each posture settled outside the count.
@@ -159,17 +158,17 @@ impl Cold {
         }
         (course, last)
     }
+}
 
-    /// Random smooth activations.
-    fn starts(&self, subject: &Subject, random: &mut Random, _session: &Session) -> Result<Vec<Vec<f64>>, BenchError> {
-        let nodes = original(&subject.name)?.mesh.nodes;
-        let one = |random: &mut Random| {
-            let field = Field::random(random, &nodes, subject.length());
-            let contractions = subject.contractions(&field, 0.8);
-            subject.plushie.fibers.iter().map(|w| contractions[w.members[0].0] / w.members[0].1).collect()
-        };
-        Ok((0..STARTS).map(|_| one(random)).collect())
-    }
+/// Random smooth activations.
+fn starts(subject: &Subject, random: &mut Random) -> Result<Vec<Vec<f64>>, BenchError> {
+    let nodes = original(&subject.name)?.mesh.nodes;
+    let one = |random: &mut Random| {
+        let field = Field::random(random, &nodes, subject.length());
+        let contractions = subject.contractions(&field, 0.8);
+        subject.plushie.fibers.iter().map(|w| contractions[w.members[0].0] / w.members[0].1).collect()
+    };
+    Ok((0..STARTS).map(|_| one(random)).collect())
 }
 
 fn settle(question: &mut Question, beta: &[f64], stop: &dyn Fn() -> bool) -> Posture {

@@ -153,8 +153,10 @@ fn sweep(frame: usize) -> (f64, f64) {
 mod tests {
     use super::*;
 
+    static CANCEL: std::sync::atomic::AtomicBool = std::sync::atomic::AtomicBool::new(false);
+
     fn session(seed: u64) -> Session<'static> {
-        Session { seed, stop: &|| false, progress: &|_| {} }
+        Session { seed, stop: &|| false, cancel: &CANCEL, progress: &|_| {} }
     }
 
     #[test]

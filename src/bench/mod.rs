@@ -4,6 +4,9 @@
 //! | --- | --- |
 //! | [`drag`] | what does a frame under the hand cost, and how good is it? |
 //! | [`cold`] | how fast is a far target approached from rest? |
+//! | [`trade`] | what does accuracy cost, and which settings are never worth it? ([`locking`] of the triangles) |
+//! | [`resolution`] | how far do poses, activations and networks agree over mesh resolutions? |
+//! | [`scene`] | what does each optional part of a scene cost? |
 //! | [`linear`] | which sparse factorisation is the fastest for our Hessians? |
 //!
 //! A study draws all its random numbers from the session's seed ([`random`]), so that the same seed gives the same
@@ -14,19 +17,24 @@ pub mod cold;
 pub mod drag;
 pub mod drags;
 pub mod linear;
+pub mod locking;
 pub mod ordering;
 pub mod plot;
 pub mod posing;
 pub mod random;
 pub mod report;
+pub mod resolution;
+pub mod scene;
 pub mod shapes;
 pub mod statistics;
 mod stub_tracker;
+pub mod trade;
 
 pub use report::{Cell, Report, Table};
 
 use crate::mesh::MeshError;
 use crate::physics::{Cause, ModelError};
+use std::sync::atomic::AtomicBool;
 
 /// What all studies share.
 pub struct Session<'a> {
@@ -34,6 +42,8 @@ pub struct Session<'a> {
     pub seed: u64,
     /// Asked between steps of work; `true` ends the study.
     pub stop: &'a dyn Fn() -> bool,
+    /// The same for work that asks a flag.
+    pub cancel: &'a AtomicBool,
     /// Told what is being worked on, in a few words.
     pub progress: &'a dyn Fn(&str),
 }

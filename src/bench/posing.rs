@@ -12,8 +12,8 @@ const ROUNDS: usize = 30;
 const ROUND_DECREASE: f64 = 1e-6;
 /// Iterations after which Algorithm 1 gives up on a frame.
 pub const BASELINE_ITERATIONS: usize = 200;
-/// Target errors count as equal within this part of the body length.
-pub const EQUAL_ERROR: f64 = 1e-4;
+/// Target errors count as equal within this part of the body length: some micrometres on a soft toy.
+pub const EQUAL_ERROR: f64 = 1e-5;
 
 /// All fibres free, nothing held.
 pub fn free_fibers(subject: &Subject) -> Actuation {

@@ -4,7 +4,7 @@ use super::error::{CommandError, check_cancel};
 use super::output::{Staged, say, say_json};
 use super::solve::Effort;
 use crate::bench::drags::{Path as DragPath, SWEEP_FRAMES};
-use crate::bench::{BenchError, Report, Session, cold, drag, linear, shapes};
+use crate::bench::{BenchError, Report, Session, cold, drag, linear, resolution, scene, shapes, trade};
 use crate::problem::Quality;
 use clap::{Args, Subcommand, ValueEnum};
 use std::cell::Cell;
@@ -82,6 +82,39 @@ enum Study {
         #[command(flatten)]
         common: Common,
     },
+    /// Error against time over mesh resolution, Newton tolerance and quality; locking of the triangles
+    Trade {
+        /// Numbers of muscle fibres
+        #[arg(long, value_delimiter = ',', default_values_t = [177, 414, 1055, 5000])]
+        fibers: Vec<usize>,
+        /// Fibres of the reference mesh
+        #[arg(long, default_value_t = 10_000)]
+        reference: usize,
+        #[command(flatten)]
+        common: Common,
+    },
+    /// The same pose at several resolutions: how far poses, activations and networks agree
+    Resolution {
+        /// Numbers of muscle fibres, ascending; the last is the reference
+        #[arg(long, value_delimiter = ',', default_values_t = [177, 414, 1055, 5000])]
+        fibers: Vec<usize>,
+        /// Fibres of the coarse set on the finest mesh
+        #[arg(long, default_value_t = 414)]
+        coarse: usize,
+        /// Discover networks up to this many fibres
+        #[arg(long, default_value_t = 1100, value_name = "FIBERS")]
+        networks: usize,
+        #[command(flatten)]
+        common: Common,
+    },
+    /// What each optional part of a scene costs per frame
+    Scene {
+        /// Frames of the drag
+        #[arg(long, default_value_t = 60)]
+        frames: usize,
+        #[command(flatten)]
+        common: Common,
+    },
     /// The same Hessians through every variant of the sparse factorisation
     Linear {
         /// Numbers of muscle fibres
@@ -101,7 +134,12 @@ enum Reach {
 impl Study {
     fn common(&self) -> &Common {
         match self {
-            Self::Drag { common, .. } | Self::Cold { common, .. } | Self::Linear { common, .. } => common,
+            Self::Drag { common, .. }
+            | Self::Cold { common, .. }
+            | Self::Trade { common, .. }
+            | Self::Resolution { common, .. }
+            | Self::Scene { common, .. }
+            | Self::Linear { common, .. } => common,
         }
     }
 
@@ -129,6 +167,20 @@ impl Study {
                 quality: quality_of(*quality),
             }
             .run(session),
+            Self::Trade { fibers, reference, common } => {
+                let shapes = common.shapes(&["pig"]);
+                trade::Trade { shapes, fibers: fibers.clone(), reference: *reference }.run(session)
+            }
+            Self::Resolution { fibers, coarse, networks, common } => resolution::Resolution {
+                shapes: common.shapes(&["pig"]),
+                fibers: fibers.clone(),
+                coarse: *coarse,
+                networks_up_to: *networks,
+            }
+            .run(session),
+            Self::Scene { frames, common } => {
+                scene::Scene { shapes: common.shapes(&["pig"]), frames: *frames }.run(session)
+            }
             Self::Linear { fibers, common } => {
                 linear::Linear { shapes: common.shapes(&["pig"]), fibers: fibers.clone() }.run(session)
             }
@@ -152,7 +204,7 @@ impl Bench {
         let common = self.study.common();
         let progress = Progress::default();
         let stop = || cancel.load(Ordering::SeqCst);
-        let session = Session { seed: common.seed, stop: &stop, progress: &|what| progress.show(what) };
+        let session = Session { seed: common.seed, stop: &stop, cancel, progress: &|what| progress.show(what) };
         let report = self.study.run(&session);
         progress.clear();
         let report = report.map_err(|error| failure(error, cancel))?;
