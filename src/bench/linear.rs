@@ -9,15 +9,14 @@ use super::random::Random;
 use super::shapes::{Field, Subject};
 use super::statistics::{Summary, growth_exponent};
 use super::{BenchError, Report, Session, Table};
-use crate::mesh::Mesh;
 use crate::physics::HessianForm;
 use crate::physics::cholesky::{Cholesky, Kernel, Ordering, Variant};
 use crate::physics::pattern::Pattern;
 use std::time::Instant;
 
-/// Measurements of one variant go on for this long, s, and at least [`LEAST_REPEATS`] times.
-const MEASURED_S: f64 = 0.25;
-const LEAST_REPEATS: usize = 11;
+/// Measurements go on for this long, s, for every variant, and for at least [`LEAST_ROUNDS`] rounds.
+const MEASURED_S: f64 = 0.2;
+const LEAST_ROUNDS: usize = 7;
 /// Right-hand sides solved together: those of four targets (two a target, and two more).
 const COLUMNS: usize = 10;
 /// The mesh's own numbering is tried up to this many fibres; beyond, its fill takes minutes.
@@ -48,11 +47,11 @@ pub struct Measured {
     pub factor_nonzeros: usize,
 }
 
-/// The variants by the names of the table.
-pub fn variants(mesh: &Mesh) -> Vec<(&'static str, &'static str, Variant)> {
+/// The variants that are worth a try on `subject`, by the names of the table.
+pub fn variants(subject: &Subject) -> Vec<(&'static str, &'static str, Variant)> {
     const LOOSE: &[(usize, f64)] = &[(8, 1.0), (32, 0.8), (96, 0.2), (usize::MAX, 0.1)];
     const TIGHT: &[(usize, f64)] = &[(4, 0.5), (16, 0.2), (usize::MAX, 0.02)];
-    let dissection = Ordering::Nodes(nested_dissection(mesh));
+    let dissection = Ordering::Nodes(nested_dissection(&subject.design.mesh));
     let mut out = Vec::new();
     let orderings = [
         ("minimum degree", Ordering::MinimumDegree),
@@ -70,7 +69,9 @@ pub fn variants(mesh: &Mesh) -> Vec<(&'static str, &'static str, Variant)> {
         for (kernel_name, kernel) in kernels {
             // The library's own merging rule is tried with every order, the others with the orders that matter.
             let odd = matches!(kernel, Kernel::Supernodal(relax) if !relax.is_empty());
-            if odd && matches!(ordering, Ordering::Natural | Ordering::MinimumDegree) {
+            let plain = matches!(ordering, Ordering::Natural | Ordering::MinimumDegree);
+            let hopeless = ordering == Ordering::Natural && subject.fibers() > NATURAL_LIMIT;
+            if hopeless || (odd && plain) {
                 continue;
             }
             out.push((kernel_name, ordering_name, Variant { ordering: ordering.clone(), kernel }));
@@ -94,50 +95,80 @@ pub fn deformed_hessian(subject: &mut Subject, session: &Session) -> Result<Matr
     Ok(Matrix { pattern: model.pattern().clone(), values: model.hessian_values().to_vec() })
 }
 
-/// Times of one variant; `None` where it cannot factorise the matrix.
-pub fn measure(matrix: &Matrix, variant: &Variant, session: &Session) -> Result<Option<Measured>, BenchError> {
-    let clock = Instant::now();
-    let Some(mut cholesky) = Cholesky::with(&matrix.pattern, variant) else { return Ok(None) };
-    let analysis = milliseconds(clock);
+/// Times of the variants, `None` for one that cannot factorise the matrix. They take turns, so that whatever else the machine
+/// does falls on all of them alike.
+pub fn measure(
+    matrix: &Matrix,
+    variants: &[Variant],
+    with_solves: bool,
+    session: &Session,
+) -> Result<Vec<Option<Measured>>, BenchError> {
     let n = matrix.pattern.dimension();
     let right: Vec<f64> = (0..COLUMNS * n).map(|i| 1.0 + (i % 7) as f64).collect();
-    let (mut factorization, mut solve, mut solve_many) = (Vec::new(), Vec::new(), Vec::new());
-    let began = Instant::now();
-    while factorization.len() < LEAST_REPEATS || began.elapsed().as_secs_f64() < MEASURED_S {
+    let mut z = right.clone();
+    let mut runs = Vec::new();
+    for variant in variants {
         session.check()?;
         let clock = Instant::now();
-        if cholesky.factorize(&matrix.pattern, &matrix.values).is_err() {
-            return Ok(None);
-        }
-        factorization.push(milliseconds(clock));
-        let mut z = right.clone();
-        let clock = Instant::now();
-        cholesky.solve(&mut z[..n]);
-        solve.push(milliseconds(clock));
-        z.copy_from_slice(&right);
-        let clock = Instant::now();
-        cholesky.solve_many(&mut z, COLUMNS);
-        solve_many.push(milliseconds(clock));
+        let cholesky = Cholesky::with(&matrix.pattern, variant);
+        runs.push(cholesky.map(|cholesky| Run { cholesky, analysis: milliseconds(clock), times: Default::default() }));
     }
-    Ok(Some(Measured {
-        analysis,
-        factorization: Summary::of(factorization),
-        solve: Summary::of(solve).median,
-        solve_many: Summary::of(solve_many).median,
-        factor_nonzeros: cholesky.factor_nonzeros(),
-    }))
+    let began = Instant::now();
+    let enough = MEASURED_S * variants.len() as f64;
+    let mut rounds = 0;
+    while rounds < LEAST_ROUNDS || began.elapsed().as_secs_f64() < enough {
+        rounds += 1;
+        for slot in &mut runs {
+            session.check()?;
+            let Some(run) = slot else { continue };
+            let clock = Instant::now();
+            if run.cholesky.factorize(&matrix.pattern, &matrix.values).is_err() {
+                *slot = None;
+                continue;
+            }
+            run.times[0].push(milliseconds(clock));
+            if with_solves {
+                z.copy_from_slice(&right);
+                let clock = Instant::now();
+                run.cholesky.solve(&mut z[..n]);
+                run.times[1].push(milliseconds(clock));
+                z.copy_from_slice(&right);
+                let clock = Instant::now();
+                run.cholesky.solve_many(&mut z, COLUMNS);
+                run.times[2].push(milliseconds(clock));
+            }
+        }
+    }
+    Ok(runs.into_iter().map(|run| run.map(Run::summary)).collect())
+}
+
+/// A variant while it is measured.
+struct Run {
+    cholesky: Cholesky,
+    analysis: f64,
+    /// Factorisations, solves of one right-hand side, solves of [`COLUMNS`].
+    times: [Vec<f64>; 3],
+}
+
+impl Run {
+    fn summary(self) -> Measured {
+        let [factorization, solve, solve_many] = self.times.map(Summary::of);
+        Measured {
+            analysis: self.analysis,
+            factorization,
+            solve: solve.median,
+            solve_many: solve_many.median,
+            factor_nonzeros: self.cholesky.factor_nonzeros(),
+        }
+    }
 }
 
 /// The median time of one factorisation by the fastest variant, ms: the unit in which frames are measured.
 pub fn fastest(subject: &mut Subject, session: &Session) -> Result<f64, BenchError> {
     let matrix = deformed_hessian(subject, session)?;
-    let mut best = f64::INFINITY;
-    for (_, _, variant) in variants(&subject.design.mesh) {
-        if variant.ordering != Ordering::Natural {
-            best = measure(&matrix, &variant, session)?.map_or(best, |m| best.min(m.factorization.median));
-        }
-    }
-    Ok(best)
+    let tried: Vec<Variant> = variants(subject).into_iter().map(|(_, _, variant)| variant).collect();
+    let measured = measure(&matrix, &tried, false, session)?;
+    Ok(measured.into_iter().flatten().map(|m| m.factorization.median).fold(f64::INFINITY, f64::min))
 }
 
 impl Linear {
@@ -168,11 +199,11 @@ impl Linear {
                 let mut subject = Subject::new(name, fibers)?;
                 let matrix = deformed_hessian(&mut subject, session)?;
                 let mut best: Option<(f64, String)> = None;
-                for (kernel, order, variant) in variants(&subject.design.mesh) {
-                    if variant.ordering == Ordering::Natural && subject.fibers() > NATURAL_LIMIT {
-                        continue;
-                    }
-                    let Some(m) = measure(&matrix, &variant, session)? else { continue };
+                let named = variants(&subject);
+                let tried: Vec<Variant> = named.iter().map(|(_, _, variant)| variant.clone()).collect();
+                let measured = measure(&matrix, &tried, true, session)?;
+                for ((kernel, order, _), m) in named.into_iter().zip(measured) {
+                    let Some(m) = m else { continue };
                     table.push(vec![
                         subject.name.clone().into(),
                         subject.fibers().into(),

@@ -14,7 +14,7 @@ const RATIOS: [f64; 6] = [0.5, 1.5, 5.0, 20.0, 100.0, 1000.0];
 /// Shear modulus, N/mm.
 const MU: f64 = crate::defaults::MU;
 /// Weight of the body as a part of shear modulus times body length.
-const WEIGHT: f64 = 0.02;
+const WEIGHT: f64 = 0.2;
 /// m/s^2, to the side.
 const ACCELERATION: [f64; 2] = [9.81, 0.0];
 

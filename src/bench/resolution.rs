@@ -83,13 +83,15 @@ impl Resolution {
             session.next(&format!("{shape}, coarse fibres on a fine mesh"))?;
             let fine = coarse_fibers(shape, self.coarse, design(shape, self.fibers[reference])?)?;
             levels.push(self.level(shape, fine, " on the fine mesh".into(), &common, session)?);
+            // The finest mesh on which networks were asked for.
+            let known = levels[..=reference].iter().rev().find_map(|level| level.network.as_ref());
             let mut curve = Vec::new();
             for level in &levels {
                 let fine = &levels[reference];
                 let apart = rms(&level.positions, &fine.positions) / level.length;
                 let (distance, correlation) = compare(&level.field, &fine.field);
                 let network = level.network.as_ref();
-                let winch = network.zip(fine.network.as_ref());
+                let winch = network.zip(known);
                 let winch = winch.map(|(a, b)| (a.winch[0] - b.winch[0]).hypot(a.winch[1] - b.winch[1]) / level.length);
                 let row: Vec<Cell> = vec![
                     shape.clone().into(),
