@@ -5,8 +5,11 @@ use plotters::coord::ranged1d::{AsRangedCoord, Ranged, ValueFormatter};
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
-/// Size of a plot, px.
-const SIZE: (u32, u32) = (760, 480);
+/// Size of a plot, px, and the width that a legend adds to it.
+const SIZE: (u32, u32) = (640, 440);
+const LEGEND: u32 = 270;
+/// Labels on an axis, at most.
+const LABELS: usize = 6;
 /// Colours that stay apart for the colour-blind (Okabe and Ito 2008), without the yellow that white paper swallows.
 const COLOURS: [RGBColor; 7] = [
     RGBColor(0, 114, 178),
@@ -100,9 +103,11 @@ impl Plot {
         X::CoordDescType: Ranged<ValueType = f64> + ValueFormatter<f64>,
         Y::CoordDescType: Ranged<ValueType = f64> + ValueFormatter<f64>,
     {
-        let root = SVGBackend::with_string(svg, SIZE).into_drawing_area();
+        let legend = if self.series.len() > 1 { LEGEND } else { 0 };
+        let root = SVGBackend::with_string(svg, (SIZE.0 + legend, SIZE.1)).into_drawing_area();
         root.fill(&WHITE)?;
-        let mut chart = ChartBuilder::on(&root)
+        let (area, margin) = root.split_horizontally(SIZE.0);
+        let mut chart = ChartBuilder::on(&area)
             .caption(&self.title, ("sans-serif", 18))
             .margin(12)
             .x_label_area_size(44)
@@ -111,7 +116,9 @@ impl Plot {
         let label = |v: &f64| super::report::significant(*v);
         chart
             .configure_mesh()
-            .light_line_style(BLACK.mix(0.05))
+            .light_line_style(TRANSPARENT)
+            .x_labels(LABELS)
+            .y_labels(LABELS)
             .bold_line_style(BLACK.mix(0.15))
             .x_desc(&self.x_label)
             .y_desc(&self.y_label)
@@ -126,22 +133,25 @@ impl Plot {
             if !series.scattered {
                 chart.draw_series(LineSeries::new(points.iter().copied(), colour.stroke_width(2)))?;
             }
-            chart
-                .draw_series(points.iter().map(|p| Circle::new(*p, 3, colour.filled())))?
-                .label(&series.label)
-                .legend(move |(x, y)| PathElement::new([(x, y), (x + 16, y)], colour.stroke_width(3)));
-        }
-        if self.series.len() > 1 {
-            chart
-                .configure_series_labels()
-                .background_style(WHITE.mix(0.85))
-                .border_style(BLACK.mix(0.3))
-                .label_font(("sans-serif", 13))
-                .position(SeriesLabelPosition::UpperLeft)
-                .draw()?;
+            chart.draw_series(points.iter().map(|p| EmptyElement::at(*p) + marker(k, (0, 0), colour)))?;
+            if legend > 0 {
+                let y = 50 + 20 * k as i32;
+                margin.draw(&PathElement::new([(4, y), (24, y)], colour.stroke_width(2)))?;
+                margin.draw(&marker(k, (14, y), colour))?;
+                margin.draw(&Text::new(series.label.as_str(), (32, y - 6), ("sans-serif", 13)))?;
+            }
         }
         root.present()?;
         Ok(())
+    }
+}
+
+/// The marker of series `k`: a shape of its own for every round through the colours.
+fn marker<'a>(k: usize, at: (i32, i32), colour: RGBColor) -> DynElement<'static, SVGBackend<'a>, (i32, i32)> {
+    match (k / COLOURS.len()) % 3 {
+        0 => Circle::new(at, 3, colour.filled()).into_dyn(),
+        1 => TriangleMarker::new(at, 5, colour.filled()).into_dyn(),
+        _ => Cross::new(at, 4, colour.stroke_width(2)).into_dyn(),
     }
 }
 
