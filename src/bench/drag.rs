@@ -42,6 +42,8 @@ struct Measured {
     factorizations: Vec<f64>,
     errors: Vec<f64>,
     distances: Vec<f64>,
+    /// The distance from equilibrium that the tracker itself states.
+    claimed: Vec<f64>,
     not_shown: usize,
     /// On sampled frames: target error over that of the converged optimum.
     excess: Vec<f64>,
@@ -77,6 +79,7 @@ impl Drag {
             "excess, worst",
             "unbalanced, median",
             "unbalanced, worst",
+            "claimed, worst",
             "not showable",
         ];
         let mut times = Table::new("drag-times", "Time of a frame, ms (phases: medians)", &[&key[..], &time].concat());
@@ -158,7 +161,7 @@ impl Drag {
                 Question { model: &mut subject.plushie.model, actuation: &actuation, objective: &objective };
             if tracker.is_none() {
                 let rest = at_rest(&mut question, session.stop);
-                tracker = Some(Tracker::new(&question, &rest));
+                tracker = Some(Tracker::new(&mut question, &rest));
             }
             let Some(tracker) = &mut tracker else { continue };
             let sampled = k % SAMPLING == SAMPLING / 2;
@@ -175,6 +178,7 @@ impl Drag {
             m.factorizations.push(frame.factorizations as f64);
             m.errors.push(error / length);
             m.distances.push(distance_from_equilibrium(question.model, &actuation, posture));
+            m.claimed.push(frame.residual / frame.force_scale.max(f64::MIN_POSITIVE));
             m.not_shown += usize::from(!may_be_shown(question.model, posture));
             let Some(before) = before else { continue };
             let posture = posture.clone();
@@ -232,6 +236,7 @@ impl Measured {
             excess.worst.into(),
             distance.median.into(),
             distance.worst.into(),
+            Summary::of(self.claimed.iter().copied()).worst.into(),
             self.not_shown.into(),
         ]
     }

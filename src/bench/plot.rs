@@ -171,7 +171,8 @@ mod tests {
             let document = roxmltree::Document::parse(&svg).unwrap();
             assert!(document.descendants().any(|n| n.text().is_some_and(|t| t.contains("a < b"))));
             let circles = document.descendants().filter(|n| n.has_tag_name("circle")).count();
-            assert_eq!(circles, if log_y { 3 } else { 4 });
+            // Two markers in the legend, and the points that the axes can show.
+            assert_eq!(circles, if log_y { 5 } else { 6 });
         }
     }
 

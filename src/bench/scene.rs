@@ -33,10 +33,13 @@ pub struct Scene {
     pub frames: usize,
 }
 
+/// Makes one frame with these goals.
+type MakeFrame<'a> = Box<dyn FnMut(&[Point]) + 'a>;
+
 /// A scene: what is in it, how one frame of it is made, and the times so far, ms.
 struct Run<'a> {
     what: &'static str,
-    frame: Box<dyn FnMut(&[Point]) -> Result<(), BenchError> + 'a>,
+    frame: MakeFrame<'a>,
     times: Vec<f64>,
 }
 
@@ -60,7 +63,7 @@ impl Scene {
                 for run in &mut runs {
                     session.check()?;
                     let clock = Instant::now();
-                    (run.frame)(goals)?;
+                    (run.frame)(goals);
                     run.times.push(1e3 * clock.elapsed().as_secs_f64());
                 }
             }
@@ -133,12 +136,11 @@ fn tracked<'a>(
         let mut question = Question { model: &mut subject.plushie.model, actuation: &actuation, objective: &objective };
         if tracker.is_none() {
             let rest = at_rest(&mut question, session.stop);
-            tracker = Some(Tracker::new(&question, &rest));
+            tracker = Some(Tracker::new(&mut question, &rest));
         }
         if let Some(tracker) = &mut tracker {
             tracker.frame(&mut question, Quality::Balanced, session.stop);
         }
-        Ok(())
     };
     Ok(Run { what, frame: Box::new(frame), times: Vec::new() })
 }
@@ -156,7 +158,6 @@ fn without_targets<'a>(
         if let Ok(state) = statics::solve(&mut subject.plushie.model, &x, &StaticsSettings::default(), session.stop) {
             x = state.x;
         }
-        Ok(())
     };
     Ok(Run { what, frame: Box::new(frame), times: Vec::new() })
 }
@@ -172,7 +173,6 @@ fn viewed<'a>(what: &'static str, design: &Design, show: [bool; 2], at: &'a [Bod
         let [show_idealized, show_realizable] = show;
         let request = Request { id: 0, design: design.clone(), question, show_idealized, show_realizable };
         solver.solve(&request, &cancel);
-        Ok(())
     };
     Run { what, frame: Box::new(frame), times: Vec::new() }
 }

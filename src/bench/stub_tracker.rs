@@ -27,7 +27,7 @@ pub struct Phases {
 }
 
 impl Tracker {
-    pub fn new(_question: &Question, start: &Posture) -> Self {
+    pub fn new(_question: &mut Question, start: &Posture) -> Self {
         Self { posture: start.clone() }
     }
 

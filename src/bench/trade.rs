@@ -221,7 +221,7 @@ fn frames(subject: &mut Subject, quality: Quality, session: &Session) -> Result<
         let mut question = Question { model: &mut subject.plushie.model, actuation: &actuation, objective: &objective };
         if tracker.is_none() {
             let rest = at_rest(&mut question, session.stop);
-            tracker = Some(Tracker::new(&question, &rest));
+            tracker = Some(Tracker::new(&mut question, &rest));
         }
         if let Some(tracker) = &mut tracker {
             let clock = Instant::now();
