@@ -8,7 +8,7 @@ use super::locking;
 use super::plot::{Plot, Series};
 use super::posing::{at_rest, free_fibers, optimum};
 use super::random::Random;
-use super::shapes::{Field, Subject, design, original};
+use super::shapes::{Field, Subject, original};
 use super::statistics::{Summary, pareto_front};
 use super::stub_tracker::{Quality, Tracker};
 use super::{BenchError, Report, Session, Table};
@@ -67,12 +67,6 @@ impl Common {
         let at = |p: &Point| mesh.locate_nearest(*p, &mesh.nodes).map_or(*p, |(at, _)| mesh.position(&at, &nodes));
         self.places.iter().map(at).collect()
     }
-
-    /// How far the places have moved from rest.
-    pub fn displacement(&self, design: &Design, x: &[f64]) -> f64 {
-        let rest: Vec<f64> = design.mesh.nodes.iter().flatten().copied().collect();
-        rms(&self.positions(design, &rest), &self.positions(design, x))
-    }
 }
 
 /// Root mean square distance of paired points.
@@ -102,8 +96,7 @@ impl Trade {
             report.plots.push(plot(name, caption, &settings));
             report.remarks.extend(verdict(name, &settings));
         }
-        let locked =
-            locking::Locking { shapes: self.shapes.clone(), fibers: self.fibers.clone(), reference: self.reference };
+        let locked = locking::Locking { edges: self.fibers.clone() };
         let (table, plot) = locked.run(session)?;
         report.tables.push(table);
         report.plots.push(plot);
@@ -278,11 +271,4 @@ fn verdict(name: &str, settings: &[Setting]) -> Vec<String> {
         format!("{name}, {}: not dominated are {}.", shape[0].shape, kept.join(", "))
     };
     settings.chunk_by(|a, b| a.shape == b.shape).map(front).collect()
-}
-
-/// The same shape without fibres: the body alone.
-pub fn bare(shape: &str, fibers: usize) -> Result<Design, BenchError> {
-    let mut design = design(shape, fibers)?;
-    design.fibers.set = crate::design::FiberSet::Routings(Vec::new());
-    Ok(design)
 }
