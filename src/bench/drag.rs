@@ -1,11 +1,10 @@
 //! `bench drag`: warm drags. What a frame costs and by which phase, how near it comes, how far it is from equilibrium, from the
 //! converged optimum of the same objective, and what Algorithm 1 takes for the same target error.
 
+use super::baseline::{Comparison, EQUAL_ERROR, End, follow};
 use super::drags::{Path, goals, places, points, towards};
 use super::plot::{Plot, Series};
-use super::posing::{
-    Baseline, EQUAL_ERROR, algorithm_1, at_rest, distance_from_equilibrium, free_fibers, may_be_shown, optimum,
-};
+use super::posing::{at_rest, distance_from_equilibrium, free_fibers, may_be_shown, optimum};
 use super::random::Random;
 use super::report::significant;
 use super::shapes::Subject;
@@ -16,7 +15,7 @@ use crate::soft_ik::Question;
 use std::time::Instant;
 
 /// Algorithm 1 is given up on a frame after this many times the time of the frame: a lower bound above any ratio of interest.
-const PATIENCE: f64 = 300.0;
+const PATIENCE: f64 = 100.0;
 /// Frames between those that are compared with the optimum and with Algorithm 1.
 const SAMPLING: usize = 10;
 
@@ -47,9 +46,9 @@ struct Measured {
     not_shown: usize,
     /// On sampled frames: target error over that of the converged optimum.
     excess: Vec<f64>,
-    /// On sampled frames: Algorithm 1, in units of the frame's time.
-    baseline: Vec<Baseline>,
-    ratios: Vec<f64>,
+    /// Algorithm 1 on its own drag, every frame; and on sampled frames from our posture of the frame before.
+    own: Comparison,
+    handed: Comparison,
 }
 
 impl Drag {
@@ -69,7 +68,10 @@ impl Drag {
             "fastest factor",
             "in factors",
             "Alg. 1 / ours",
-            "not reached",
+            "from ours",
+            "reached",
+            "gave up",
+            "stalled",
         ];
         let quality = [
             "error, median",
@@ -124,8 +126,10 @@ impl Drag {
             }
         }
         remarks.push(format!(
-            "Algorithm 1 starts from our posture of the frame before and may stop {} of the body length short of our target \
-             error; > marks lower bounds (200 iterations or {PATIENCE} times our frame).",
+            "Alg. 1 / ours: median time of Algorithm 1, on a drag of its own, for our target error in the same frame ({} of the \
+             body length more is enough), in units of our time; a stalled frame is infinite; > marks lower bounds (200 \
+             iterations or {PATIENCE} times our frame). From ours: the same on every {SAMPLING}th frame, handed our posture of the \
+             frame before. Reached, gave up, stalled: frames of its own drag.",
             significant(EQUAL_ERROR)
         ));
         let plot = Plot {
@@ -153,6 +157,7 @@ impl Drag {
         let with_baseline = subject.fibers() <= self.baseline_up_to;
         let mut m = Measured::default();
         let mut tracker: Option<Tracker> = None;
+        let mut rival = None;
         let mut last_optimum = None;
         for (k, goals) in goals.iter().enumerate() {
             session.check()?;
@@ -162,6 +167,7 @@ impl Drag {
             if tracker.is_none() {
                 let rest = at_rest(&mut question, session.stop);
                 tracker = Some(Tracker::new(&mut question, &rest));
+                rival = with_baseline.then_some(rest);
             }
             let Some(tracker) = &mut tracker else { continue };
             let sampled = k % SAMPLING == SAMPLING / 2;
@@ -180,19 +186,22 @@ impl Drag {
             m.distances.push(distance_from_equilibrium(question.model, &actuation, posture));
             m.claimed.push(frame.residual / frame.force_scale.max(f64::MIN_POSITIVE));
             m.not_shown += usize::from(!may_be_shown(question.model, posture));
-            let Some(before) = before else { continue };
             let posture = posture.clone();
+            let enough = error + EQUAL_ERROR * length;
+            let patience = PATIENCE * time;
+            if let Some(rival) = &mut rival {
+                let (end, needed) = follow(&mut question, rival, enough, patience, session.stop);
+                m.own.push(end, needed / time);
+            }
+            let Some(mut before) = before else { continue };
             let starts: Vec<&_> = [Some(&posture), last_optimum.as_ref()].into_iter().flatten().collect();
-            let best = optimum(&mut question, &starts, session.stop);
-            if let Some(best) = best {
+            if let Some(best) = optimum(&mut question, &starts, session.stop) {
                 m.excess.push((error - objective.target_error(&best.x)) / length);
                 last_optimum = Some(best);
             }
             if with_baseline {
-                let enough = error + EQUAL_ERROR * length;
-                let baseline = algorithm_1(&mut question, &before, enough, PATIENCE * time, session.stop);
-                m.ratios.push(baseline.milliseconds / time);
-                m.baseline.push(baseline);
+                let (end, needed) = follow(&mut question, &mut before, enough, patience, session.stop);
+                m.handed.push(end, needed / time);
             }
         }
         session.check()?;
@@ -210,17 +219,15 @@ impl Measured {
         cells.push(Summary::of(self.factorizations.iter().copied()).median.into());
         cells.push(unit.into());
         cells.push((time.median / unit).into());
-        let missed = self.baseline.iter().filter(|b| !b.reached).count();
-        let ratio = Summary::of(self.ratios.iter().copied()).median;
-        cells.push(match self.baseline.len() {
-            0 => Cell::Missing,
-            all if 2 * missed >= all => Cell::AtLeast(ratio),
-            _ => ratio.into(),
-        });
-        cells.push(match self.baseline.len() {
-            0 => Cell::Missing,
-            all => format!("{missed} of {all}").into(),
-        });
+        for comparison in [&self.own, &self.handed] {
+            cells.push(match comparison.median() {
+                None => Cell::Missing,
+                Some((ratio, _)) if ratio.is_infinite() => "never".into(),
+                Some((ratio, true)) => Cell::AtLeast(ratio),
+                Some((ratio, false)) => ratio.into(),
+            });
+        }
+        cells.extend([End::Reached, End::GaveUp, End::Stalled].map(|end| Cell::from(self.own.count(end))));
         cells
     }
 

@@ -13,6 +13,7 @@
 //! targets; times differ from run to run, so comparisons are always made within one run. Lengths are mm, times ms,
 //! target errors parts of the body length.
 
+pub mod baseline;
 pub mod cold;
 pub mod drag;
 pub mod drags;

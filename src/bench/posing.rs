@@ -1,20 +1,13 @@
-//! What the studies of posing share: starts, converged optima, and Algorithm 1 as the baseline.
+//! What the studies of posing share: starts, converged optima, and what makes a posture fit to be shown.
 
 use super::shapes::Subject;
 use super::stub_tracker::{Quality, Tracker};
 use crate::physics::{Model, statics};
-use crate::soft_ik::gradient::Gradient;
-use crate::soft_ik::{Actuation, Budget, Method, Posture, Question};
-use std::time::Instant;
+use crate::soft_ik::{Actuation, Posture, Question};
 
 /// Rounds of accurate work on a converged optimum, and the relative decrease of `O` in a round that ends it.
 const ROUNDS: usize = 30;
 const ROUND_DECREASE: f64 = 1e-6;
-/// Iterations after which Algorithm 1 gives up on a frame.
-pub const BASELINE_ITERATIONS: usize = 200;
-/// Target errors count as equal within this part of the body length: some micrometres on a soft toy.
-pub const EQUAL_ERROR: f64 = 1e-5;
-
 /// All fibres free, nothing held.
 pub fn free_fibers(subject: &Subject) -> Actuation {
     Actuation { winches: subject.plushie.fibers.clone(), fixed: vec![0.0; subject.plushie.fiber_elements.end] }
@@ -64,53 +57,4 @@ pub fn optimum(question: &mut Question, starts: &[&Posture], stop: &dyn Fn() -> 
         }
     }
     best
-}
-
-/// What Algorithm 1 needed for one frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Baseline {
-    pub milliseconds: f64,
-    /// Whether it came as close as asked; if not, the time is a lower bound.
-    pub reached: bool,
-}
-
-/// Algorithm 1 from the posture before the frame until the rms target error (mm) is at most `error`, with the statics and the
-/// factorisation of the other methods. It gives up after [`BASELINE_ITERATIONS`] or `patience_ms`.
-///
-/// The start is settled for it outside the clock, and iterations that turn out unnecessary are not counted: its iterates are
-/// deterministic, so the fewest that suffice are found by repetition.
-pub fn algorithm_1(
-    question: &mut Question,
-    before: &Posture,
-    error: f64,
-    patience_ms: f64,
-    stop: &dyn Fn() -> bool,
-) -> Baseline {
-    let start = question.settle(&before.beta, &before.x, stop).0;
-    let mut attempt = |iterations: usize| -> Baseline {
-        let clock = Instant::now();
-        let elapsed = || 1e3 * clock.elapsed().as_secs_f64();
-        let impatient = || stop() || elapsed() > patience_ms;
-        let answer = Gradient::default().solve(question, &start, &Budget { iterations, stop: &impatient });
-        let reached = question.objective.target_error(&answer.posture.x) <= error;
-        Baseline { milliseconds: elapsed(), reached }
-    };
-    let whole = attempt(BASELINE_ITERATIONS);
-    if !whole.reached {
-        return whole;
-    }
-    let (mut too_few, mut enough, mut found) = (0, BASELINE_ITERATIONS, whole);
-    let mut next = 1;
-    while enough - too_few > 1 && !stop() {
-        let outcome = attempt(next);
-        if outcome.reached {
-            (enough, found) = (next, outcome);
-        } else {
-            too_few = next;
-        }
-        // Doubling until it suffices, halving then.
-        next =
-            if enough == BASELINE_ITERATIONS { (2 * too_few).max(1).min(enough - 1) } else { (too_few + enough) / 2 };
-    }
-    found
 }
