@@ -7,8 +7,7 @@ use super::posing::{at_rest, free_fibers, optimum};
 use super::random::Random;
 use super::shapes::{Field, Subject, original};
 use super::statistics::Summary;
-use super::stub_tracker::{Quality, Tracker};
-use super::{BenchError, Cell, Report, Session, Table};
+use super::{BenchError, Cell, Quality, Report, Session, Table, Tracker};
 use crate::physics::Model;
 use crate::soft_ik::{Budget, Posture, Question};
 

@@ -9,8 +9,7 @@ use super::random::Random;
 use super::report::significant;
 use super::shapes::Subject;
 use super::statistics::{Summary, growth_exponent};
-use super::stub_tracker::{Quality, Tracker};
-use super::{BenchError, Cell, Report, Session, Table, linear};
+use super::{BenchError, Cell, Quality, Report, Session, Table, Tracker, linear};
 use crate::soft_ik::Question;
 use std::time::Instant;
 

@@ -32,6 +32,7 @@ mod stub_tracker;
 pub mod trade;
 
 pub use report::{Cell, Report, Table};
+pub use stub_tracker::{Quality, Tracker};
 
 use crate::mesh::MeshError;
 use crate::physics::{Cause, ModelError};

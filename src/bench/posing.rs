@@ -1,7 +1,7 @@
 //! What the studies of posing share: starts, converged optima, and what makes a posture fit to be shown.
 
 use super::shapes::Subject;
-use super::stub_tracker::{Quality, Tracker};
+use super::{Quality, Tracker};
 use crate::physics::{Model, statics};
 use crate::soft_ik::{Actuation, Posture, Question};
 

@@ -4,8 +4,7 @@ use super::error::{CommandError, check_cancel};
 use super::output::{Staged, say, say_json};
 use super::solve::Effort;
 use crate::bench::drags::{Path as DragPath, SWEEP_FRAMES};
-use crate::bench::{BenchError, Report, Session, cold, drag, linear, resolution, scene, shapes, trade};
-use crate::problem::Quality;
+use crate::bench::{BenchError, Quality, Report, Session, cold, drag, linear, resolution, scene, shapes, trade};
 use clap::{Args, Subcommand, ValueEnum};
 use std::cell::Cell;
 use std::io::{IsTerminal, Write};
@@ -76,8 +75,8 @@ enum Study {
         /// Drags of each shape and number of targets
         #[arg(long, default_value_t = 1)]
         draws: usize,
-        /// Work of the frames that make up the drag
-        #[arg(long, value_enum, default_value_t = Effort::Balanced)]
+        /// Work of the frames that make up the drag; small frames show its course in small steps
+        #[arg(long, value_enum, default_value_t = Effort::Draft)]
         quality: Effort,
         #[command(flatten)]
         common: Common,
