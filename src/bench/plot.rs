@@ -5,9 +5,10 @@ use plotters::coord::ranged1d::{AsRangedCoord, Ranged, ValueFormatter};
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
-/// Size of a plot, px, and the width that a legend adds to it.
+/// Size of a plot, px; a legend adds to its width what its line and a letter take.
 const SIZE: (u32, u32) = (640, 440);
-const LEGEND: u32 = 270;
+const LEGEND_LINE: u32 = 44;
+const LEGEND_LETTER: u32 = 7;
 /// Labels on an axis, at most.
 const LABELS: usize = 6;
 /// Colours that stay apart for the colour-blind (Okabe and Ito 2008), without the yellow that white paper swallows.
@@ -103,7 +104,8 @@ impl Plot {
         X::CoordDescType: Ranged<ValueType = f64> + ValueFormatter<f64>,
         Y::CoordDescType: Ranged<ValueType = f64> + ValueFormatter<f64>,
     {
-        let legend = if self.series.len() > 1 { LEGEND } else { 0 };
+        let letters = self.series.iter().map(|s| s.label.chars().count() as u32).max().unwrap_or(0);
+        let legend = if self.series.len() > 1 { LEGEND_LINE + LEGEND_LETTER * letters } else { 0 };
         let root = SVGBackend::with_string(svg, (SIZE.0 + legend, SIZE.1)).into_drawing_area();
         root.fill(&WHITE)?;
         let (area, margin) = root.split_horizontally(SIZE.0);
@@ -113,7 +115,7 @@ impl Plot {
             .x_label_area_size(44)
             .y_label_area_size(64)
             .build_cartesian_2d(x, y)?;
-        let label = |v: &f64| super::report::significant(*v);
+        let label = |v: &f64| tick(*v);
         chart
             .configure_mesh()
             .light_line_style(TRANSPARENT)
@@ -146,6 +148,15 @@ impl Plot {
     }
 }
 
+/// A number beside an axis: three digits without idle zeros.
+fn tick(value: f64) -> String {
+    let text = super::report::significant(value);
+    match text.contains('.') && !text.contains('e') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text,
+    }
+}
+
 /// The marker of series `k`: a shape of its own for every round through the colours.
 fn marker<'a>(k: usize, at: (i32, i32), colour: RGBColor) -> DynElement<'static, SVGBackend<'a>, (i32, i32)> {
     match (k / COLOURS.len()) % 3 {
@@ -174,6 +185,11 @@ mod tests {
             // Two markers in the legend, and the points that the axes can show.
             assert_eq!(circles, if log_y { 5 } else { 6 });
         }
+    }
+
+    #[test]
+    fn ticks_have_no_idle_zeros() {
+        assert_eq!([10.0, 0.1, 1000.0, 2.5, 0.0].map(tick), ["10", "0.1", "1000", "2.5", "0"]);
     }
 
     #[test]
