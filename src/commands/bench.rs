@@ -44,13 +44,13 @@ enum Study {
     /// Warm drags: time of a frame by phase, target error, distance from equilibrium and from the optimum, Algorithm 1
     Drag {
         /// Numbers of muscle fibres
-        #[arg(long, value_delimiter = ',', default_values_t = [414, 1055, 5000, 10_000])]
+        #[arg(long, value_delimiter = ',', default_values_t = [414, 1055, 5000])]
         fibers: Vec<usize>,
         /// Numbers of targets
         #[arg(long, value_delimiter = ',', default_values_t = [4])]
         targets: Vec<usize>,
         /// Frames of each drag; 120 are a whole sweep
-        #[arg(long, default_value_t = SWEEP_FRAMES)]
+        #[arg(long, default_value_t = SWEEP_FRAMES / 2)]
         frames: usize,
         /// Work a frame may take
         #[arg(long, value_enum, default_value_t = Effort::Balanced)]
