@@ -18,6 +18,7 @@
 //! | [`engine`] | compiles a design into a physics model, poses both plushies, worker thread, rigging |
 //! | [`fabrication`] | patterns, routings, winch tracks, controller programs |
 //! | [`picture`] | a neutral drawing of both plushies, rasterised without a graphics adapter |
+//! | [`bench`] | whole studies of the solvers, repeatable from a seed |
 //! | [`commands`] | the headless commands |
 //! | `studio` | the window (feature `studio`) |
 //!
@@ -40,6 +41,7 @@
 //! - The same input gives the same bits; iteration order never depends on hashing or thread count.
 //! - What is shown is finite, uninverted and within the actuation limits.
 
+pub mod bench;
 pub mod commands;
 pub mod defaults;
 pub mod design;

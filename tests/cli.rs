@@ -4,7 +4,8 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-const COMMANDS: [&str; 10] = ["demo", "new", "pose", "rig", "key", "check", "export", "render", "solve", "discover"];
+const COMMANDS: [&str; 11] =
+    ["demo", "new", "pose", "rig", "key", "check", "export", "render", "solve", "discover", "bench"];
 
 /// A bar that is wide enough for a few dozen fibres.
 const OUTLINE: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" width="120mm" height="40mm" viewBox="0 0 120 40">
@@ -338,4 +339,29 @@ fn an_interrupt_is_code_130_and_leaves_nothing() {
 fn without_a_display_the_studio_says_so() {
     let folder = bar();
     fail(folder.path(), 4, &["bar.plush"]);
+}
+
+#[test]
+fn studies_print_tables_and_leave_csv_and_plots() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let text = succeed(here, &["bench", "linear", "--fibers", "177", "--seed", "3", "--out", "linear"]);
+    assert!(text.contains("seed 3") && text.contains("supernodal") && text.contains("fastest is"), "{text}");
+    assert_eq!(names(&here.join("linear")), ["linear.csv", "linear.svg", "report.txt"]);
+    let csv = fs::read_to_string(here.join("linear/linear.csv")).unwrap();
+    assert!(csv.starts_with("shape,fibres,") && csv.lines().count() > 8, "{csv}");
+
+    let drag = ["bench", "drag", "--fibers", "177", "--targets", "1", "--frames", "6", "--baseline", "0", "--json"];
+    let [first, second] = [succeed(here, &drag), succeed(here, &drag)].map(|text| {
+        let value: serde_json::Value = serde_json::from_str(&text).unwrap();
+        value["tables"]["drag-errors"]["rows"].clone()
+    });
+    // Times differ from run to run, results do not.
+    assert_eq!(first, second);
+    assert_eq!(first.as_array().unwrap().len(), 2);
+    assert_eq!(first[0]["not showable"], 0);
+
+    let line = fail(here, 2, &["bench", "cold", "--shapes", "cow", "--out", "cold"]);
+    assert!(line.contains("cow") && line.contains("pig"), "{line}");
+    assert_eq!(names(here), ["linear"]);
 }

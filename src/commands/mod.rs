@@ -4,6 +4,7 @@
 //! interrupt leaves nothing behind. It prints figures on the writer it is given and returns a [`CommandError`], which
 //! knows its exit code and is shown as exactly one line.
 
+mod bench;
 mod check;
 mod demo;
 mod discover;
@@ -62,6 +63,7 @@ pub enum Command {
     Render(render::Render),
     Solve(solve::Solve),
     Discover(discover::Discover),
+    Bench(bench::Bench),
 }
 
 /// Reads the command line; help and version come back as [`ParseStop::Information`].
@@ -82,5 +84,6 @@ pub fn run(command: &Command, out: &mut dyn Write, cancel: &AtomicBool) -> Resul
         Command::Render(command) => command.run(out, cancel),
         Command::Solve(command) => command.run(out, cancel),
         Command::Discover(command) => command.run(out, cancel),
+        Command::Bench(command) => command.run(out, cancel),
     }
 }

@@ -6,11 +6,49 @@
 use super::pattern::Pattern;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
+use faer::perm::PermRef;
+use faer::sparse::linalg::amd;
 use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
+    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
+    factorize_symbolic_cholesky,
 };
+use faer::sparse::linalg::{SupernodalThreshold, SymbolicSupernodalParams};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side, Spec};
+
+/// In which order unknowns are eliminated.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Ordering {
+    /// Approximate minimum degree on the scalar pattern.
+    #[default]
+    MinimumDegree,
+    /// Approximate minimum degree on the nodes; both unknowns of a node stay together.
+    NodeMinimumDegree,
+    /// As the nodes are numbered.
+    Natural,
+    /// Node `order[k]` is eliminated as the `k`-th. Every node occurs once.
+    Nodes(Vec<usize>),
+}
+
+/// How the numeric factorisation walks through the factor.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Kernel {
+    /// Chosen by the arithmetic per stored value.
+    #[default]
+    Automatic,
+    /// One column at a time.
+    Simplicial,
+    /// Dense panels of columns with the same structure. Two of `n` columns in all, of which a fraction `z` of the entries
+    /// would be zero, are merged where `n <= at most` and `z < below` for one `(at most, below)`; no entry: the library's own.
+    Supernodal(&'static [(usize, f64)]),
+}
+
+/// How a factorisation is computed: the same factor up to order and rounding, at different cost.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Variant {
+    pub ordering: Ordering,
+    pub kernel: Kernel,
+}
 
 /// A factorisation `H = L L^T` that is computed again and again on one pattern.
 pub struct Cholesky {
@@ -28,18 +66,46 @@ pub struct Cholesky {
 pub struct NotPositiveDefinite;
 
 impl Cholesky {
-    /// Symbolic analysis; `None` only if the factor would not fit into memory.
+    /// Symbolic analysis of the default variant; `None` only if the factor would not fit into memory.
     pub fn new(pattern: &Pattern) -> Option<Self> {
+        Self::with(pattern, &Variant::default())
+    }
+
+    /// Symbolic analysis; `None` only if the factor would not fit into memory. Panics where an order of nodes is not a
+    /// permutation (a caller's mistake).
+    pub fn with(pattern: &Pattern, variant: &Variant) -> Option<Self> {
         let n = pattern.dimension();
         let structure =
             SymbolicSparseColMatRef::new_checked(n, n, pattern.column_starts(), None, pattern.row_indices());
-        let symbolic = factorize_symbolic_cholesky(
-            structure,
-            Side::Lower,
-            SymmetricOrdering::Amd,
-            CholeskySymbolicParams::default(),
-        )
-        .ok()?;
+        let nodes = match &variant.ordering {
+            Ordering::NodeMinimumDegree => Some(node_minimum_degree(pattern)?),
+            Ordering::Nodes(order) => Some(order.clone()),
+            // Not the library's identity: that one expects the upper triangle.
+            Ordering::Natural => Some((0..n / 2).collect()),
+            Ordering::MinimumDegree => None,
+        };
+        // Both unknowns of a node one after the other.
+        let forward: Vec<usize> = nodes.iter().flatten().flat_map(|i| [2 * i, 2 * i + 1]).collect();
+        let mut inverse = vec![0; forward.len()];
+        for (k, &i) in forward.iter().enumerate() {
+            inverse[i] = k;
+        }
+        let ordering = match variant.ordering {
+            Ordering::MinimumDegree => SymmetricOrdering::Amd,
+            _ => SymmetricOrdering::Custom(PermRef::new_checked(&forward, &inverse, n)),
+        };
+        let mut parameters = CholeskySymbolicParams::default();
+        match variant.kernel {
+            Kernel::Automatic => {}
+            Kernel::Simplicial => parameters.supernodal_flop_ratio_threshold = SupernodalThreshold::FORCE_SIMPLICIAL,
+            Kernel::Supernodal(relax) => {
+                parameters.supernodal_flop_ratio_threshold = SupernodalThreshold::FORCE_SUPERNODAL;
+                if !relax.is_empty() {
+                    parameters.supernodal_params = SymbolicSupernodalParams { relax: Some(relax) };
+                }
+            }
+        }
+        let symbolic = factorize_symbolic_cholesky(structure, Side::Lower, ordering, parameters).ok()?;
         let factor = vec![0.0; symbolic.len_val()];
         let mut this = Self { symbolic, factor, memory: MemBuffer::new(Default::default()), columns: 0, valid: false };
         this.reserve(1);
@@ -91,6 +157,16 @@ impl Cholesky {
         );
     }
 
+    /// Stored values of the factor (with supernodes, some of them are zeros).
+    pub fn factor_nonzeros(&self) -> usize {
+        self.factor.len()
+    }
+
+    /// Whether the numeric factorisation works on panels.
+    pub fn is_supernodal(&self) -> bool {
+        matches!(self.symbolic.raw(), SymbolicCholeskyRaw::Supernodal(_))
+    }
+
     fn reserve(&mut self, columns: usize) {
         if columns > self.columns {
             let need =
@@ -101,6 +177,23 @@ impl Cholesky {
             self.columns = columns;
         }
     }
+}
+
+/// Approximate minimum degree on the graph of the nodes: the order of elimination.
+fn node_minimum_degree(pattern: &Pattern) -> Option<Vec<usize>> {
+    let nodes = pattern.dimension() / 2;
+    let (mut starts, mut rows) = (vec![0], Vec::new());
+    for node in 0..nodes {
+        let column = pattern.column_starts()[2 * node]..pattern.column_starts()[2 * node + 1];
+        rows.extend(pattern.row_indices()[column].iter().filter(|&row| row % 2 == 0).map(|row| row / 2));
+        starts.push(rows.len());
+    }
+    let (mut forward, mut inverse) = (vec![0; nodes], vec![0; nodes]);
+    let mut memory = MemBuffer::try_new(amd::order_maybe_unsorted_scratch::<usize>(nodes, rows.len())).ok()?;
+    let structure = SymbolicSparseColMatRef::new_checked(nodes, nodes, &starts, None, &rows);
+    let stack = MemStack::new(&mut memory);
+    amd::order_maybe_unsorted(&mut forward, &mut inverse, structure, amd::Control::default(), stack).ok()?;
+    Some(forward)
 }
 
 #[cfg(test)]
@@ -137,6 +230,32 @@ mod tests {
             pattern.multiply(&values, &z[c * n..(c + 1) * n], &mut y);
             for i in 0..n {
                 assert!((y[i] - b[c * n + i]).abs() < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn every_variant_solves_the_same_system() {
+        let (pattern, values) = chain(60);
+        let n = pattern.dimension();
+        let b: Vec<f64> = (0..n).map(|i| (i as f64 * 0.3).cos()).collect();
+        let back = Ordering::Nodes((0..n / 2).rev().collect());
+        for ordering in [Ordering::MinimumDegree, Ordering::NodeMinimumDegree, Ordering::Natural, back] {
+            for kernel in
+                [Kernel::Automatic, Kernel::Simplicial, Kernel::Supernodal(&[]), Kernel::Supernodal(&[(8, 1.0)])]
+            {
+                let variant = Variant { ordering: ordering.clone(), kernel };
+                let mut cholesky = Cholesky::with(&pattern, &variant).unwrap();
+                cholesky.factorize(&pattern, &values).unwrap();
+                let (mut z, mut y) = (b.clone(), vec![0.0; n]);
+                cholesky.solve(&mut z);
+                pattern.multiply(&values, &z, &mut y);
+                assert!(y.iter().zip(&b).all(|(y, b)| (y - b).abs() < 1e-12), "{variant:?}");
+                // A chain has no fill.
+                assert!(
+                    kernel != Kernel::Simplicial || cholesky.factor_nonzeros() == pattern.nonzeros(),
+                    "{variant:?}"
+                );
             }
         }
     }

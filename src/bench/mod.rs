@@ -1,0 +1,83 @@
+//! Whole studies of the solvers that anybody can repeat: one file a study, each returns a [`Report`].
+//!
+//! | study | question |
+//! | --- | --- |
+//! | [`drag`] | what does a frame under the hand cost, and how good is it? |
+//! | [`cold`] | how fast is a far target approached from rest? |
+//! | [`trade`] | what does accuracy cost, and which settings are never worth it? ([`locking`] of the triangles) |
+//! | [`resolution`] | how far do poses, activations and networks agree over mesh resolutions? |
+//! | [`scene`] | what does each optional part of a scene cost? |
+//! | [`linear`] | which sparse factorisation is the fastest for our Hessians? |
+//!
+//! A study draws all its random numbers from the session's seed ([`random`]), so that the same seed gives the same
+//! targets; times differ from run to run, so comparisons are always made within one run. Lengths are mm, times ms,
+//! target errors parts of the body length.
+
+pub mod baseline;
+pub mod cold;
+pub mod drag;
+pub mod drags;
+pub mod linear;
+pub mod locking;
+pub mod ordering;
+pub mod plot;
+pub mod posing;
+pub mod random;
+pub mod report;
+pub mod resolution;
+pub mod scene;
+pub mod shapes;
+pub mod statistics;
+mod stub_tracker;
+pub mod trade;
+
+pub use report::{Cell, Report, Table};
+pub use stub_tracker::{Quality, Tracker};
+
+use crate::mesh::MeshError;
+use crate::physics::{Cause, ModelError};
+use std::sync::atomic::AtomicBool;
+
+/// What all studies share.
+pub struct Session<'a> {
+    /// All random numbers follow from it.
+    pub seed: u64,
+    /// Asked between steps of work; `true` ends the study.
+    pub stop: &'a dyn Fn() -> bool,
+    /// The same for work that asks a flag.
+    pub cancel: &'a AtomicBool,
+    /// Told what is being worked on, in a few words.
+    pub progress: &'a dyn Fn(&str),
+}
+
+/// Why a study has no result.
+#[derive(Debug, thiserror::Error)]
+pub enum BenchError {
+    #[error("no bundled shape is called `{0}`; there are {known}", known = shapes::names().join(", "))]
+    NoSuchShape(String),
+    #[error("{shape}: {source}")]
+    Mesh { shape: String, source: MeshError },
+    #[error("{shape}: {source}")]
+    Model { shape: String, source: ModelError },
+    #[error("{shape} at {fibers} fibres: {source}")]
+    Statics { shape: String, fibers: usize, source: Cause },
+    #[error("{0}")]
+    Nothing(String),
+    #[error("the plot cannot be drawn: {0}")]
+    Plot(String),
+    #[error("cancelled")]
+    Cancelled,
+}
+
+impl Session<'_> {
+    /// Says what comes next, or ends the study.
+    pub fn next(&self, what: &str) -> Result<(), BenchError> {
+        self.check()?;
+        (self.progress)(what);
+        Ok(())
+    }
+
+    pub fn check(&self) -> Result<(), BenchError> {
+        if (self.stop)() { Err(BenchError::Cancelled) } else { Ok(()) }
+    }
+}

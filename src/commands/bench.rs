@@ -1,0 +1,271 @@
+//! `bench`: whole studies of the solvers, as tables, CSV and plots.
+
+use super::error::{CommandError, check_cancel};
+use super::output::{Staged, say, say_json};
+use super::solve::Effort;
+use crate::bench::drags::{Path as DragPath, SWEEP_FRAMES};
+use crate::bench::{BenchError, Quality, Report, Session, cold, drag, linear, resolution, scene, shapes, trade};
+use clap::{Args, Subcommand, ValueEnum};
+use std::cell::Cell;
+use std::io::{IsTerminal, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Measure the solvers: whole studies that anybody can repeat
+///
+/// Random numbers follow from the printed seed. Every study compares within one run, on one thread; times depend on the
+/// machine and on what else it does.
+#[derive(Debug, Args)]
+#[command(after_help = "Example: plushwright bench linear --fibers 414,10000 --shapes pig --out linear")]
+pub struct Bench {
+    #[command(subcommand)]
+    study: Study,
+}
+
+/// Options of every study.
+#[derive(Debug, Args)]
+struct Common {
+    /// Bundled shapes: pig, robot, puppy, squid, e, s, or `all`
+    #[arg(long, value_delimiter = ',')]
+    shapes: Vec<String>,
+    /// Seed of all random numbers
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+    /// Folder for CSV tables and SVG plots; replaced where it exists
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Study {
+    /// Warm drags: time of a frame by phase, target error, distance from equilibrium and from the optimum, Algorithm 1
+    Drag {
+        /// Numbers of muscle fibres
+        #[arg(long, value_delimiter = ',', default_values_t = [414, 1055, 5000])]
+        fibers: Vec<usize>,
+        /// Numbers of targets
+        #[arg(long, value_delimiter = ',', default_values_t = [4])]
+        targets: Vec<usize>,
+        /// Frames of each drag; 120 are a whole sweep
+        #[arg(long, default_value_t = SWEEP_FRAMES / 2)]
+        frames: usize,
+        /// Work a frame may take
+        #[arg(long, value_enum, default_value_t = Effort::Balanced)]
+        quality: Effort,
+        /// Only targets that can be reached, or only such that cannot
+        #[arg(long, value_enum)]
+        path: Option<Reach>,
+        /// Compare with Algorithm 1 up to this many fibres
+        #[arg(long, default_value_t = 500, value_name = "FIBERS")]
+        baseline: usize,
+        #[command(flatten)]
+        common: Common,
+    },
+    /// Cold drags of 40 % of the body length: what is missing after so many factorisations
+    Cold {
+        /// Number of muscle fibres
+        #[arg(long, default_value_t = 414)]
+        fibers: usize,
+        /// Numbers of targets
+        #[arg(long, value_delimiter = ',', default_values_t = [1, 2, 3, 4])]
+        targets: Vec<usize>,
+        /// Drags of each shape and number of targets
+        #[arg(long, default_value_t = 1)]
+        draws: usize,
+        /// Work of the frames that make up the drag; small frames show its course in small steps
+        #[arg(long, value_enum, default_value_t = Effort::Draft)]
+        quality: Effort,
+        #[command(flatten)]
+        common: Common,
+    },
+    /// Error against time over mesh resolution, Newton tolerance and quality; locking of the triangles
+    Trade {
+        /// Numbers of muscle fibres
+        #[arg(long, value_delimiter = ',', default_values_t = [177, 414, 1055, 5000])]
+        fibers: Vec<usize>,
+        /// Fibres of the reference mesh
+        #[arg(long, default_value_t = 10_000)]
+        reference: usize,
+        #[command(flatten)]
+        common: Common,
+    },
+    /// The same pose at several resolutions: how far poses, activations and networks agree
+    Resolution {
+        /// Numbers of muscle fibres, ascending; the last is the reference
+        #[arg(long, value_delimiter = ',', default_values_t = [177, 414, 1055, 5000])]
+        fibers: Vec<usize>,
+        /// Fibres of the coarse set on the finest mesh
+        #[arg(long, default_value_t = 414)]
+        coarse: usize,
+        /// Discover networks up to this many fibres
+        #[arg(long, default_value_t = 1100, value_name = "FIBERS")]
+        networks: usize,
+        #[command(flatten)]
+        common: Common,
+    },
+    /// What each optional part of a scene costs per frame
+    Scene {
+        /// Frames of the drag
+        #[arg(long, default_value_t = 60)]
+        frames: usize,
+        #[command(flatten)]
+        common: Common,
+    },
+    /// The same Hessians through every variant of the sparse factorisation
+    Linear {
+        /// Numbers of muscle fibres
+        #[arg(long, value_delimiter = ',', default_values_t = [414, 1055, 5000, 10_000])]
+        fibers: Vec<usize>,
+        #[command(flatten)]
+        common: Common,
+    },
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Reach {
+    Reachable,
+    Unreachable,
+}
+
+impl Study {
+    fn common(&self) -> &Common {
+        match self {
+            Self::Drag { common, .. }
+            | Self::Cold { common, .. }
+            | Self::Trade { common, .. }
+            | Self::Resolution { common, .. }
+            | Self::Scene { common, .. }
+            | Self::Linear { common, .. } => common,
+        }
+    }
+
+    fn run(&self, session: &Session) -> Result<Report, BenchError> {
+        match self {
+            Self::Drag { fibers, targets, frames, quality, path, baseline, common } => drag::Drag {
+                shapes: common.shapes(&["pig"]),
+                fibers: fibers.clone(),
+                targets: targets.clone(),
+                paths: match path {
+                    None => vec![DragPath::Reachable, DragPath::Unreachable],
+                    Some(Reach::Reachable) => vec![DragPath::Reachable],
+                    Some(Reach::Unreachable) => vec![DragPath::Unreachable],
+                },
+                frames: *frames,
+                quality: quality_of(*quality),
+                baseline_up_to: *baseline,
+            }
+            .run(session),
+            Self::Cold { fibers, targets, draws, quality, common } => cold::Cold {
+                shapes: common.shapes(&["all"]),
+                fibers: *fibers,
+                targets: targets.clone(),
+                draws: *draws,
+                quality: quality_of(*quality),
+            }
+            .run(session),
+            Self::Trade { fibers, reference, common } => {
+                let shapes = common.shapes(&["pig"]);
+                trade::Trade { shapes, fibers: fibers.clone(), reference: *reference }.run(session)
+            }
+            Self::Resolution { fibers, coarse, networks, common } => resolution::Resolution {
+                shapes: common.shapes(&["pig"]),
+                fibers: fibers.clone(),
+                coarse: *coarse,
+                networks_up_to: *networks,
+            }
+            .run(session),
+            Self::Scene { frames, common } => {
+                scene::Scene { shapes: common.shapes(&["pig"]), frames: *frames }.run(session)
+            }
+            Self::Linear { fibers, common } => {
+                linear::Linear { shapes: common.shapes(&["pig"]), fibers: fibers.clone() }.run(session)
+            }
+        }
+    }
+}
+
+impl Common {
+    /// The shapes asked for, or these.
+    fn shapes(&self, default: &[&str]) -> Vec<String> {
+        let named = match self.shapes.as_slice() {
+            [] => default.iter().map(|&name| name.to_owned()).collect(),
+            names => names.to_vec(),
+        };
+        if named == ["all"] { shapes::names() } else { named }
+    }
+}
+
+impl Bench {
+    pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
+        let common = self.study.common();
+        let progress = Progress::default();
+        let stop = || cancel.load(Ordering::SeqCst);
+        let session = Session { seed: common.seed, stop: &stop, cancel, progress: &|what| progress.show(what) };
+        let report = self.study.run(&session);
+        progress.clear();
+        let report = report.map_err(|error| failure(error, cancel))?;
+        if let Some(folder) = &common.out {
+            write(&report, folder, cancel)?;
+        }
+        if common.json { say_json(out, &report.json()) } else { say(out, &report.text()) }
+    }
+}
+
+fn quality_of(effort: Effort) -> Quality {
+    match effort {
+        Effort::Draft => Quality::Draft,
+        Effort::Balanced => Quality::Balanced,
+        Effort::Accurate => Quality::Accurate,
+    }
+}
+
+/// Tables and plots in a folder that appears whole or not at all.
+fn write(report: &Report, path: &Path, cancel: &AtomicBool) -> Result<(), CommandError> {
+    check_cancel(cancel)?;
+    let staged = Staged::beside(path)?;
+    let put = |name: String, text: String| {
+        std::fs::write(staged.folder().join(name), text).map_err(|e| CommandError::write(path, e))
+    };
+    for table in &report.tables {
+        put(format!("{}.csv", table.name), table.csv())?;
+    }
+    for plot in &report.plots {
+        put(format!("{}.svg", plot.name), plot.svg().map_err(|e| failure(e, cancel))?)?;
+    }
+    put("report.txt".into(), report.text() + "\n")?;
+    staged.commit(cancel)
+}
+
+fn failure(error: BenchError, cancel: &AtomicBool) -> CommandError {
+    match error {
+        BenchError::Cancelled => CommandError::Cancelled,
+        _ if cancel.load(Ordering::SeqCst) => CommandError::Cancelled,
+        BenchError::NoSuchShape(_) | BenchError::Mesh { .. } => CommandError::Usage(error.to_string()),
+        other => CommandError::Failed(other.to_string()),
+    }
+}
+
+/// One line on a terminal's standard error that says what is being worked on.
+#[derive(Default)]
+struct Progress {
+    shown: Cell<usize>,
+}
+
+impl Progress {
+    fn show(&self, what: &str) {
+        if std::io::stderr().is_terminal() {
+            eprint!("\r{what:width$}", width = self.shown.get());
+            self.shown.set(what.chars().count());
+        }
+    }
+
+    fn clear(&self) {
+        let shown = self.shown.take();
+        if shown > 0 {
+            eprint!("\r{:shown$}\r", "");
+        }
+    }
+}
