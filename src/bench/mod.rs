@@ -28,11 +28,10 @@ pub mod resolution;
 pub mod scene;
 pub mod shapes;
 pub mod statistics;
-mod stub_tracker;
 pub mod trade;
 
+pub use crate::soft_ik::{Quality, Tracker};
 pub use report::{Cell, Report, Table};
-pub use stub_tracker::{Quality, Tracker};
 
 use crate::mesh::MeshError;
 use crate::physics::{Cause, ModelError};

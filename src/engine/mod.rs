@@ -11,7 +11,7 @@ pub mod solver;
 pub mod trial;
 pub mod worker;
 
-pub use crate::problem::Quality;
+pub use crate::soft_ik::Quality;
 pub use propose::propose;
 pub use solver::{Effort, Solver};
 

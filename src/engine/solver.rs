@@ -2,18 +2,14 @@
 
 use super::compile::{Plushie, View, compile, objective};
 use super::trial::{SAME_STATE, WINDING_STEPS};
-use super::{Outcome, Question, Request, Shape};
+use super::{Outcome, Quality, Question, Request, Shape};
 use crate::design::{Design, Target};
 use crate::soft_ik::contraction::GaussNewton;
 use crate::soft_ik::tension::AllAtOnce;
-use crate::soft_ik::{self, Actuation, Answer, Budget, Method, Posture, default_method};
+use crate::soft_ik::{self, Actuation, Answer, Budget, Method, Posture, Tracker, default_method};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-/// Iterations of the fibres' solver for one request of the studio.
-const FIBER_ITERATIONS: usize = 40;
-/// Iterations of the winches' solver for one request of the studio.
-const WINCH_ITERATIONS: usize = 20;
 /// Iterations of each method where there is time (checks, rigging).
 const THOROUGH_ITERATIONS: usize = 200;
 
@@ -25,7 +21,7 @@ const WORTH_RESTARTING: f64 = 0.98;
 /// How much work a pose is worth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effort {
-    /// Warm-started, one start: while a hand drags.
+    /// Warm-started, within the budget of the request's quality: while a hand drags.
     Interactive,
     /// From rest, several starts: for figures that are kept.
     Thorough,
@@ -43,6 +39,15 @@ struct Compiled {
     source: Design,
     plushie: Plushie,
     last: Option<Posture>,
+    /// Follows the hand, with the targets that it follows.
+    tracker: Option<(Vec<Target>, Tracker)>,
+}
+
+/// How much work a view is worth.
+struct Work<'a> {
+    effort: Effort,
+    quality: Quality,
+    cancel: &'a AtomicBool,
 }
 
 impl Solver {
@@ -54,15 +59,16 @@ impl Solver {
     /// The same with a stated effort. The realizable plushie comes first; its activations are held in the idealized one.
     pub fn solve_with(&mut self, request: &Request, effort: Effort, cancel: &AtomicBool) -> Outcome {
         let design = &request.design;
+        let work = Work { effort, quality: request.quality, cancel };
         let [_, needed] = request.solves();
-        let realizable = needed.then(|| realize(&mut self.realizable, design, &request.question, effort, cancel));
+        let realizable = needed.then(|| realize(&mut self.realizable, design, &request.question, &work));
         let idealized = request.show_idealized.then(|| {
             let activations = match (&realizable, &request.question) {
                 (Some(shape), _) => shape.activations_mm.clone(),
                 (None, Question::Activations(given)) => given.clone(),
                 (None, Question::Targets(_)) => vec![0.0; design.networks.len()],
             };
-            idealize(&mut self.idealized, design, &request.question, &activations, effort, cancel)
+            idealize(&mut self.idealized, design, &request.question, &activations, &work)
         });
         let realizable = realizable.filter(|_| request.show_realizable);
         Outcome { id: request.id, idealized, realizable, refined: effort == Effort::Thorough }
@@ -70,19 +76,13 @@ impl Solver {
 }
 
 /// The winches alone, towards the targets or at given activations.
-fn realize(
-    slot: &mut Option<Compiled>,
-    design: &Design,
-    question: &Question,
-    effort: Effort,
-    cancel: &AtomicBool,
-) -> Shape {
+fn realize(slot: &mut Option<Compiled>, design: &Design, question: &Question, work: &Work) -> Shape {
     let clock = Instant::now();
     let compiled = match compiled(slot, design, View::Realizable) {
         Ok(compiled) => compiled,
         Err(message) => return Shape::at_rest(design, message),
     };
-    let plushie = &mut compiled.plushie;
+    let plushie = &compiled.plushie;
     let (targets, actuation, beta) = match question {
         Question::Targets(targets) => {
             let free = Actuation { winches: plushie.winches.clone(), fixed: vec![0.0; plushie.tendons.len()] };
@@ -94,13 +94,12 @@ fn realize(
             (&[][..], held, Vec::new())
         }
     };
-    let last = compiled.last.take().filter(|p| p.beta.len() == beta.len());
-    let answer = run(design, plushie, targets, &actuation, last, beta, effort, cancel);
+    let answer = compiled.answer(design, targets, &actuation, beta, work);
+    let plushie = &compiled.plushie;
     let mut shape = report(design, plushie, targets, &answer.posture, clock).counted(&answer);
     if let Question::Activations(beta) = question {
         shape.activations_mm = beta.clone();
     }
-    compiled.last = Some(answer.posture);
     shape
 }
 
@@ -110,15 +109,14 @@ fn idealize(
     design: &Design,
     question: &Question,
     activations: &[f64],
-    effort: Effort,
-    cancel: &AtomicBool,
+    work: &Work,
 ) -> Shape {
     let clock = Instant::now();
     let compiled = match compiled(slot, design, View::Idealized) {
         Ok(compiled) => compiled,
         Err(message) => return Shape::at_rest(design, message),
     };
-    let plushie = &mut compiled.plushie;
+    let plushie = &compiled.plushie;
     let count = plushie.fiber_elements.end;
     let all = Actuation { winches: plushie.winches.clone(), fixed: vec![0.0; count] };
     let fixed = all.contractions(activations);
@@ -128,83 +126,113 @@ fn idealize(
     };
     let beta = vec![0.0; winches.len()];
     let actuation = Actuation { winches, fixed };
-    let last = compiled.last.take().filter(|p| p.beta.len() == beta.len());
-    let answer = run(design, plushie, targets, &actuation, last, beta, effort, cancel);
+    let answer = compiled.answer(design, targets, &actuation, beta, work);
+    let plushie = &compiled.plushie;
     let mut shape = report(design, plushie, targets, &answer.posture, clock).counted(&answer);
     shape.activations_mm = activations.to_vec();
     let contractions = actuation.contractions(&answer.posture.beta);
     let tensions = plushie.model.contractile.tensions(&answer.posture.x);
     shape.fiber_contractions_mm = contractions[plushie.fiber_elements.clone()].to_vec();
     shape.fiber_tensions = tensions[plushie.fiber_elements.clone()].to_vec();
-    compiled.last = Some(answer.posture);
     shape
 }
 
-/// Solves one view. Without targets there is no inverse problem: statics alone, at activations zero.
-#[allow(clippy::too_many_arguments)]
-fn run(
-    design: &Design,
-    plushie: &mut Plushie,
-    targets: &[Target],
-    actuation: &Actuation,
-    last: Option<Posture>,
-    beta: Vec<f64>,
-    effort: Effort,
-    cancel: &AtomicBool,
-) -> Answer {
-    let objective = objective(design, plushie, targets);
-    let fibers = !plushie.fiber_elements.is_empty();
-    let rest = plushie.model.rest.clone();
-    let mut question = soft_ik::Question { model: &mut plushie.model, actuation, objective: &objective };
-    let stop = || cancel.load(Ordering::Relaxed);
-    let (start, factorizations) = match last {
-        Some(last) if !targets.is_empty() => question.settle(&last.beta, &last.x, &stop),
-        Some(last) => question.settle(&beta, &last.x, &stop),
-        None => question.settle(&beta, &rest, &stop),
-    };
-    if targets.is_empty() || actuation.winches.is_empty() {
-        let converged = start.in_equilibrium;
-        return Answer { posture: start, iterations: 0, factorizations, converged };
+impl Compiled {
+    /// Solves one view. Without targets there is no inverse problem: statics alone, at activations `beta`.
+    fn answer(
+        &mut self,
+        design: &Design,
+        targets: &[Target],
+        actuation: &Actuation,
+        beta: Vec<f64>,
+        work: &Work,
+    ) -> Answer {
+        let objective = objective(design, &self.plushie, targets);
+        let fibers = !self.plushie.fiber_elements.is_empty();
+        let rest = self.plushie.model.rest.clone();
+        let mut question = soft_ik::Question { model: &mut self.plushie.model, actuation, objective: &objective };
+        let stop = || work.cancel.load(Ordering::Relaxed);
+        let last = self.last.take().filter(|p| p.beta.len() == beta.len());
+        let posing = !targets.is_empty() && !actuation.winches.is_empty();
+        let same = |followed: &[Target]| {
+            followed.len() == targets.len()
+                && followed.iter().zip(targets).all(|(a, b)| a.at == b.at && a.weight == b.weight)
+        };
+        let tracker = self.tracker.take().filter(|(followed, _)| posing && same(followed));
+        if let (Effort::Interactive, Some((_, mut tracker))) = (work.effort, tracker) {
+            let frame = tracker.frame(&mut question, work.quality, &stop);
+            let answer = answered(&tracker, &frame);
+            self.tracker = Some((targets.to_vec(), tracker));
+            self.last = Some(answer.posture.clone());
+            return answer;
+        }
+        let (from, x) = match &last {
+            Some(last) if posing => (&last.beta, &last.x),
+            Some(last) => (&beta, &last.x),
+            None => (&beta, &rest),
+        };
+        let (start, factorizations) = question.settle(from, x, &stop);
+        let mut answer = if !posing {
+            let converged = start.in_equilibrium;
+            Answer { posture: start, iterations: 0, factorizations: 0, converged }
+        } else if work.effort == Effort::Interactive {
+            let mut tracker = Tracker::new(&mut question, &start);
+            let frame = tracker.frame(&mut question, work.quality, &stop);
+            let answer = answered(&tracker, &frame);
+            self.tracker = Some((targets.to_vec(), tracker));
+            answer
+        } else if fibers {
+            pull_thoroughly(&mut question, &start, &stop)
+        } else {
+            wind_thoroughly(&mut question, &start, &beta, &stop)
+        };
+        answer.factorizations += factorizations;
+        self.last = Some(answer.posture.clone());
+        answer
     }
-    let mut answer = match effort {
-        Effort::Thorough if !fibers => {
-            let budget = Budget { iterations: THOROUGH_ITERATIONS, stop: &stop };
-            let mut answer = default_method::Default.solve(&mut question, &start, &budget);
-            // A state that winding from rest does not lead to is not one to promise.
-            let (zero, _) = question.settle(&beta, &rest, &stop);
-            let (wound, factorizations) = question.wind(&zero, &answer.posture.beta, WINDING_STEPS, &stop);
-            answer.factorizations += factorizations;
-            if wound.objective > SAME_STATE * answer.posture.objective {
-                answer = GaussNewton::default().solve(&mut question, &wound, &budget);
-            }
-            answer
-        }
-        Effort::Thorough => {
-            let budget = Budget { iterations: THOROUGH_ITERATIONS, stop: &stop };
-            let mut answer = AllAtOnce::default().solve(&mut question, &start, &budget);
-            for _ in 0..RESTARTS {
-                if answer.converged {
-                    break;
-                }
-                let again = AllAtOnce::default().solve(&mut question, &answer.posture, &budget);
-                let gained = again.posture.objective < WORTH_RESTARTING * answer.posture.objective;
-                let iterations = answer.iterations + again.iterations;
-                let factorizations = answer.factorizations + again.factorizations;
-                answer = Answer { iterations, factorizations, ..again };
-                if !gained {
-                    break;
-                }
-            }
-            answer
-        }
-        Effort::Interactive if fibers => {
-            AllAtOnce::default().solve(&mut question, &start, &Budget { iterations: FIBER_ITERATIONS, stop: &stop })
-        }
-        Effort::Interactive => {
-            GaussNewton::default().solve(&mut question, &start, &Budget { iterations: WINCH_ITERATIONS, stop: &stop })
-        }
-    };
+}
+
+fn answered(tracker: &Tracker, frame: &soft_ik::Frame) -> Answer {
+    Answer {
+        posture: tracker.posture().clone(),
+        iterations: frame.iterations,
+        factorizations: frame.factorizations,
+        converged: frame.converged,
+    }
+}
+
+/// The winches from several starts, ending in a state that winding from rest leads to.
+fn wind_thoroughly(question: &mut soft_ik::Question, start: &Posture, zero: &[f64], stop: &dyn Fn() -> bool) -> Answer {
+    let budget = Budget { iterations: THOROUGH_ITERATIONS, stop };
+    let mut answer = default_method::Default.solve(question, start, &budget);
+    // A state that winding from rest does not lead to is not one to promise.
+    let rest = question.model.rest.clone();
+    let (zero, _) = question.settle(zero, &rest, stop);
+    let (wound, factorizations) = question.wind(&zero, &answer.posture.beta, WINDING_STEPS, stop);
     answer.factorizations += factorizations;
+    if wound.objective > SAME_STATE * answer.posture.objective {
+        answer = GaussNewton::default().solve(question, &wound, &budget);
+    }
+    answer
+}
+
+/// The fibres, begun anew where they have not converged.
+fn pull_thoroughly(question: &mut soft_ik::Question, start: &Posture, stop: &dyn Fn() -> bool) -> Answer {
+    let budget = Budget { iterations: THOROUGH_ITERATIONS, stop };
+    let mut answer = AllAtOnce::default().solve(question, start, &budget);
+    for _ in 0..RESTARTS {
+        if answer.converged {
+            break;
+        }
+        let again = AllAtOnce::default().solve(question, &answer.posture, &budget);
+        let gained = again.posture.objective < WORTH_RESTARTING * answer.posture.objective;
+        let iterations = answer.iterations + again.iterations;
+        let factorizations = answer.factorizations + again.factorizations;
+        answer = Answer { iterations, factorizations, ..again };
+        if !gained {
+            break;
+        }
+    }
     answer
 }
 
@@ -214,7 +242,7 @@ fn compiled<'a>(slot: &'a mut Option<Compiled>, design: &Design, view: View) -> 
         Some(compiled) => compiled,
         None => {
             let plushie = compile(design, view).map_err(|e| e.to_string())?;
-            Compiled { source: body_of(design), plushie, last: None }
+            Compiled { source: body_of(design), plushie, last: None, tracker: None }
         }
     };
     Ok(slot.insert(compiled))

@@ -66,9 +66,10 @@ pub struct Cholesky {
 pub struct NotPositiveDefinite;
 
 impl Cholesky {
-    /// Symbolic analysis of the default variant; `None` only if the factor would not fit into memory.
+    /// Symbolic analysis in the variant that `bench linear` finds the fastest, or near it, at every size; `None` only if the
+    /// factor would not fit into memory.
     pub fn new(pattern: &Pattern) -> Option<Self> {
-        Self::with(pattern, &Variant::default())
+        Self::with(pattern, &Variant { ordering: Ordering::NodeMinimumDegree, kernel: Kernel::Supernodal(&[]) })
     }
 
     /// Symbolic analysis; `None` only if the factor would not fit into memory. Panics where an order of nodes is not a

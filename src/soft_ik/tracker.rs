@@ -82,6 +82,10 @@ pub struct Frame {
 pub struct Tracker {
     posture: Posture,
     goals: Vec<[f64; 2]>,
+    /// Contractions of what does not belong to the free winches.
+    fixed: Vec<f64>,
+    /// Whether the winches' method had converged.
+    wound: bool,
     fibers: Option<Fibers>,
     statics: statics::Workspace,
     contractions: Vec<f64>,
@@ -143,6 +147,8 @@ impl Tracker {
         Self {
             posture: start.clone(),
             goals: question.objective.targets.iter().map(|t| t.goal).collect(),
+            fixed: question.actuation.fixed.clone(),
+            wound: false,
             fibers,
             statics: statics::Workspace::default(),
             contractions: vec![0.0; elements],
@@ -157,19 +163,22 @@ impl Tracker {
     }
 
     /// One frame towards the targets of the question: those of the frames before (the same points of the body, with the same
-    /// weights), at their present goals. `stop` is asked between factorisations.
+    /// weights), at their present goals; fixed contractions may have changed. `stop` is asked between factorisations. Leaves
+    /// the contractions of the pose in the model.
     pub fn frame(&mut self, question: &mut Question, quality: Quality, stop: &dyn Fn() -> bool) -> Frame {
         let budget = quality.factorizations(self.posture.beta.len());
         let targets = &question.objective.targets;
-        let moved = self.goals.iter().zip(targets).any(|(g, t)| *g != t.goal);
+        let pulled = self.fixed != question.actuation.fixed;
+        let moved = pulled || self.goals.iter().zip(targets).any(|(g, t)| *g != t.goal);
         self.goals.clear();
         self.goals.extend(targets.iter().map(|t| t.goal));
+        self.fixed.copy_from_slice(&question.actuation.fixed);
         let Some(mut fibers) = self.fibers.take() else {
-            return self.wind(question, budget, stop);
+            return self.wind(question, moved, budget, stop);
         };
         fibers.work.phases = Phases::default();
         let mut frame = Frame::default();
-        let fresh = fibers.follow(question, moved, budget, quality.step_tolerance(), &mut frame, stop);
+        let fresh = fibers.follow(question, moved, pulled, budget, quality.step_tolerance(), &mut frame, stop);
         if fresh {
             self.show(question, &mut fibers, quality, budget, &mut frame, stop);
         }
@@ -178,6 +187,8 @@ impl Tracker {
         frame.force_scale = fibers.work.forces;
         frame.phases = fibers.work.phases;
         self.fibers = Some(fibers);
+        question.actuation.contractions_into(&self.posture.beta, &mut self.contractions);
+        question.model.contractile.set_contractions(&self.contractions);
         frame
     }
 
@@ -223,18 +234,20 @@ impl Tracker {
     }
 
     /// Winches of several elements: Gauss-Newton in their few activations, every trial an equilibrium.
-    fn wind(&mut self, question: &mut Question, budget: usize, stop: &dyn Fn() -> bool) -> Frame {
+    fn wind(&mut self, question: &mut Question, moved: bool, budget: usize, stop: &dyn Fn() -> bool) -> Frame {
         let clock = Instant::now();
         question.actuation.contractions_into(&self.posture.beta, &mut self.contractions);
         question.model.contractile.set_contractions(&self.contractions);
         self.posture.objective = question.objective_at(&self.posture.x, &self.contractions);
-        let answer = GaussNewton::default().solve(question, &self.posture, &Budget { iterations: budget, stop });
+        let iterations = if moved || !self.wound { budget } else { 0 };
+        let answer = GaussNewton::default().solve(question, &self.posture, &Budget { iterations, stop });
+        self.wound = answer.converged || iterations == 0;
         self.posture = answer.posture;
         let phases = Phases { line_search: clock.elapsed().as_secs_f64(), ..Phases::default() };
         Frame {
             iterations: answer.iterations,
             factorizations: answer.factorizations,
-            converged: answer.converged,
+            converged: self.wound,
             residual: self.posture.residual,
             force_scale: question.model.force_scale_into(&self.posture.x, &mut self.trial),
             phases,
@@ -248,6 +261,7 @@ impl Fibers {
         &mut self,
         question: &mut Question,
         moved: bool,
+        pulled: bool,
         budget: usize,
         tolerance: f64,
         frame: &mut Frame,
@@ -256,7 +270,7 @@ impl Fibers {
         if moved {
             self.stage = Stage::Following;
             self.waited = 0;
-            self.run.retarget(question, &mut self.work);
+            self.run.retarget(question, pulled, &mut self.work);
         } else {
             self.waited += 1;
         }

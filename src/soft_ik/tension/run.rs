@@ -197,7 +197,7 @@ impl Run {
             mark: f64::INFINITY,
             returned: false,
         };
-        run.retarget(question, work);
+        run.retarget(question, false, work);
         run
     }
 
@@ -210,11 +210,12 @@ impl Run {
         }
         self.nu = FIRST_PROXIMAL * work.rho;
         self.take_best(f64::INFINITY);
-        self.retarget(question, work);
+        self.retarget(question, true, work);
     }
 
-    /// Takes note of new targets: `O` of the state, and of the best one, is no longer what it was.
-    pub fn retarget(&mut self, question: &mut Question, work: &mut Workspace) {
+    /// Takes note of new targets: `O` of the state, and of the best one, is no longer what it was. `pulled`: fixed contractions
+    /// changed too, so that neither is in equilibrium any more.
+    pub fn retarget(&mut self, question: &mut Question, pulled: bool, work: &mut Workspace) {
         self.pull = FIRST_PULL * work.size;
         self.nu = self.nu.min(LARGEST_FIRST * work.rho);
         self.reach = LONGEST_STEP;
@@ -228,6 +229,7 @@ impl Run {
         self.set_laws(question);
         work.forces = question.model.force_scale_into(&self.x, &mut work.trial);
         self.best.objective = value(&self.best.x, &self.best.fibers, question, work.rho);
+        self.returned = pulled;
         self.gradient_now(question, work);
     }
 
