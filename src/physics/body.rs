@@ -136,17 +136,20 @@ impl Energy for Body {
                 c = project(c);
             }
             c *= self.weights[k];
-            let b = &self.gradients[k];
+            // Columns of `C h`, the change of stress per displacement of each node along x and y.
+            let g = &self.gradients[k];
+            let by_node = g.map(|h| {
+                let column = |j: usize| [0, 1, 2, 3].map(|i| c[(i, j)] * h[0] + c[(i, j + 2)] * h[1]);
+                [column(0), column(1)]
+            });
             out.add(k, |p, q| {
-                let (g, h) = (b[p], b[q]);
-                let mut block = [0.0; 4];
-                for (i, row) in [0, 1].into_iter().enumerate() {
-                    for (j, column) in [0, 1].into_iter().enumerate() {
-                        block[2 * i + j] = g[0] * (c[(row, column)] * h[0] + c[(row, column + 2)] * h[1])
-                            + g[1] * (c[(row + 2, column)] * h[0] + c[(row + 2, column + 2)] * h[1]);
-                    }
-                }
-                block
+                let (g, [x, y]) = (g[p], &by_node[q]);
+                [
+                    g[0] * x[0] + g[1] * x[2],
+                    g[0] * y[0] + g[1] * y[2],
+                    g[0] * x[1] + g[1] * x[3],
+                    g[0] * y[1] + g[1] * y[3],
+                ]
             });
         }
     }

@@ -27,7 +27,7 @@ pub enum Quality {
 }
 
 /// Fibres times factorisations of a balanced frame: about 16 ms on one core.
-const BALANCED_WORK: usize = 20_000;
+const BALANCED_WORK: usize = 12_000;
 /// Most factorisations of a balanced frame: more than converge a warm one.
 const BALANCED_FACTORIZATIONS: usize = 24;
 const DRAFT_PART: usize = 4;
@@ -92,6 +92,7 @@ pub struct Tracker {
     /// The posture of the frame is being changed here, so that a failure leaves the last one.
     trial: Vec<f64>,
     beta: Vec<f64>,
+    forces: Vec<f64>,
 }
 
 /// What the fibres' method keeps between frames.
@@ -153,6 +154,7 @@ impl Tracker {
             statics: statics::Workspace::default(),
             contractions: vec![0.0; elements],
             trial: start.x.clone(),
+            forces: start.x.clone(),
             beta: start.beta.clone(),
         }
     }
@@ -212,22 +214,27 @@ impl Tracker {
         let small = Quality::Balanced.factorizations(self.beta.len()) >= SMALL;
         let whole = small || quality == Quality::Accurate;
         let left = if whole { SETTLING_STEPS } else { budget.saturating_sub(frame.factorizations) };
+        question.model.gradient(&self.trial, &mut self.forces);
+        let mut residual = statics::norm(&self.forces);
+        let mut scale = question.model.force_scale_into(&self.trial, &mut self.forces);
         let mut settle = |tolerance: f64, max_iterations: usize, x: &mut [f64]| {
             let settings = StaticsSettings { tolerance, stagnation_tolerance: tolerance.max(1e-8), max_iterations };
             let done = statics::settle(question.model, x, &settings, stop, &mut self.statics);
             frame.factorizations += done.factorizations;
-            done
+            (done.residual, done.force_scale)
         };
-        let mut done = settle(SETTLED, left, &mut self.trial);
-        if done.residual > SHOWN * done.force_scale {
-            done = settle(SHOWN, SETTLING_STEPS, &mut self.trial);
+        if left > 0 {
+            (residual, scale) = settle(SETTLED, left, &mut self.trial);
         }
-        fibers.work.forces = done.force_scale;
-        if done.residual <= SHOWN * done.force_scale || !self.posture.in_equilibrium {
+        if residual > SHOWN * scale {
+            (residual, scale) = settle(SHOWN, SETTLING_STEPS, &mut self.trial);
+        }
+        fibers.work.forces = scale;
+        if residual <= SHOWN * scale || !self.posture.in_equilibrium {
             std::mem::swap(&mut self.posture.x, &mut self.trial);
             std::mem::swap(&mut self.posture.beta, &mut self.beta);
-            self.posture.residual = done.residual;
-            self.posture.in_equilibrium = done.residual <= SHOWN * done.force_scale;
+            self.posture.residual = residual;
+            self.posture.in_equilibrium = residual <= SHOWN * scale;
         }
         self.posture.objective = question.objective.position_value(&self.posture.x);
         fibers.work.phases.line_search += clock.elapsed().as_secs_f64();

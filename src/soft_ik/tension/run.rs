@@ -47,6 +47,8 @@ const LONGEST_STEP: f64 = 0.2;
 const SHORTEST_STEP: f64 = 0.05;
 /// First limit on the pull of a single target, as a part of the body; it doubles until it limits nothing.
 const FIRST_PULL: f64 = 0.3;
+/// A Newton step is taken without a line search where at most this part of the unbalanced forces is left after it.
+const BALANCING: f64 = 0.5;
 /// Residual, as a part of the forces at work, up to which `O` of a state is taken for that of the equilibrium nearby.
 const NEAR_EQUILIBRIUM: f64 = 1e-2;
 
@@ -121,6 +123,9 @@ pub(in crate::soft_ik) struct Workspace {
     dx: Vec<f64>,
     pulled: Vec<f64>,
     trial: Vec<f64>,
+    forces_there: Vec<f64>,
+    /// The largest unbalanced force before the step, under the tensions that it chose.
+    unbalanced: f64,
     dual: Dual,
     /// `rho`, never zero.
     rho: f64,
@@ -130,7 +135,7 @@ pub(in crate::soft_ik) struct Workspace {
     pub size: f64,
     /// A length of the elements' order.
     scale: f64,
-    /// The forces at work when targets were last set; tensions since then may be larger.
+    /// The forces at work when a pose was last shown; tensions since then may be larger.
     pub forces: f64,
     pub phases: Phases,
 }
@@ -159,6 +164,8 @@ impl Workspace {
             dx: vec![0.0; n],
             pulled: vec![0.0; n],
             trial: vec![0.0; n],
+            forces_there: vec![0.0; n],
+            unbalanced: 0.0,
             dual: Dual::default(),
             rho: if weight > 0.0 { weight } else { crate::defaults::TENSION_WEIGHT / (mu * mu) },
             softness: SOFT * mu,
@@ -197,7 +204,8 @@ impl Run {
             mark: f64::INFINITY,
             returned: false,
         };
-        run.retarget(question, false, work);
+        run.retarget(question, true, work);
+        run.returned = false;
         run
     }
 
@@ -209,8 +217,10 @@ impl Run {
             *fiber = Fiber::new(winch, *beta, elements, x, work.softness);
         }
         self.nu = FIRST_PROXIMAL * work.rho;
+        self.q.fill(0.0);
         self.take_best(f64::INFINITY);
         self.retarget(question, true, work);
+        self.returned = false;
     }
 
     /// Takes note of new targets: `O` of the state, and of the best one, is no longer what it was. `pulled`: fixed contractions
@@ -226,11 +236,13 @@ impl Run {
         for fiber in &mut self.fibers {
             fiber.releases = 0;
         }
-        self.set_laws(question);
-        work.forces = question.model.force_scale_into(&self.x, &mut work.trial);
         self.best.objective = value(&self.best.x, &self.best.fibers, question, work.rho);
-        self.returned = pulled;
-        self.gradient_now(question, work);
+        if pulled {
+            self.returned = true;
+            self.set_laws(question);
+            work.forces = question.model.force_scale_into(&self.x, &mut work.trial);
+            self.gradient_now(question, work);
+        }
     }
 
     /// Puts the present laws of all elements into the model.
@@ -283,6 +295,7 @@ impl Run {
                 *d = -u;
             }
             work.next.copy_from_slice(&work.now);
+            work.unbalanced = statics::norm(&self.gradient);
             self.before = None;
         } else {
             self.choose(question, work);
@@ -295,18 +308,18 @@ impl Run {
             fiber.take(&elements[fiber.element], work.cables.lengths[k], work.next[k], work.limits[k]);
         }
         self.set_laws(question);
-        let step = self.search(question, work);
+        let step = self.search(question, form, work);
         let mut changed = false;
         work.cables.update(&self.x, work.scale);
         let elements = &question.model.contractile.elements;
-        for (fiber, length) in self.fibers.iter_mut().zip(&work.cables.lengths) {
-            changed |= fiber.update(&elements[fiber.element], *length);
-        }
-        if changed {
-            self.set_laws(question);
+        for (k, fiber) in self.fibers.iter_mut().enumerate() {
+            let (before, prescribed) = (fiber.tension, fiber.held.is_none());
+            changed |= fiber.update(&elements[fiber.element], work.cables.lengths[k]);
+            if prescribed && fiber.tension != before {
+                work.cables.add_gradient(k, fiber.tension - before, &mut self.gradient);
+            }
         }
         work.phases.line_search += clock.elapsed().as_secs_f64();
-        self.gradient_now(question, work);
         if limited && step >= 0.5 {
             self.pull *= 2.0;
         }
@@ -364,12 +377,15 @@ impl Run {
                 work.by_node[d * columns + c] = *v;
             }
         }
-        work.jacobian.resize(self.fibers.len() * rows, 0.0);
+        let count = self.fibers.len();
+        work.jacobian.resize(count * rows, 0.0);
         work.row.resize(columns, 0.0);
         let elements = &question.model.contractile.elements;
         for (k, fiber) in self.fibers.iter().enumerate() {
             work.cables.rates(k, &work.by_node, &mut work.row);
-            work.jacobian[k * rows..(k + 1) * rows].copy_from_slice(&work.row[..rows]);
+            for (r, rate) in work.row[..rows].iter().enumerate() {
+                work.jacobian[r * count + k] = *rate;
+            }
             work.linear[k] = work.row[rows];
             work.now[k] = fiber.tension;
             work.limits[k] = fiber.limits(&elements[fiber.element], work.cables.lengths[k]);
@@ -397,7 +413,7 @@ impl Run {
         let most = self.reach * work.size;
         self.q.resize(rows, 0.0);
         let mut q = std::mem::take(&mut self.q);
-        if self.before.is_none() {
+        if q.iter().all(|q| *q == 0.0) {
             q.copy_from_slice(&work.residual);
         }
         for _ in 0..8 {
@@ -421,6 +437,7 @@ impl Run {
                     work.cables.add_gradient(k, -change, &mut work.dx);
                 }
             }
+            work.unbalanced = self.gradient.iter().zip(&work.dx).fold(0.0, |m, (g, d)| f64::max(m, (g - d).abs()));
             question.model.solve(&mut work.dx);
             let u = &work.solved[(rows + 1) * n..];
             for (d, u) in work.dx.iter_mut().zip(u) {
@@ -437,41 +454,55 @@ impl Run {
 
     /// The decrease of `O` that the linearised model promises for the chosen tensions.
     fn promise(&self, work: &mut Workspace) -> f64 {
-        let rows = work.residual.len();
+        let count = work.now.len();
         let mut promised = 0.0;
-        work.row[..rows].copy_from_slice(&work.residual);
-        for (k, j) in work.jacobian.chunks_exact(rows.max(1)).enumerate() {
+        for k in 0..count {
             let (now, next) = (work.now[k], work.next[k]);
             promised -= (work.linear[k] + 0.5 * work.rho * (next + now)) * (next - now);
-            for (r, j) in work.row.iter_mut().zip(j) {
-                *r += j * (next - now);
-            }
         }
-        for (r, after) in work.residual.iter().zip(&work.row) {
-            promised += 0.5 * (r - after) * (r + after);
+        for (r, row) in work.residual.iter().zip(work.jacobian.chunks_exact(count.max(1))) {
+            let change: f64 = row.iter().zip(&work.next).zip(&work.now).map(|((j, next), now)| j * (next - now)).sum();
+            promised -= change * (r + 0.5 * change);
         }
         promised
     }
 
-    /// Moves `x` along `dx`: capped before inversion, then Armijo on `E(.; tau)`. Returns the step taken.
-    fn search(&mut self, question: &Question, work: &mut Workspace) -> f64 {
+    /// Moves `x` along `dx`, capped before inversion, and leaves the forces there in `gradient`. Returns the step taken.
+    ///
+    /// A full Newton step that balances most forces is taken at once: the forces are needed anyway. Else Armijo on
+    /// `E(.; tau)`.
+    fn search(&mut self, question: &Question, form: HessianForm, work: &mut Workspace) -> f64 {
         let model = &*question.model;
-        model.gradient(&self.x, &mut work.trial);
-        let slope: f64 = work.trial.iter().zip(&work.dx).map(|(g, d)| g * d).sum();
+        let limit = model.step_limit(&self.x, &work.dx);
+        if limit == 1.0 && form == HessianForm::Exact {
+            for ((p, x), d) in work.trial.iter_mut().zip(&self.x).zip(&work.dx) {
+                *p = x + d;
+            }
+            model.gradient(&work.trial, &mut work.forces_there);
+            if statics::norm(&work.forces_there) <= BALANCING * work.unbalanced {
+                std::mem::swap(&mut self.x, &mut work.trial);
+                std::mem::swap(&mut self.gradient, &mut work.forces_there);
+                return 1.0;
+            }
+        }
+        model.gradient(&self.x, &mut work.forces_there);
+        let slope: f64 = work.forces_there.iter().zip(&work.dx).map(|(g, d)| g * d).sum();
         let energy = model.energy(&self.x);
         let noise = 1e-12 * (energy.abs() + model.body.material().shear_modulus() * model.body.area());
-        let mut t = model.step_limit(&self.x, &work.dx);
+        let mut t = limit;
         for _ in 0..40 {
             for ((p, x), d) in work.trial.iter_mut().zip(&self.x).zip(&work.dx) {
                 *p = x + t * d;
             }
             let value = model.energy(&work.trial);
             if value <= energy + 1e-4 * t * slope.min(0.0) + noise {
-                self.x.copy_from_slice(&work.trial);
+                std::mem::swap(&mut self.x, &mut work.trial);
+                model.gradient(&self.x, &mut self.gradient);
                 return t;
             }
             t *= 0.5;
         }
+        std::mem::swap(&mut self.gradient, &mut work.forces_there);
         0.0
     }
 
