@@ -224,6 +224,8 @@ impl Energy for Contractile {
     }
 
     fn add_hessian(&self, x: &[f64], _form: HessianForm, out: &mut Scatter) {
+        let mut stack = [[0.0; 2]; ON_STACK];
+        let mut heap = Vec::new();
         for (k, (e, law)) in self.elements.iter().zip(&self.laws).enumerate() {
             let (tau, tangent) = law.tension_and_tangent(e, e.length(x));
             if tau == 0.0 && tangent == 0.0 {
@@ -233,9 +235,7 @@ impl Energy for Contractile {
                 add_straight(k, e, x, tau, tangent, out);
             } else {
                 let positions = &self.positions[k];
-                let mut stack = [[0.0; 2]; ON_STACK];
-                let mut heap = Vec::new();
-                let count = self.stencils[k].len().max(e.routing.len());
+                let count = e.routing.len();
                 let scratch = if 2 * count <= ON_STACK {
                     &mut stack[..2 * count]
                 } else {
@@ -261,8 +261,8 @@ impl Energy for Contractile {
     }
 }
 
-/// Entries of scratch memory that need no allocation: enough for a tendon through 64 nodes.
-const ON_STACK: usize = 128;
+/// Entries of scratch memory that need no allocation: 16 KiB, enough for a tendon through 512 nodes.
+const ON_STACK: usize = 1024;
 
 /// The Hessian of an element of one segment: `U'' u u^T + tau/l n n^T` between its ends, `n` normal to `u`.
 fn add_straight(k: usize, e: &Element, x: &[f64], tau: f64, tangent: f64, out: &mut Scatter) {
