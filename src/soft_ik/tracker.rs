@@ -4,12 +4,12 @@
 //! the best state that the run has seen there, settled with what is left of the frame's budget.
 //!
 //! A frame has no memory of bad states. Once the targets rest, a second run starts from the rest shape, in the frames that the
-//! first one no longer needs; where it ends no worse, its pose is taken. So the pose in which a drag comes to rest is the
-//! one that the targets alone lead to, or a better one.
+//! first one no longer needs; unless it ends far worse, its pose is taken. So the pose in which a drag comes to rest is the
+//! one that the targets alone lead to.
 
 use super::contraction::GaussNewton;
 use super::tension::{Run, Workspace};
-use super::{Budget, Method, Posture, Question};
+use super::{Budget, Method, Posture, Question, Winch};
 use crate::physics::StaticsSettings;
 use crate::physics::statics;
 use std::time::Instant;
@@ -93,6 +93,7 @@ pub struct Tracker {
     trial: Vec<f64>,
     beta: Vec<f64>,
     forces: Vec<f64>,
+    force_scale: f64,
 }
 
 /// What the fibres' method keeps between frames.
@@ -104,6 +105,8 @@ struct Fibers {
     stage: Stage,
     /// Frames since the targets moved.
     waited: usize,
+    /// The run is the challenger's until its pose was compared; whether it has converged.
+    deciding: Option<bool>,
 }
 
 /// Whose turn it is while the targets rest.
@@ -121,8 +124,11 @@ enum Stage {
 const CHALLENGE_AFTER: usize = 8;
 /// Iterations after which a challenger gives up.
 const CHALLENGE_ITERATIONS: usize = 120;
-/// The pose found from rest is taken where its `O` is at most this factor above that of the pose under the hand.
-const AS_GOOD: f64 = 1.001;
+/// The pose found from rest is taken where its `O` is at most this factor of that of the pose under the hand: close to the
+/// same value there are often several poses, and the one to rest in is the one that does not depend on the way there.
+const AS_GOOD: f64 = 2.0;
+/// The same for the pose of the next frame, which may be worse by rounding alone.
+const NO_WORSE: f64 = 1.0 + 1e-6;
 /// A pose is settled to this residual, as a part of the forces at work.
 const SETTLED: f64 = 1e-10;
 /// Scenes with at least this balanced budget are always settled to the end: a few factorisations more cost little there.
@@ -145,7 +151,7 @@ impl Tracker {
             let mut work = Workspace::new(question);
             let challenger = Run::new(question, &rest, &mut work);
             let run = Run::new(question, start, &mut work);
-            Fibers { work, run, challenger, rest, stage: Stage::Following, waited: 0 }
+            Fibers { work, run, challenger, rest, stage: Stage::Following, waited: 0, deciding: None }
         });
         Self {
             posture: start.clone(),
@@ -157,6 +163,7 @@ impl Tracker {
             contractions: vec![0.0; elements],
             trial: start.x.clone(),
             forces: start.x.clone(),
+            force_scale: 0.0,
             beta: start.beta.clone(),
         }
     }
@@ -184,11 +191,12 @@ impl Tracker {
         let mut frame = Frame::default();
         let fresh = fibers.follow(question, moved, pulled, budget, quality.step_tolerance(), &mut frame, stop);
         if fresh {
-            self.show(question, &mut fibers, quality, budget, &mut frame, stop);
+            let shown = self.show(question, &mut fibers, pulled, quality, budget, &mut frame, stop);
+            fibers.learn(question, shown, &self.posture);
         }
         frame.converged = fibers.stage == Stage::Done;
         frame.residual = self.posture.residual;
-        frame.force_scale = fibers.work.forces;
+        frame.force_scale = self.force_scale;
         frame.phases = fibers.work.phases;
         self.fibers = Some(fibers);
         question.actuation.contractions_into(&self.posture.beta, &mut self.contractions);
@@ -197,16 +205,19 @@ impl Tracker {
     }
 
     /// Takes the best state of the run, its actuators within their limits, settled: to the end where the budget allows, near
-    /// enough in any case.
+    /// enough in any case. The pose of the last frame stays where it is better, or where the new one does not settle.
+    /// Returns `O` of the new pose where that was taken.
+    #[allow(clippy::too_many_arguments)]
     fn show(
         &mut self,
         question: &mut Question,
         fibers: &mut Fibers,
+        pulled: bool,
         quality: Quality,
         budget: usize,
         frame: &mut Frame,
         stop: &dyn Fn() -> bool,
-    ) {
+    ) -> Option<f64> {
         let clock = Instant::now();
         let best = &fibers.run.best;
         self.trial.copy_from_slice(&best.x);
@@ -231,15 +242,21 @@ impl Tracker {
         if residual > SHOWN * scale {
             (residual, scale) = settle(SHOWN, SETTLING_STEPS, &mut self.trial);
         }
-        fibers.work.forces = scale;
-        if residual <= SHOWN * scale || !self.posture.in_equilibrium {
+        self.force_scale = scale;
+        let settled = residual <= SHOWN * scale;
+        let before = objective_of(question, &self.posture.x, &self.posture.beta);
+        let after = objective_of(question, &self.trial, &self.beta);
+        let margin = if fibers.deciding.is_some() { AS_GOOD } else { NO_WORSE };
+        let taken = !self.posture.in_equilibrium || settled && (pulled || after <= margin * before);
+        if taken {
             std::mem::swap(&mut self.posture.x, &mut self.trial);
             std::mem::swap(&mut self.posture.beta, &mut self.beta);
             self.posture.residual = residual;
-            self.posture.in_equilibrium = residual <= SHOWN * scale;
+            self.posture.in_equilibrium = settled;
         }
-        self.posture.objective = question.objective.position_value(&self.posture.x);
+        self.posture.objective = if taken { after } else { before };
         fibers.work.phases.line_search += clock.elapsed().as_secs_f64();
+        taken.then_some(after)
     }
 
     /// Winches of several elements: Gauss-Newton in their few activations, every trial an equilibrium.
@@ -302,12 +319,10 @@ impl Fibers {
                     let converged = self.step(question, frame, true, tolerance);
                     self.stage = Stage::Challenging(count + 1);
                     if converged || count >= CHALLENGE_ITERATIONS {
-                        let taken = self.challenger.best.objective <= AS_GOOD * self.run.best.objective;
-                        if taken {
-                            std::mem::swap(&mut self.run, &mut self.challenger);
-                            fresh = true;
-                        }
-                        self.stage = if taken && converged { Stage::Done } else { Stage::Finishing };
+                        // Whether it is as good is seen once it is settled.
+                        std::mem::swap(&mut self.run, &mut self.challenger);
+                        self.deciding = Some(converged);
+                        return true;
                     }
                 }
                 Stage::Finishing => {
@@ -322,6 +337,19 @@ impl Fibers {
         fresh
     }
 
+    /// Takes note of what became of the best state when it was settled and shown (`None`: it was not taken).
+    fn learn(&mut self, question: &mut Question, shown: Option<f64>, posture: &Posture) {
+        let deciding = self.deciding.take();
+        match (shown, deciding) {
+            (Some(objective), _) => self.run.best.objective = self.run.best.objective.max(objective),
+            (None, Some(_)) => std::mem::swap(&mut self.run, &mut self.challenger),
+            (None, None) => self.run.go_on_from(question, &posture.x, &posture.beta, &mut self.work),
+        }
+        if let Some(converged) = deciding {
+            self.stage = if shown.is_some() && converged { Stage::Done } else { Stage::Finishing };
+        }
+    }
+
     /// One iteration of the run or its challenger; whether it has converged (or cannot go on).
     fn step(&mut self, question: &mut Question, frame: &mut Frame, challenger: bool, tolerance: f64) -> bool {
         let run = if challenger { &mut self.challenger } else { &mut self.run };
@@ -334,4 +362,17 @@ impl Fibers {
             }
         }
     }
+}
+
+/// `O` with all free elements springs at activations `beta`, each of which winds one element. Without allocation.
+fn objective_of(question: &Question, x: &[f64], beta: &[f64]) -> f64 {
+    let objective = question.objective;
+    let elements = &question.model.contractile.elements;
+    let tension = |(winch, beta): (&Winch, &f64)| {
+        let (element, ratio) = winch.members[0];
+        let element = &elements[element];
+        element.tension(element.length(x) - element.alpha0 + ratio * beta)
+    };
+    let squares: f64 = question.actuation.winches.iter().zip(beta).map(tension).map(|t| t * t).sum();
+    objective.position_value(x) + 0.5 * objective.tension_weight * squares
 }

@@ -135,7 +135,7 @@ pub(in crate::soft_ik) struct Workspace {
     pub size: f64,
     /// A length of the elements' order.
     scale: f64,
-    /// The forces at work when a pose was last shown; tensions since then may be larger.
+    /// The forces at work where the run began; tensions since then may be larger.
     pub forces: f64,
     pub phases: Phases,
 }
@@ -223,6 +223,13 @@ impl Run {
         self.returned = false;
     }
 
+    /// Goes on from a posture that turned out better than the run's best, with shorter steps.
+    pub fn go_on_from(&mut self, question: &mut Question, x: &[f64], beta: &[f64], work: &mut Workspace) {
+        let nu = (self.nu * REJECTION_GROWTH).min(LARGEST_PROXIMAL * work.rho);
+        self.restart(question, x, beta, work);
+        self.nu = nu;
+    }
+
     /// Takes note of new targets: `O` of the state, and of the best one, is no longer what it was. `pulled`: fixed contractions
     /// changed too, so that neither is in equilibrium any more.
     pub fn retarget(&mut self, question: &mut Question, pulled: bool, work: &mut Workspace) {
@@ -230,6 +237,7 @@ impl Run {
         self.nu = self.nu.min(LARGEST_FIRST * work.rho);
         self.reach = LONGEST_STEP;
         self.adrift = 0;
+        self.unverified = 0;
         self.stagnant = 0;
         self.mark = f64::INFINITY;
         self.before = None;
