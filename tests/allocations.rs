@@ -66,7 +66,7 @@ const MOVING: usize = 30;
 const RESTING: usize = 150;
 
 fn check(parts: Parts, quality: Quality) {
-    let mut scene = Scene::new("Puppy", parts);
+    let mut scene = Scene::new("E", parts);
     let mut tracker = scene.tracker();
     for k in 0..WARMING {
         scene.drag(k, WARMING + MOVING);
@@ -128,12 +128,13 @@ fn a_long_tendon_allocates_nothing() {
     let mut model = mesh.model(bodies::neo_hookean(), vec![tendon], mesh.left_pins(10.0), Vec::new());
     model.contractile.set_contractions(&[0.1]);
     let (x, mut forces) = (mesh.flat(), vec![0.0; mesh.flat().len()]);
-    for _ in 0..2 {
-        let (_, count, largest) = allocations(|| {
-            model.gradient(&x, &mut forces);
-            assert_eq!(model.factorize_for_descent(&x), Ok(HessianForm::Exact));
-            model.solve(&mut forces);
-        });
-        assert_eq!(count, 0, "{count} allocations, up to {largest} bytes");
-    }
+    let mut step = || {
+        model.gradient(&x, &mut forces);
+        assert_eq!(model.factorize_for_descent(&x), Ok(HessianForm::Exact));
+        model.solve(&mut forces);
+    };
+    // The kernels of the factorisation keep some memory for every thread.
+    step();
+    let (_, count, largest) = allocations(step);
+    assert_eq!(count, 0, "{count} allocations, up to {largest} bytes");
 }
