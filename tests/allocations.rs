@@ -6,6 +6,7 @@ mod bodies;
 mod scenes;
 mod support;
 
+use plushwright::design::Pin;
 use plushwright::physics::HessianForm;
 use plushwright::soft_ik::Quality;
 use scenes::{Parts, Scene};
@@ -66,7 +67,10 @@ const MOVING: usize = 30;
 const RESTING: usize = 150;
 
 fn check(parts: Parts, quality: Quality) {
-    let mut scene = Scene::new("E", parts);
+    let mut design = support::rigged();
+    let corner = design.mesh.node_point(28).expect("node 28 is used");
+    design.pins.push(Pin { at: corner, position: None, stiffness: 20.0 });
+    let mut scene = Scene::of(design, parts);
     let mut tracker = scene.tracker();
     for k in 0..WARMING {
         scene.drag(k, WARMING + MOVING);
