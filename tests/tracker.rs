@@ -108,8 +108,8 @@ fn drag(parts: Parts, quality: Quality) -> Vec<u64> {
     let mut scene = Scene::new("E", parts);
     let mut tracker = scene.tracker();
     let mut bits = Vec::new();
-    for k in 0..6 {
-        scene.drag(4 * k, 16);
+    for k in 0..4 {
+        scene.drag(6 * k, 16);
         let frame = scene.frame(&mut tracker, quality);
         let posture = tracker.posture();
         let figures = [posture.objective, posture.residual, frame.force_scale, frame.iterations as f64];
