@@ -275,6 +275,7 @@ impl Tracker {
 
 impl Fibers {
     /// Iterates within the budget. Whether there may be something new to show.
+    #[allow(clippy::too_many_arguments)]
     fn follow(
         &mut self,
         question: &mut Question,
