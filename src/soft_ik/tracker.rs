@@ -10,8 +10,7 @@
 use super::contraction::GaussNewton;
 use super::tension::{Run, Workspace};
 use super::{Budget, Method, Posture, Question, Winch};
-use crate::physics::StaticsSettings;
-use crate::physics::statics;
+use crate::physics::{Cause, Law, StaticsSettings, statics};
 use std::time::Instant;
 
 /// How much work a frame may take: the user's trade between speed and accuracy.
@@ -79,6 +78,9 @@ pub struct Frame {
 }
 
 /// Poses one view, frame after frame.
+///
+/// With free fibres, whatever else pulls, a frame allocates nothing once every stage has run (`tests/allocations.rs`). Winches
+/// of several elements (Gauss-Newton) allocate in every frame.
 pub struct Tracker {
     posture: Posture,
     goals: Vec<[f64; 2]>,
@@ -102,6 +104,9 @@ struct Fibers {
     run: Run,
     challenger: Run,
     rest: Posture,
+    /// Whether fixed contractions have changed since the rest pose was found.
+    stale: bool,
+    statics: statics::Workspace,
     stage: Stage,
     /// Frames since the targets moved.
     waited: usize,
@@ -113,6 +118,9 @@ struct Fibers {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Stage {
     Following,
+    /// Looks for the rest pose under the present fixed contractions. From that under others, winches that turn all at once
+    /// would throw the challenger about.
+    Resting,
     /// Iterations that the challenger has taken.
     Challenging(usize),
     /// The better of the two goes on to its end.
@@ -151,7 +159,9 @@ impl Tracker {
             let mut work = Workspace::new(question);
             let challenger = Run::new(question, &rest, &mut work);
             let run = Run::new(question, start, &mut work);
-            Fibers { work, run, challenger, rest, stage: Stage::Following, waited: 0, deciding: None }
+            let statics = statics::Workspace::new(start.x.len());
+            let stage = Stage::Following;
+            Fibers { work, run, challenger, rest, stale: false, statics, stage, waited: 0, deciding: None }
         });
         Self {
             posture: start.clone(),
@@ -159,7 +169,7 @@ impl Tracker {
             fixed: question.actuation.fixed.clone(),
             wound: false,
             fibers,
-            statics: statics::Workspace::default(),
+            statics: statics::Workspace::new(start.x.len()),
             contractions: vec![0.0; elements],
             trial: start.x.clone(),
             forces: start.x.clone(),
@@ -283,6 +293,7 @@ impl Tracker {
 
 impl Fibers {
     /// Iterates within the budget. Whether there may be something new to show.
+    #[allow(clippy::too_many_arguments)]
     fn follow(
         &mut self,
         question: &mut Question,
@@ -296,6 +307,7 @@ impl Fibers {
         if moved {
             self.stage = Stage::Following;
             self.waited = 0;
+            self.stale |= pulled;
             self.run.retarget(question, pulled, &mut self.work);
         } else {
             self.waited += 1;
@@ -307,12 +319,22 @@ impl Fibers {
                     fresh = true;
                     let converged = self.step(question, frame, false, tolerance);
                     if converged || (self.waited > CHALLENGE_AFTER && frame.factorizations >= budget) {
-                        self.stage = Stage::Challenging(0);
-                        self.challenger.restart(question, &self.rest.x, &self.rest.beta, &mut self.work);
+                        if self.stale {
+                            self.stage = Stage::Resting;
+                            self.rest.x.copy_from_slice(&question.model.rest);
+                        } else {
+                            self.challenge(question);
+                        }
                         if moved {
                             // The challenge can wait until the targets have rested for a frame.
                             break;
                         }
+                    }
+                }
+                Stage::Resting => {
+                    if self.find_rest(question, budget - frame.factorizations, frame, stop) {
+                        self.stale = false;
+                        self.challenge(question);
                     }
                 }
                 Stage::Challenging(count) => {
@@ -348,6 +370,29 @@ impl Fibers {
         if let Some(converged) = deciding {
             self.stage = if shown.is_some() && converged { Stage::Done } else { Stage::Finishing };
         }
+    }
+
+    fn challenge(&mut self, question: &mut Question) {
+        self.stage = Stage::Challenging(0);
+        self.challenger.restart(question, &self.rest.x, &self.rest.beta, &mut self.work);
+    }
+
+    /// Takes up to `most` Newton steps towards the rest pose; whether it is found, or no step leads nearer.
+    fn find_rest(&mut self, question: &mut Question, most: usize, frame: &mut Frame, stop: &dyn Fn() -> bool) -> bool {
+        let clock = Instant::now();
+        let actuation = question.actuation;
+        let contractile = &mut question.model.contractile;
+        contractile.set_contractions(&actuation.fixed);
+        for (winch, beta) in actuation.winches.iter().zip(&self.rest.beta) {
+            let (element, ratio) = winch.members[0];
+            contractile.laws[element] = Law::Spring { alpha: contractile.elements[element].alpha0 - ratio * beta };
+        }
+        let settings = StaticsSettings { tolerance: SETTLED, max_iterations: most, ..StaticsSettings::default() };
+        let done = statics::settle(question.model, &mut self.rest.x, &settings, stop, &mut self.statics);
+        frame.factorizations += done.factorizations;
+        self.work.phases.line_search += clock.elapsed().as_secs_f64();
+        let unfinished = done.cause == Some(Cause::Cancelled) || done.cause.is_some() && done.iterations >= most;
+        !unfinished
     }
 
     /// One iteration of the run or its challenger; whether it has converged (or cannot go on).

@@ -1,4 +1,4 @@
-//! Bundled designs under the hand: what the tests of the tracker drag about.
+//! Designs under the hand: what the tests of the tracker drag about.
 #![allow(dead_code)]
 
 use plushwright::design::{Design, Gravity, Target, bundled};
@@ -35,7 +35,10 @@ pub fn design(name: &str) -> Design {
 
 impl Scene {
     pub fn new(name: &str, parts: Parts) -> Self {
-        let mut design = design(name);
+        Self::of(design(name), parts)
+    }
+
+    pub fn of(mut design: Design, parts: Parts) -> Self {
         if !parts.tendons {
             design.networks.clear();
         }
@@ -44,13 +47,9 @@ impl Scene {
         if parts.stiff {
             design.fibers.stiffness *= 100.0;
         }
-        Self::of(&design)
-    }
-
-    pub fn of(design: &Design) -> Self {
-        let plushie = compile(design, View::Idealized).expect("the example compiles");
+        let plushie = compile(&design, View::Idealized).expect("the example compiles");
         let targets: Vec<Target> = design.poses[0].targets.iter().take(2).copied().collect();
-        let objective = objective(design, &plushie, &targets);
+        let objective = objective(&design, &plushie, &targets);
         let home = targets.iter().map(|t| design.mesh.position(&t.at, &design.mesh.nodes)).collect();
         let zero = vec![0.0; plushie.fiber_elements.end];
         let winches = Actuation { winches: plushie.winches.clone(), fixed: zero.clone() };
