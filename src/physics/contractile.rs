@@ -42,6 +42,9 @@ pub enum Law {
     Spring { alpha: f64 },
     /// A cable under constant tension, whatever its length.
     Tension(f64),
+    /// A cable that is under `tension` at `length` and has the given stiffness there; slack where that leads below zero. It
+    /// stands for a stiff spring in whose place a softer one steadies the body.
+    Elastic { tension: f64, length: f64, stiffness: f64 },
 }
 
 impl Element {
@@ -169,6 +172,22 @@ impl Law {
         match *self {
             Law::Spring { alpha } => (element.tension(length - alpha), element.tangent(length - alpha)),
             Law::Tension(tau) => (tau, 0.0),
+            Law::Elastic { tension, length: at, stiffness } => {
+                let tau = tension + stiffness * (length - at);
+                if tau > 0.0 { (tau, stiffness) } else { (0.0, 0.0) }
+            }
+        }
+    }
+
+    /// The energy at length `l`, whose derivative the tension is.
+    fn energy(&self, element: &Element, length: f64) -> f64 {
+        match *self {
+            Law::Spring { alpha } => element.energy(length - alpha),
+            Law::Tension(tau) => tau * length,
+            Law::Elastic { tension, length: at, stiffness } => {
+                let stretch = if stiffness > 0.0 { (length - at).max(-tension / stiffness) } else { length - at };
+                (tension + 0.5 * stiffness * stretch) * stretch
+            }
         }
     }
 }
@@ -185,21 +204,19 @@ impl Energy for Contractile {
     fn value(&self, x: &[f64]) -> f64 {
         let mut energy = 0.0;
         for (e, law) in self.elements.iter().zip(&self.laws) {
-            energy += match *law {
-                Law::Spring { alpha } => e.energy(e.length(x) - alpha),
-                Law::Tension(0.0) => 0.0,
-                Law::Tension(tau) => tau * e.length(x),
-            };
+            if *law != Law::Tension(0.0) {
+                energy += law.energy(e, e.length(x));
+            }
         }
         if energy.is_nan() { f64::INFINITY } else { energy }
     }
 
     fn add_gradient(&self, x: &[f64], gradient: &mut [f64]) {
         for (e, law) in self.elements.iter().zip(&self.laws) {
-            let tau = match *law {
-                Law::Spring { alpha } => e.tension(e.length(x) - alpha),
-                Law::Tension(tau) => tau,
-            };
+            if *law == Law::Tension(0.0) {
+                continue;
+            }
+            let tau = law.tension_and_tangent(e, e.length(x)).0;
             if tau != 0.0 {
                 e.add_length_gradient(x, tau, gradient);
             }
@@ -207,6 +224,8 @@ impl Energy for Contractile {
     }
 
     fn add_hessian(&self, x: &[f64], _form: HessianForm, out: &mut Scatter) {
+        let mut stack = [[0.0; 2]; ON_STACK];
+        let mut heap = Vec::new();
         for (k, (e, law)) in self.elements.iter().zip(&self.laws).enumerate() {
             let (tau, tangent) = law.tension_and_tangent(e, e.length(x));
             if tau == 0.0 && tangent == 0.0 {
@@ -216,9 +235,7 @@ impl Energy for Contractile {
                 add_straight(k, e, x, tau, tangent, out);
             } else {
                 let positions = &self.positions[k];
-                let mut stack = [[0.0; 2]; ON_STACK];
-                let mut heap = Vec::new();
-                let count = self.stencils[k].len().max(e.routing.len());
+                let count = e.routing.len();
                 let scratch = if 2 * count <= ON_STACK {
                     &mut stack[..2 * count]
                 } else {
@@ -244,8 +261,8 @@ impl Energy for Contractile {
     }
 }
 
-/// Entries of scratch memory that need no allocation: enough for a tendon through 64 nodes.
-const ON_STACK: usize = 128;
+/// Entries of scratch memory that need no allocation: 16 KiB, enough for a tendon through 512 nodes.
+const ON_STACK: usize = 1024;
 
 /// The Hessian of an element of one segment: `U'' u u^T + tau/l n n^T` between its ends, `n` normal to `u`.
 fn add_straight(k: usize, e: &Element, x: &[f64], tau: f64, tangent: f64, out: &mut Scatter) {
@@ -338,6 +355,27 @@ mod tests {
             assert!(error(5e-4) < 1e-10 || error(1e-3) / error(5e-4) > 3.5);
             let error = |h: f64| ((e.tension(gamma + h) - e.tension(gamma - h)) / (2.0 * h) - e.tangent(gamma)).abs();
             assert!(error(5e-4) < 1e-10);
+        }
+    }
+
+    #[test]
+    fn every_law_has_the_derivatives_that_it_says() {
+        let e = element();
+        let laws = [
+            Law::Spring { alpha: 0.9 },
+            Law::Tension(0.7),
+            Law::Elastic { tension: 0.4, length: 1.0, stiffness: 2.0 },
+            Law::Elastic { tension: 0.4, length: 1.4, stiffness: 2.0 },
+        ];
+        for law in laws {
+            for length in [0.7, 0.95, 1.3] {
+                let h = 1e-5;
+                let by_energy = (law.energy(&e, length + h) - law.energy(&e, length - h)) / (2.0 * h);
+                let (tau, tangent) = law.tension_and_tangent(&e, length);
+                assert!((by_energy - tau).abs() < 1e-9, "{law:?} at {length}");
+                let [up, down] = [h, -h].map(|h| law.tension_and_tangent(&e, length + h).0);
+                assert!(((up - down) / (2.0 * h) - tangent).abs() < 1e-8, "{law:?} at {length}");
+            }
         }
     }
 

@@ -112,6 +112,8 @@ enum Stage {
     Following,
     /// Iterations that the challenger has taken.
     Challenging(usize),
+    /// The better of the two goes on to its end.
+    Finishing,
     Done,
 }
 
@@ -300,10 +302,17 @@ impl Fibers {
                     let converged = self.step(question, frame, true, tolerance);
                     self.stage = Stage::Challenging(count + 1);
                     if converged || count >= CHALLENGE_ITERATIONS {
-                        if self.challenger.best.objective <= AS_GOOD * self.run.best.objective {
+                        let taken = self.challenger.best.objective <= AS_GOOD * self.run.best.objective;
+                        if taken {
                             std::mem::swap(&mut self.run, &mut self.challenger);
                             fresh = true;
                         }
+                        self.stage = if taken && converged { Stage::Done } else { Stage::Finishing };
+                    }
+                }
+                Stage::Finishing => {
+                    fresh = true;
+                    if self.step(question, frame, false, tolerance) {
                         self.stage = Stage::Done;
                     }
                 }

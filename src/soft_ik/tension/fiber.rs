@@ -1,6 +1,6 @@
 //! The free elements: tension as the unknown, or a spring at a bound of its rest length.
 
-use crate::physics::Element;
+use crate::physics::{Element, Law};
 use crate::soft_ik::Winch;
 
 /// A held element is freed once its rest length is off its bound by this part of `alpha_0` for every time it was freed
@@ -19,6 +19,8 @@ pub(super) struct Fiber {
     pub longest: f64,
     /// Tension; of a held one that of its spring.
     pub tension: f64,
+    /// The length at which it has that tension.
+    pub length: f64,
     /// Soft enough to be a spring wherever it is taut.
     pub soft: bool,
     /// The rest length of the spring that the element is at present; `None` where its tension is the unknown.
@@ -34,12 +36,13 @@ impl Fiber {
         let e = &elements[element];
         let (shortest, longest) = (e.alpha0 - ratio * winch.upper, e.alpha0 - ratio * winch.lower);
         let rest = e.alpha0 - ratio * beta;
-        let tension = e.tension(e.length(x) - rest);
+        let length = e.length(x);
+        let tension = e.tension(length - rest);
         let slop = 1e-9 * e.alpha0;
         let soft = 2.0 * e.stiffness <= softness;
         let held = if tension <= 0.0 {
             None
-        } else if soft && e.length(x) > rest {
+        } else if soft && length > rest {
             Some(rest.max(shortest).min(longest))
         } else if rest <= shortest + slop {
             Some(shortest)
@@ -48,7 +51,7 @@ impl Fiber {
         } else {
             None
         };
-        Self { element, ratio, shortest, longest, tension, soft, held, releases: 0 }
+        Self { element, ratio, shortest, longest, tension, length, soft, held, releases: 0 }
     }
 
     /// The tensions `[lowest, highest]` between which a step may choose, at length `length`.
@@ -69,6 +72,7 @@ impl Fiber {
     pub fn take(&mut self, element: &Element, length: f64, tension: f64, [lowest, highest]: [f64; 2]) {
         let Some(rest) = &mut self.held else {
             self.tension = tension;
+            self.length = length;
             return;
         };
         let tangent = element.tangent(length - *rest);
@@ -89,8 +93,27 @@ impl Fiber {
             let least = if self.soft { 0.5 } else { SLACK_TANGENT };
             if element.tangent(length - rest) <= least * element.stiffness {
                 self.held = None;
+                self.length = length;
             }
         }
+    }
+
+    /// How it pulls. `steady` is the stiffness that stands for a taut one's own where its tension is the unknown.
+    pub fn law(&self, steady: f64) -> Law {
+        match self.held {
+            Some(rest) => Law::Spring { alpha: rest },
+            None if self.tension > 0.0 => {
+                let stiffness = if self.soft { 0.0 } else { steady };
+                Law::Elastic { tension: self.tension, length: self.length, stiffness }
+            }
+            None => Law::Tension(0.0),
+        }
+    }
+
+    /// Moves to a new length under its law.
+    pub fn follow(&mut self, element: &Element, length: f64, steady: f64) {
+        self.tension = self.law(steady).tension_and_tangent(element, length).0;
+        self.length = length;
     }
 
     /// Holds an element that left its bounds and frees a held one that the step moved off its bound, at the new length.

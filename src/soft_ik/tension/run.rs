@@ -3,7 +3,7 @@
 use super::cables::Cables;
 use super::dual::{Dual, Subproblem};
 use super::fiber::Fiber;
-use crate::physics::{HessianForm, Law, Model, statics};
+use crate::physics::{HessianForm, Model, statics};
 use crate::soft_ik::{Phases, PointTarget, Posture, Question};
 use std::time::Instant;
 
@@ -39,7 +39,7 @@ const UNBALANCED: usize = 3;
 /// `O` at an equilibrium is told from a state whose Newton step towards it is at most this part of the body.
 const WITHIN_SIGHT: f64 = 0.012;
 /// Taut stiffness, in shear moduli, up to which an element is a spring wherever it is taut. A prescribed tension has no
-/// stiffness of its own and lets the body buckle where the real cable would not.
+/// stiffness of its own and lets the body buckle where the real cable would not, so a stiffer one is given this stiffness.
 const SOFT: f64 = 10.0;
 /// Longest step of a node in one iteration, as a part of the body: beyond it the linearised lengths mean nothing.
 const LONGEST_STEP: f64 = 0.2;
@@ -239,21 +239,18 @@ impl Run {
         self.best.objective = value(&self.best.x, &self.best.fibers, question, work.rho);
         if pulled {
             self.returned = true;
-            self.set_laws(question);
+            self.set_laws(question, work.softness);
             work.forces = question.model.force_scale_into(&self.x, &mut work.trial);
             self.gradient_now(question, work);
         }
     }
 
     /// Puts the present laws of all elements into the model.
-    fn set_laws(&self, question: &mut Question) {
+    fn set_laws(&self, question: &mut Question, steady: f64) {
         let contractile = &mut question.model.contractile;
         contractile.set_contractions(&question.actuation.fixed);
         for fiber in &self.fibers {
-            contractile.laws[fiber.element] = match fiber.held {
-                Some(rest) => Law::Spring { alpha: rest },
-                None => Law::Tension(fiber.tension),
-            };
+            contractile.laws[fiber.element] = fiber.law(steady);
         }
     }
 
@@ -271,7 +268,7 @@ impl Run {
         for (fiber, length) in self.fibers.iter_mut().zip(&work.cables.lengths) {
             fiber.release_slack(&elements[fiber.element], *length);
         }
-        self.set_laws(question);
+        self.set_laws(question, work.softness);
         work.phases.assembly += clock.elapsed().as_secs_f64();
         let form = factorize(question.model, &self.x, &mut work.phases)?;
         let factorizations = 1 + (form == HessianForm::Projected) as usize;
@@ -307,12 +304,13 @@ impl Run {
         for (k, fiber) in self.fibers.iter_mut().enumerate() {
             fiber.take(&elements[fiber.element], work.cables.lengths[k], work.next[k], work.limits[k]);
         }
-        self.set_laws(question);
+        self.set_laws(question, work.softness);
         let step = self.search(question, form, work);
         let mut changed = false;
         work.cables.update(&self.x, work.scale);
         let elements = &question.model.contractile.elements;
         for (k, fiber) in self.fibers.iter_mut().enumerate() {
+            fiber.follow(&elements[fiber.element], work.cables.lengths[k], work.softness);
             let (before, prescribed) = (fiber.tension, fiber.held.is_none());
             changed |= fiber.update(&elements[fiber.element], work.cables.lengths[k]);
             if prescribed && fiber.tension != before {
@@ -345,23 +343,23 @@ impl Run {
                 add_row(target, axis, &mut work.solved[(2 * t + axis) * n..][..n]);
             }
         }
-        let (pull, g) = work.solved[rows * n..].split_at_mut(n);
+        let mut solved = std::mem::take(&mut work.solved);
+        let (pull, g) = solved[rows * n..].split_at_mut(n);
         objective.rest_gradient(&self.x, pull);
-        self.add_held_tension(question, work.rho, &work.cables, pull);
+        self.add_tension_of_springs(question, work, pull);
         g.copy_from_slice(&self.gradient);
+        work.solved = solved;
         question.model.solve_many(&mut work.solved, rows + 2);
     }
 
-    /// Adds the derivative by `x` of `rho/2 tau^2` of the held elements: `rho tau U'' dl/dx`.
-    fn add_held_tension(&self, question: &Question, rho: f64, cables: &Cables, out: &mut [f64]) {
+    /// Adds the derivative by `x` of `rho/2 tau^2` where tension changes with length: `rho tau dtau/dl dl/dx`.
+    fn add_tension_of_springs(&self, question: &Question, work: &Workspace, out: &mut [f64]) {
         for (k, fiber) in self.fibers.iter().enumerate() {
-            if let Some(rest) = fiber.held {
-                let element = &question.model.contractile.elements[fiber.element];
-                let gamma = cables.lengths[k] - rest;
-                let factor = rho * element.tension(gamma) * element.tangent(gamma);
-                if factor != 0.0 {
-                    cables.add_gradient(k, factor, out);
-                }
+            let element = &question.model.contractile.elements[fiber.element];
+            let (tau, tangent) = fiber.law(work.softness).tension_and_tangent(element, work.cables.lengths[k]);
+            let factor = work.rho * tau * tangent;
+            if factor != 0.0 {
+                work.cables.add_gradient(k, factor, out);
             }
         }
     }
@@ -569,7 +567,7 @@ impl Run {
         self.adrift = 0;
         self.returned = true;
         self.before = None;
-        self.set_laws(question);
+        self.set_laws(question, work.softness);
         self.gradient_now(question, work);
     }
 
