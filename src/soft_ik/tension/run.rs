@@ -217,6 +217,7 @@ impl Run {
             *fiber = Fiber::new(winch, *beta, elements, x, work.softness);
         }
         self.nu = FIRST_PROXIMAL * work.rho;
+        self.unverified = 0;
         self.q.fill(0.0);
         self.take_best(f64::INFINITY);
         self.retarget(question, true, work);
@@ -237,7 +238,6 @@ impl Run {
         self.nu = self.nu.min(LARGEST_FIRST * work.rho);
         self.reach = LONGEST_STEP;
         self.adrift = 0;
-        self.unverified = 0;
         self.stagnant = 0;
         self.mark = f64::INFINITY;
         self.before = None;
