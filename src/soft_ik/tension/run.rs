@@ -615,7 +615,7 @@ fn value(x: &[f64], fibers: &[Fiber], question: &Question, rho: f64) -> f64 {
     question.objective.position_value(x) + 0.5 * rho * tensions
 }
 
-/// Assembles and factorises, each on its own clock.
+/// Assembles and factorises; both count as factorisation in the phases.
 fn factorize(model: &mut Model, x: &[f64], phases: &mut Phases) -> Option<HessianForm> {
     let clock = Instant::now();
     let form = model.factorize_for_descent(x).ok();
