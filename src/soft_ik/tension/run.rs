@@ -35,7 +35,7 @@ const STAGNANT: usize = 10;
 /// another equilibrium may be nearer than the one expected.
 const VERIFIED: f64 = 8e-3;
 /// After this many iterations in a row that end farther from it, the next ones balance the forces before they move on.
-const UNBALANCED: usize = 3;
+const UNBALANCED: usize = 5;
 /// `O` at an equilibrium is told from a state whose Newton step towards it is at most this part of the body.
 const WITHIN_SIGHT: f64 = 0.012;
 /// Taut stiffness, in shear moduli, up to which an element is a spring wherever it is taut. A prescribed tension has no
