@@ -18,6 +18,7 @@
 pub mod body;
 pub mod cholesky;
 pub mod contractile;
+pub mod double;
 pub mod energy;
 pub mod gravity;
 pub mod material;
@@ -25,15 +26,17 @@ pub mod model;
 pub mod neo_hookean;
 pub mod pattern;
 pub mod pins;
+pub mod refine;
 pub mod st_venant_kirchhoff;
 pub mod statics;
 
 pub use body::Body;
 pub use contractile::{Contractile, Element, Law};
+pub use double::Double;
 pub use energy::{Energy, HessianForm};
 pub use gravity::Gravity;
 pub use material::Material;
-pub use model::{Model, ModelError};
+pub use model::{Loose, Model, ModelError};
 pub use neo_hookean::NeoHookean;
 pub use pins::{Pin, Pins};
 pub use st_venant_kirchhoff::StVenantKirchhoff;

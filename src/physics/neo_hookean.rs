@@ -5,6 +5,7 @@
 //! With `c = kappa ln J - mu` and `C = cof F = dJ/dF`: `P = mu F + (c/J) C`, and
 //! `d2psi = mu I + (kappa - c)/J^2 C C^T + (c/J) d2J/dF2`.
 
+use super::double::Double;
 use super::material::{Material, cofactor, determinant_hessian};
 use nalgebra::{Matrix2, Matrix4, Vector4};
 
@@ -40,6 +41,17 @@ impl Material for NeoHookean {
         Matrix4::from_diagonal_element(self.mu)
             + g * g.transpose() * ((self.kappa - c) / (j * j))
             + determinant_hessian() * (c / j)
+    }
+
+    /// `P = mu (F - C) + (mu (J - 1) + kappa ln J) C / J`, in which what cancels near `J = 1` and near rest is taken first.
+    fn precise_stress(&self, f: &[Double; 4]) -> Matrix2<f64> {
+        let [a, b, c, d] = *f;
+        let cofactor = [d, -c, -b, a];
+        let growth = a * d - b * c - Double::ONE;
+        let (g, j) = (growth.value(), (growth + Double::ONE).value());
+        let pressure = (self.mu * g + self.kappa * g.ln_1p()) / j;
+        let entry = |k: usize| self.mu * (f[k] - cofactor[k]).value() + pressure * cofactor[k].value();
+        Matrix2::from_column_slice(&[0, 1, 2, 3].map(entry))
     }
 
     fn shear_modulus(&self) -> f64 {

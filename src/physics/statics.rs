@@ -30,6 +30,8 @@ const SUFFICIENT_DECREASE: f64 = 1e-4;
 const MAX_HALVINGS: usize = 40;
 /// A step capped below this leads nowhere: triangles have collapsed against the edge of the material's domain.
 const SMALLEST_STEP: f64 = 1e-12;
+/// A triangle of less than this part of its area is flat. A Neo-Hookean one would take a hundred times its shear modulus.
+const FLAT: f64 = 1e-6;
 /// Relative rounding of an energy sum: differences below it say nothing.
 const ENERGY_ROUNDING: f64 = 1e-13;
 
@@ -66,6 +68,8 @@ pub enum Cause {
     Iterations,
     #[error("the body is free to move and is pulled away: add a pin")]
     FreeToMove,
+    #[error("a triangle is pressed flat and its material does not resist: use a Neo-Hookean one, or pull less")]
+    Collapsed,
     #[error("cancelled")]
     Cancelled,
 }
@@ -164,13 +168,16 @@ pub fn settle(
         state.energy = energy;
         state.residual = norm(gradient);
         state.force_scale = model.force_scale_into(x, forces);
+        if model.is_pulled_away(gradient, forces) {
+            return Progress { cause: Some(Cause::FreeToMove), ..state };
+        }
         let settled = state.residual <= settings.stagnation_tolerance * state.force_scale;
         let unsettled = |cause: Cause| if settled { None } else { Some(cause) };
         if state.residual <= settings.tolerance * state.force_scale || state.residual == 0.0 {
             return state;
         }
         if state.iterations >= settings.max_iterations {
-            return Progress { cause: unsettled(unconverged(model, Cause::Iterations)), ..state };
+            return Progress { cause: unsettled(Cause::Iterations), ..state };
         }
         if cancel() {
             return Progress { cause: Some(Cause::Cancelled), ..state };
@@ -216,7 +223,7 @@ pub fn settle(
             t *= 0.5;
         }
         if !accepted {
-            return Progress { cause: unsettled(unconverged(model, Cause::Stalled)), ..state };
+            return Progress { cause: unsettled(stalled(model, x)), ..state };
         }
         x.copy_from_slice(trial);
         model.gradient(x, gradient);
@@ -238,6 +245,8 @@ fn energy_scale(model: &Model, energy: f64) -> f64 {
     energy.abs().max(model.body.material().shear_modulus() * model.body.area())
 }
 
-fn unconverged(model: &Model, cause: Cause) -> Cause {
-    if model.free_pieces() > 0 { Cause::FreeToMove } else { cause }
+/// Why no step leads on. A material without a barrier (St. Venant-Kirchhoff) lets triangles be pressed flat: there the energy
+/// ends, and not its slope.
+fn stalled(model: &Model, x: &[f64]) -> Cause {
+    if model.body.smallest_determinant(x) < FLAT { Cause::Collapsed } else { Cause::Stalled }
 }

@@ -1,5 +1,6 @@
 //! Reading and checking a `plushwright-problem/1` file.
 
+use super::limits;
 use serde::Deserialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -15,7 +16,7 @@ pub enum ProblemError {
     Content { key: String, what: String },
 }
 
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize)]
 pub struct Problem {
     pub mesh: MeshData,
     pub material: MaterialData,
@@ -32,13 +33,13 @@ pub struct Problem {
     pub drag: Option<DragData>,
 }
 
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize)]
 pub struct MeshData {
     pub nodes: Vec<[f64; 2]>,
     pub triangles: Vec<[usize; 3]>,
 }
 
-#[derive(Clone, Copy, Debug, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
 pub struct MaterialData {
     pub mu: f64,
     pub kappa: f64,
@@ -62,7 +63,7 @@ pub struct PinData {
     pub stiffness: f64,
 }
 
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize)]
 pub struct ObjectiveData {
     #[serde(default)]
     pub targets: Vec<TargetData>,
@@ -208,6 +209,14 @@ fn content(key: &str, what: impl Into<String>) -> ProblemError {
     ProblemError::Content { key: key.to_string(), what: what.into() }
 }
 
+impl MeshData {
+    /// Signed area of a triangle, m^2.
+    pub(super) fn area(&self, t: &[usize; 3]) -> f64 {
+        let [p, q, r] = t.map(|k| self.nodes[k]);
+        0.5 * ((q[0] - p[0]) * (r[1] - p[1]) - (r[0] - p[0]) * (q[1] - p[1]))
+    }
+}
+
 impl Problem {
     /// The ids of all winches, ascending.
     pub fn all_winches(&self) -> Vec<i64> {
@@ -270,8 +279,13 @@ impl Problem {
             for node in t {
                 in_range(&key, *node, n)?;
             }
-            let [p, q, r] = t.map(|k| self.mesh.nodes[k]);
-            let area = 0.5 * ((q[0] - p[0]) * (r[1] - p[1]) - (r[0] - p[0]) * (q[1] - p[1]));
+        }
+        finite("material.mu", self.material.mu)?;
+        finite("material.kappa", self.material.kappa)?;
+        limits::size(self)?;
+        for (i, t) in self.mesh.triangles.iter().enumerate() {
+            let key = format!("mesh.triangles[{i}]");
+            let area = self.mesh.area(t);
             if area < 0.0 {
                 return Err(content(&key, "is clockwise"));
             }
@@ -280,8 +294,6 @@ impl Problem {
             }
         }
         let m = &self.material;
-        finite("material.mu", m.mu)?;
-        finite("material.kappa", m.kappa)?;
         if m.mu <= 0.0 {
             return Err(content("material.mu", format!("must be positive, is {}", m.mu)));
         }
@@ -323,7 +335,8 @@ impl Problem {
         if let Some(density) = self.surface_density {
             not_negative("surface_density", density)?;
         }
-        self.check_drag()
+        self.check_drag()?;
+        limits::check(self)
     }
 
     fn check_elements(&self, nodes: usize) -> Result<(), ProblemError> {
