@@ -4,7 +4,7 @@ use super::error::{CommandError, check_cancel};
 use super::output::{Staged, say, say_json};
 use super::solve::Effort;
 use crate::bench::drags::{Path as DragPath, SWEEP_FRAMES};
-use crate::bench::{BenchError, Quality, Report, Session, cold, drag, linear, resolution, scene, shapes, trade};
+use crate::bench::{BenchError, Quality, Report, Session, cold, drag, extremes, linear, resolution, scene, shapes, trade};
 use clap::{Args, Subcommand, ValueEnum};
 use std::cell::Cell;
 use std::io::{IsTerminal, Write};
@@ -114,6 +114,17 @@ enum Study {
         #[command(flatten)]
         common: Common,
     },
+    /// Extreme scenes, every one swept over its range: what happened, digits lost, and whether it passes
+    Extremes {
+        /// Only the ends and the middle of every sweep, and no large body
+        #[arg(long)]
+        short: bool,
+        /// Only rows whose name or group holds this text
+        #[arg(long, value_name = "TEXT")]
+        only: Option<String>,
+        #[command(flatten)]
+        common: Common,
+    },
     /// The same Hessians through every variant of the sparse factorisation
     Linear {
         /// Numbers of muscle fibres
@@ -138,6 +149,7 @@ impl Study {
             | Self::Trade { common, .. }
             | Self::Resolution { common, .. }
             | Self::Scene { common, .. }
+            | Self::Extremes { common, .. }
             | Self::Linear { common, .. } => common,
         }
     }
@@ -179,6 +191,9 @@ impl Study {
             .run(session),
             Self::Scene { frames, common } => {
                 scene::Scene { shapes: common.shapes(&["pig"]), frames: *frames }.run(session)
+            }
+            Self::Extremes { short, only, .. } => {
+                extremes::Extremes { short: *short, only: only.clone() }.run(session)
             }
             Self::Linear { fibers, common } => {
                 linear::Linear { shapes: common.shapes(&["pig"]), fibers: fibers.clone() }.run(session)

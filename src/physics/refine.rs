@@ -111,9 +111,10 @@ fn evaluate(model: &Model, state: &[Double], x: &[f64], gradient: &mut [f64], sc
 fn precise_tensions(contractile: &Contractile, state: &[Double]) -> Vec<f64> {
     use super::contractile::Law;
     let tension = |(element, law): (&super::Element, &Law)| {
+        let point = Double::from(element.point()).square();
         let length = element.routing.windows(2).fold(Double::ZERO, |sum, s| {
             let [dx, dy] = [0, 1].map(|axis| state[2 * s[1] + axis] - state[2 * s[0] + axis]);
-            sum + (dx.square() + dy.square()).sqrt()
+            sum + (dx.square() + dy.square() + point).sqrt()
         });
         match *law {
             Law::Spring { alpha } => element.tension((length - Double::from(alpha)).value()),

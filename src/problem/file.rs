@@ -1,7 +1,7 @@
 //! Reading and checking a `plushwright-problem/1` file.
 
 use super::limits;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
@@ -16,7 +16,7 @@ pub enum ProblemError {
     Content { key: String, what: String },
 }
 
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct Problem {
     pub mesh: MeshData,
     pub material: MaterialData,
@@ -24,28 +24,35 @@ pub struct Problem {
     pub elements: Vec<ElementData>,
     #[serde(default)]
     pub pins: Vec<PinData>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub contractions: Option<Vec<f64>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub objective: Option<ObjectiveData>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub soft_ik: Option<SoftIkData>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub start: Option<Vec<[f64; 2]>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub gravity: Option<[f64; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub surface_density: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub drag: Option<DragData>,
 }
 
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct MeshData {
     pub nodes: Vec<[f64; 2]>,
     pub triangles: Vec<[usize; 3]>,
 }
 
-#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
 pub struct MaterialData {
     pub mu: f64,
     pub kappa: f64,
 }
 
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct ElementData {
     pub routing: Vec<usize>,
     #[serde(rename = "K")]
@@ -55,7 +62,7 @@ pub struct ElementData {
     pub winch: i64,
 }
 
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct PinData {
     pub node: usize,
     pub target: [f64; 2],
@@ -63,7 +70,7 @@ pub struct PinData {
     pub stiffness: f64,
 }
 
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct ObjectiveData {
     #[serde(default)]
     pub targets: Vec<TargetData>,
@@ -73,7 +80,7 @@ pub struct ObjectiveData {
     pub regulariser: f64,
 }
 
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct TargetData {
     pub node: usize,
     pub xy: [f64; 2],
@@ -85,16 +92,21 @@ fn one() -> f64 {
     1.0
 }
 
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct SoftIkData {
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub winch_ids: Option<Vec<i64>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub beta_upper: Option<Vec<Option<f64>>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub beta_lower: Option<Vec<Option<f64>>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub beta_start: Option<Vec<f64>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub fixed_winches: Option<BTreeMap<String, f64>>,
 }
 
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct DragData {
     pub frames: Vec<Vec<[f64; 2]>>,
     #[serde(default)]
@@ -207,6 +219,17 @@ fn check_shape<T: serde::de::DeserializeOwned>(
 
 fn content(key: &str, what: impl Into<String>) -> ProblemError {
     ProblemError::Content { key: key.to_string(), what: what.into() }
+}
+
+impl Problem {
+    /// The problem as a file. Numbers keep every bit.
+    pub fn to_text(&self) -> Result<String, ProblemError> {
+        let mut value = serde_json::to_value(self).map_err(|e| ProblemError::Json(e.to_string()))?;
+        if let Value::Object(map) = &mut value {
+            map.insert("format".into(), FORMAT.into());
+        }
+        serde_json::to_string(&value).map_err(|e| ProblemError::Json(e.to_string()))
+    }
 }
 
 impl MeshData {

@@ -14,6 +14,8 @@ const LARGEST_UNIT: f64 = 1e90;
 const FARTHEST: f64 = 1e12;
 /// Largest distance of the body from the origin, in body lengths: farther away its own nodes have less than four digits.
 const FARTHEST_ORIGIN: f64 = 1e12;
+/// Largest rest length and contraction of an element, in body lengths.
+const LONGEST: f64 = 1e4;
 /// Largest stiffness or force, in shear moduli (times body lengths): forces and energies still have digits beside each other.
 const STIFFEST: f64 = 1e18;
 /// Smallest epsilon and rest length of an element, in body lengths: far below the rounding of any length.
@@ -50,7 +52,7 @@ pub(super) fn check(problem: &Problem) -> Result<(), ProblemError> {
         within(key, distance, FARTHEST, "body lengths away")
     };
     let stiff = |key: String, value: f64| within(key, value.abs() / mu, STIFFEST, "shear moduli");
-    let long = |key: String, value: f64| within(key, value.abs() / size, FARTHEST, "body lengths");
+    let long = |key: String, value: f64| within(key, value.abs() / size, LONGEST, "body lengths");
     for (i, p) in problem.mesh.nodes.iter().enumerate() {
         near(format!("mesh.nodes[{i}]"), p)?;
     }
