@@ -8,6 +8,7 @@
 //! | [`resolution`] | how far do poses, activations and networks agree over mesh resolutions? |
 //! | [`scene`] | what does each optional part of a scene cost? |
 //! | [`extremes`] | what do the solvers survive, and with how many digits? |
+//! | [`properties`] | what holds for every problem and design, whatever is in it? |
 //! | [`linear`] | which sparse factorisation is the fastest for our Hessians? |
 //!
 //! A study draws all its random numbers from the session's seed ([`random`]), so that the same seed gives the same
@@ -24,6 +25,7 @@ pub mod locking;
 pub mod ordering;
 pub mod plot;
 pub mod posing;
+pub mod properties;
 pub mod random;
 pub mod report;
 pub mod resolution;

@@ -4,7 +4,7 @@ use super::error::{CommandError, check_cancel};
 use super::output::{Staged, say, say_json};
 use super::solve::Effort;
 use crate::bench::drags::{Path as DragPath, SWEEP_FRAMES};
-use crate::bench::{BenchError, Quality, Report, Session, cold, drag, extremes, linear, resolution, scene, shapes, trade};
+use crate::bench::{BenchError, Quality, Report, Session, cold, drag, extremes, linear, properties, resolution, scene, shapes, trade};
 use clap::{Args, Subcommand, ValueEnum};
 use std::cell::Cell;
 use std::io::{IsTerminal, Write};
@@ -125,6 +125,20 @@ enum Study {
         #[command(flatten)]
         common: Common,
     },
+    /// Random problems and random edits: what must hold for all of them
+    Properties {
+        /// Number of problems; there is one sequence of edits for every fifty
+        #[arg(long, default_value_t = 10_000)]
+        problems: usize,
+        /// Number of the first problem, to look at one again
+        #[arg(long, default_value_t = 0, value_name = "NUMBER")]
+        first: usize,
+        /// Print the problem file of the first one, and do nothing else
+        #[arg(long)]
+        show: bool,
+        #[command(flatten)]
+        common: Common,
+    },
     /// The same Hessians through every variant of the sparse factorisation
     Linear {
         /// Numbers of muscle fibres
@@ -150,12 +164,27 @@ impl Study {
             | Self::Resolution { common, .. }
             | Self::Scene { common, .. }
             | Self::Extremes { common, .. }
+            | Self::Properties { common, .. }
             | Self::Linear { common, .. } => common,
         }
     }
 
-    fn run(&self, session: &Session) -> Result<Report, BenchError> {
+    /// The report, and what in it fails a bar that was set before.
+    fn run(&self, session: &Session) -> Result<(Report, Option<String>), BenchError> {
         match self {
+            Self::Extremes { short, only, .. } => {
+                extremes::Extremes { short: *short, only: only.clone() }.run(session)
+            }
+            Self::Properties { problems, first, .. } => {
+                properties::Properties { problems: *problems, first: *first }.run(session)
+            }
+            _ => self.measure(session).map(|report| (report, None)),
+        }
+    }
+
+    fn measure(&self, session: &Session) -> Result<Report, BenchError> {
+        match self {
+            Self::Extremes { .. } | Self::Properties { .. } => self.run(session).map(|(report, _)| report),
             Self::Drag { fibers, targets, frames, quality, path, baseline, common } => drag::Drag {
                 shapes: common.shapes(&["pig"]),
                 fibers: fibers.clone(),
@@ -192,9 +221,6 @@ impl Study {
             Self::Scene { frames, common } => {
                 scene::Scene { shapes: common.shapes(&["pig"]), frames: *frames }.run(session)
             }
-            Self::Extremes { short, only, .. } => {
-                extremes::Extremes { short: *short, only: only.clone() }.run(session)
-            }
             Self::Linear { fibers, common } => {
                 linear::Linear { shapes: common.shapes(&["pig"]), fibers: fibers.clone() }.run(session)
             }
@@ -216,16 +242,21 @@ impl Common {
 impl Bench {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
         let common = self.study.common();
+        if let Study::Properties { first, show: true, .. } = &self.study {
+            let text = properties::problem_text(common.seed, *first);
+            return say(out, &text.ok_or_else(|| CommandError::Failed("the problem cannot be written".into()))?);
+        }
         let progress = Progress::default();
         let stop = || cancel.load(Ordering::SeqCst);
         let session = Session { seed: common.seed, stop: &stop, cancel, progress: &|what| progress.show(what) };
         let report = self.study.run(&session);
         progress.clear();
-        let report = report.map_err(|error| failure(error, cancel))?;
+        let (report, failed) = report.map_err(|error| failure(error, cancel))?;
         if let Some(folder) = &common.out {
             write(&report, folder, cancel)?;
         }
-        if common.json { say_json(out, &report.json()) } else { say(out, &report.text()) }
+        if common.json { say_json(out, &report.json())? } else { say(out, &report.text())? }
+        failed.map_or(Ok(()), |what| Err(CommandError::Failed(what)))
     }
 }
 

@@ -150,11 +150,11 @@ impl Energy for Body {
 
     fn add_hessian(&self, x: &[f64], form: HessianForm, out: &mut Scatter) {
         for k in 0..self.triangles.len() {
-            let mut c = self.material.tangent(&self.deformation_gradient(k, x));
-            if form == HessianForm::Projected {
-                c = project(c);
-            }
-            c *= self.weights[k];
+            let f = self.deformation_gradient(k, x);
+            let c = match form {
+                HessianForm::Exact => self.material.tangent(&f),
+                HessianForm::Projected => project(self.material.descent_tangent(&f)),
+            } * self.weights[k];
             // Columns of `C h`, the change of stress per displacement of each node along x and y.
             let g = &self.gradients[k];
             let by_node = g.map(|h| {

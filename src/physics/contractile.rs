@@ -12,7 +12,7 @@
 //! An element may instead carry a prescribed tension `tau`, with the energy `tau l`: the unknown of the fast posing method.
 //! Segments are convex in `x` and `tau >= 0`, so the Hessian `U'' G^T G + tau d2l` is always positive semi-definite.
 
-use super::energy::{Energy, HessianForm};
+use super::energy::{Energy, HessianForm, ROUNDING};
 use super::pattern::Scatter;
 
 /// Width of a point, as a fraction of the element's initial rest length: a segment of coordinate difference `d` counts as
@@ -20,8 +20,10 @@ use super::pattern::Scatter;
 /// comes to rest; this one is smooth. From `1e-8` of the rest length on, the two differ by less than rounding.
 const POINT: f64 = 1e-9;
 
-/// Part of `U'' l` that counts as force at work: rounding of the coordinates leaves 1e-16 of it.
-const ROUNDING: f64 = 1e-6;
+/// A step may take at most this part of the way on which a taut segment would turn over.
+const TURNING_MARGIN: f64 = 0.9;
+/// Segments up to this many points wide may turn over: there the length is smooth.
+const ROUND: f64 = 10.0;
 
 /// What never changes about an element.
 #[derive(Clone, Debug, PartialEq)]
@@ -252,12 +254,41 @@ impl Energy for Contractile {
         }
     }
 
-    /// The tension, and what rounding of the coordinates makes of a stiff spring.
+    /// A taut segment on its way to nothing would be thrown back and forth across its end, where the length has its kink: it may
+    /// come nearer to it by a factor of ten a step.
+    fn step_limit(&self, x: &[f64], dx: &[f64]) -> f64 {
+        let mut limit = 1.0_f64;
+        for (e, law) in self.elements.iter().zip(&self.laws) {
+            if law.tension_and_tangent(e, e.length(x)).0 <= 0.0 {
+                continue;
+            }
+            let point = e.point();
+            for s in e.routing.windows(2) {
+                let (px, py, length) = segment(x, s, point);
+                let (vx, vy) = (dx[2 * s[1]] - dx[2 * s[0]], dx[2 * s[1] + 1] - dx[2 * s[0] + 1]);
+                let along = px * vx + py * vy;
+                if length > ROUND * point && along < 0.0 {
+                    limit = limit.min(TURNING_MARGIN * (px * px + py * py) / -along);
+                }
+            }
+        }
+        limit
+    }
+
     fn add_force_scale(&self, x: &[f64], scale: &mut [f64]) {
         for (e, law) in self.elements.iter().zip(&self.laws) {
+            let tau = law.tension_and_tangent(e, e.length(x)).0;
+            for &n in &e.routing {
+                scale[2 * n] += tau;
+                scale[2 * n + 1] += tau;
+            }
+        }
+    }
+
+    fn add_rounding(&self, x: &[f64], scale: &mut [f64]) {
+        for (e, law) in self.elements.iter().zip(&self.laws) {
             let length = e.length(x);
-            let (tau, tangent) = law.tension_and_tangent(e, length);
-            let force = tau + ROUNDING * tangent * length;
+            let force = ROUNDING * law.tension_and_tangent(e, length).1 * length;
             for &n in &e.routing {
                 scale[2 * n] += force;
                 scale[2 * n + 1] += force;

@@ -17,6 +17,7 @@
 
 pub mod body;
 pub mod cholesky;
+mod continuation;
 pub mod contractile;
 pub mod double;
 pub mod energy;
@@ -27,6 +28,7 @@ pub mod neo_hookean;
 pub mod pattern;
 pub mod pins;
 pub mod refine;
+mod ridge;
 pub mod st_venant_kirchhoff;
 pub mod statics;
 

@@ -148,7 +148,8 @@ impl Model {
         }
     }
 
-    /// The forces at work: the largest sum of magnitudes of the single forces that meet in a node's component.
+    /// The forces at work: the largest sum of magnitudes of the single forces that meet in a node's component, with what a
+    /// change of the coordinates in the sixth digit does to stiff springs.
     pub fn force_scale(&self, x: &[f64]) -> f64 {
         self.force_scale_into(x, &mut vec![0.0; x.len()])
     }
@@ -158,8 +159,22 @@ impl Model {
         scale.fill(0.0);
         for term in self.all() {
             term.add_force_scale(x, scale);
+            term.add_rounding(x, scale);
         }
         scale.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// The forces at work alone, with their sums left in `scale`.
+    pub fn forces_at_work_into(&self, x: &[f64], scale: &mut [f64]) -> f64 {
+        scale.fill(0.0);
+        self.all().for_each(|term| term.add_force_scale(x, scale));
+        scale.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// What a change of the coordinates in the sixth digit does to stiff springs, entry by entry.
+    pub fn rounding_into(&self, x: &[f64], scale: &mut [f64]) {
+        scale.fill(0.0);
+        self.all().for_each(|term| term.add_rounding(x, scale));
     }
 
     /// Largest step along `dx` that keeps every term inside its domain.
@@ -169,6 +184,25 @@ impl Model {
 
     /// Assembles `H(x)` and factorises it.
     pub fn factorize(&mut self, x: &[f64], form: HessianForm) -> Result<(), NotPositiveDefinite> {
+        self.assemble(x, form);
+        self.cholesky.factorize(&self.pattern, &self.values)
+    }
+
+    /// The same with `shift` on the whole diagonal.
+    pub(super) fn factorize_shifted(
+        &mut self,
+        x: &[f64],
+        form: HessianForm,
+        shift: f64,
+    ) -> Result<(), NotPositiveDefinite> {
+        self.assemble(x, form);
+        for d in 0..self.pattern.dimension() {
+            self.values[self.pattern.diagonal(d)] += shift;
+        }
+        self.cholesky.factorize(&self.pattern, &self.values)
+    }
+
+    fn assemble(&mut self, x: &[f64], form: HessianForm) {
         self.values.fill(0.0);
         for (term, slots) in all_terms(&self.body, &self.contractile, &self.pins, &self.terms).zip(&self.slots) {
             term.add_hessian(x, form, &mut Scatter::new(slots, &mut self.values));
@@ -178,7 +212,6 @@ impl Model {
                 self.values[self.pattern.diagonal(d)] += shift;
             }
         }
-        self.cholesky.factorize(&self.pattern, &self.values)
     }
 
     /// The exact Hessian where it is positive definite, else the projected one. Says which it was; an error means that

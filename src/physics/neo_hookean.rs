@@ -17,6 +17,21 @@ pub struct NeoHookean {
     pub kappa: f64,
 }
 
+/// Largest pressure, in shear moduli, that counts as stiffness in a descent step.
+const LARGEST_PRESSURE: f64 = 10.0;
+
+impl NeoHookean {
+    /// The second derivative with `kappa ln J` given where it is a pressure.
+    fn tangent_under(&self, f: &Matrix2<f64>, pressure: f64) -> Matrix4<f64> {
+        let j = f.determinant();
+        let c = pressure - self.mu;
+        let g = Vector4::from_column_slice(cofactor(f).as_slice());
+        Matrix4::from_diagonal_element(self.mu)
+            + g * g.transpose() * ((self.kappa - c) / (j * j))
+            + determinant_hessian() * (c / j)
+    }
+}
+
 impl Material for NeoHookean {
     fn density(&self, f: &Matrix2<f64>) -> f64 {
         let j = f.determinant();
@@ -35,12 +50,15 @@ impl Material for NeoHookean {
     }
 
     fn tangent(&self, f: &Matrix2<f64>) -> Matrix4<f64> {
-        let j = f.determinant();
-        let c = self.kappa * j.ln() - self.mu;
-        let g = Vector4::from_column_slice(cofactor(f).as_slice());
-        Matrix4::from_diagonal_element(self.mu)
-            + g * g.transpose() * ((self.kappa - c) / (j * j))
-            + determinant_hessian() * (c / j)
+        self.tangent_under(f, self.kappa * f.determinant().ln())
+    }
+
+    /// Where `kappa` is large, a step that is right to first order changes the area to second order, and `kappa ln J` becomes
+    /// a pressure of many shear moduli that the next step removes. As stiffness against bending it would hold that step
+    /// back, so it is limited there.
+    fn descent_tangent(&self, f: &Matrix2<f64>) -> Matrix4<f64> {
+        let limit = LARGEST_PRESSURE * self.mu;
+        self.tangent_under(f, (self.kappa * f.determinant().ln()).clamp(-limit, limit))
     }
 
     /// `P = mu (F - C) + (mu (J - 1) + kappa ln J) C / J`, in which what cancels near `J = 1` and near rest is taken first.

@@ -8,7 +8,7 @@
 
 use super::contractile::Contractile;
 use super::double::Double;
-use super::energy::{Energy, HessianForm};
+use super::energy::Energy;
 use super::model::Model;
 use super::statics::norm;
 
@@ -16,8 +16,10 @@ use super::statics::norm;
 const ROUNDS: usize = 8;
 /// The residual, as a part of the forces at work, that is good enough.
 const BALANCED: f64 = 1e-13;
-/// A round that leaves more than this part of the residual was the last.
-const WORTHWHILE: f64 = 0.5;
+/// A round that leaves more than this part of the residual was the last, and in vain.
+const WORTHWHILE: f64 = 0.7;
+/// One that leaves more than this part asks for a new factor.
+const FAST: f64 = 0.01;
 
 /// Forces of an equilibrium, in balance to [`BALANCED`] or as far as refinement went.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,11 +40,18 @@ pub fn refine(model: &mut Model, x: &mut [f64]) -> Forces {
     let mut state: Vec<Double> = x.iter().map(|&v| v.into()).collect();
     let (mut gradient, mut scale) = (vec![0.0; x.len()], vec![0.0; x.len()]);
     let mut forces = evaluate(model, &state, x, &mut gradient, &mut scale);
-    if forces.residual <= BALANCED * forces.scale || model.factorize(x, HessianForm::Exact).is_err() {
+    if forces.residual <= BALANCED * forces.scale {
         return forces;
     }
-    forces.factorizations = 1;
+    let mut fresh = false;
     for _ in 0..ROUNDS {
+        if !fresh {
+            // A free motion or an unstable equilibrium: still a direction in which forces of stiff springs balance.
+            if model.factorize_for_descent(x).is_err() {
+                break;
+            }
+            forces.factorizations += 1;
+        }
         let mut step = gradient.clone();
         model.solve(&mut step);
         let trial: Vec<Double> = state.iter().zip(&step).map(|(v, s)| *v - Double::from(*s)).collect();
@@ -53,15 +62,14 @@ pub fn refine(model: &mut Model, x: &mut [f64]) -> Forces {
         }
         let mut trial_gradient = vec![0.0; x.len()];
         let next = evaluate(model, &trial, &rounded, &mut trial_gradient, &mut scale);
-        // Not by an infinity that both share, nor by NaN.
-        if next.residual.is_nan() || next.residual >= forces.residual {
+        if next.residual.is_nan() || next.residual >= WORTHWHILE * forces.residual {
             break;
         }
-        let last = next.residual <= BALANCED * next.scale || next.residual > WORTHWHILE * forces.residual;
+        fresh = next.residual <= FAST * forces.residual;
         x.copy_from_slice(&rounded);
         (state, gradient) = (trial, trial_gradient);
         forces = Forces { factorizations: forces.factorizations, ..next };
-        if last {
+        if forces.residual <= BALANCED * forces.scale {
             break;
         }
     }

@@ -3,8 +3,10 @@
 //! The exact Hessian is factorised; only where that fails the projected one takes its place. A step is first capped so that
 //! no triangle comes near inversion, then halved until the energy falls enough (Armijo).
 
+use super::continuation;
 use super::energy::HessianForm;
 use super::model::Model;
+use super::ridge;
 
 /// Settings of [`solve`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,6 +36,11 @@ const SMALLEST_STEP: f64 = 1e-12;
 const FLAT: f64 = 1e-6;
 /// Relative rounding of an energy sum: differences below it say nothing.
 const ENERGY_ROUNDING: f64 = 1e-13;
+/// There a step must leave at most this part of the residual, or rounding is all that is left of it.
+const STILL_FALLING: f64 = 0.7;
+/// A residual below this part of what a change in the sixth digit of the coordinates does is rounding: five units in the last
+/// place.
+const RESOLVED: f64 = 1e-9;
 
 /// A converged state.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,7 +73,7 @@ pub enum Cause {
     Stalled,
     #[error("not in equilibrium after the allowed number of Newton steps")]
     Iterations,
-    #[error("the body is free to move and is pulled away: add a pin")]
+    #[error("the body is free to move: add a pin")]
     FreeToMove,
     #[error("a triangle is pressed flat and its material does not resist: use a Neo-Hookean one, or pull less")]
     Collapsed,
@@ -97,13 +104,14 @@ pub struct Workspace {
     trial: Vec<f64>,
     trial_gradient: Vec<f64>,
     forces: Vec<f64>,
+    rounding: Vec<f64>,
 }
 
 impl Workspace {
     /// Ready for models of this dimension; an empty one grows where it is first used.
     pub fn new(dimension: usize) -> Self {
         let zero = || vec![0.0; dimension];
-        Self { gradient: zero(), step: zero(), trial: zero(), trial_gradient: zero(), forces: zero() }
+        Self { gradient: zero(), step: zero(), trial: zero(), trial_gradient: zero(), forces: zero(), rounding: zero() }
     }
 }
 
@@ -134,6 +142,9 @@ pub fn solve(
 }
 
 /// The same in place: `x` becomes the equilibrium, or the best state reached.
+///
+/// Where springs far stiffer than the body are far from their balance, they are first taken as softer ones and stiffened step by
+/// step ([`super::continuation`]); the way there is left again if it ends above the energy of the start.
 pub fn settle(
     model: &mut Model,
     x: &mut [f64],
@@ -141,9 +152,43 @@ pub fn settle(
     cancel: &dyn Fn() -> bool,
     work: &mut Workspace,
 ) -> Progress {
+    let mut spent = [0; 3];
+    if valid_energy(model, x).is_finite() && continuation::is_wanted(model, x) {
+        let start = x.to_vec();
+        let before = model.energy(&start);
+        for stage in continuation::stages(model) {
+            let kept = continuation::enter(model, stage);
+            let done = newton(model, x, &continuation::SETTINGS, cancel, work);
+            continuation::leave(model, kept);
+            for (sum, more) in spent.iter_mut().zip([done.iterations, done.factorizations, done.projections]) {
+                *sum += more;
+            }
+        }
+        if model.energy(x) > before {
+            x.copy_from_slice(&start);
+        }
+    }
+    let done = newton(model, x, settings, cancel, work);
+    let [iterations, factorizations, projections] = spent;
+    Progress {
+        iterations: done.iterations + iterations,
+        factorizations: done.factorizations + factorizations,
+        projections: done.projections + projections,
+        ..done
+    }
+}
+
+/// Newton's method on the model as it is.
+fn newton(
+    model: &mut Model,
+    x: &mut [f64],
+    settings: &StaticsSettings,
+    cancel: &dyn Fn() -> bool,
+    work: &mut Workspace,
+) -> Progress {
     let n = model.dimension();
-    let Workspace { gradient, step, trial, trial_gradient, forces } = work;
-    for buffer in [&mut *gradient, step, trial, trial_gradient, forces] {
+    let Workspace { gradient, step, trial, trial_gradient, forces, rounding } = work;
+    for buffer in [&mut *gradient, step, trial, trial_gradient, forces, rounding] {
         buffer.resize(n, 0.0);
     }
     let mut energy = valid_energy(model, x);
@@ -167,13 +212,17 @@ pub fn settle(
     loop {
         state.energy = energy;
         state.residual = norm(gradient);
-        state.force_scale = model.force_scale_into(x, forces);
+        let at_work = model.forces_at_work_into(x, forces);
         if model.is_pulled_away(gradient, forces) {
             return Progress { cause: Some(Cause::FreeToMove), ..state };
         }
+        model.rounding_into(x, rounding);
+        let most = settings.tolerance * at_work;
+        let balanced = gradient.iter().zip(rounding.iter()).all(|(g, r)| g.abs() <= most + RESOLVED * r);
+        state.force_scale = forces.iter().zip(rounding.iter()).map(|(f, r)| f + r).fold(0.0, f64::max);
         let settled = state.residual <= settings.stagnation_tolerance * state.force_scale;
         let unsettled = |cause: Cause| if settled { None } else { Some(cause) };
-        if state.residual <= settings.tolerance * state.force_scale || state.residual == 0.0 {
+        if balanced {
             return state;
         }
         if state.iterations >= settings.max_iterations {
@@ -210,7 +259,7 @@ pub fn settle(
             } else if trial_energy.is_finite() && (t * slope).abs() <= ENERGY_ROUNDING * energy_scale(model, energy) {
                 // Energies no longer tell states apart; forces still do.
                 model.gradient(trial, trial_gradient);
-                if norm(trial_gradient) < state.residual {
+                if norm(trial_gradient) <= STILL_FALLING * state.residual {
                     accepted = true;
                 } else {
                     break;
@@ -229,6 +278,46 @@ pub fn settle(
         model.gradient(x, gradient);
     }
 }
+
+/// The same as [`solve`], and on from an equilibrium that is not stable: by symmetry Newton's method may end on a ridge of the
+/// energy (a bar that is pressed and does not buckle). From there it goes down to either side.
+pub fn minimum(
+    model: &mut Model,
+    start: &[f64],
+    settings: &StaticsSettings,
+    cancel: &dyn Fn() -> bool,
+) -> Result<Equilibrium, Box<StaticsError>> {
+    let mut state = solve(model, start, settings, cancel)?;
+    for _ in 0..RIDGES {
+        if cancel() {
+            break;
+        }
+        state.factorizations += 1;
+        if model.factorize(&state.x, HessianForm::Exact).is_ok() {
+            break;
+        }
+        let Some(aside) = ridge::step_aside(model, &state.x) else { break };
+        let next = solve(model, &aside, settings, cancel);
+        let (next, failed) = match next {
+            Ok(next) => (next, None),
+            Err(error) => (error.best, Some(error.cause)),
+        };
+        let counted = Equilibrium {
+            iterations: state.iterations + next.iterations,
+            factorizations: state.factorizations + next.factorizations,
+            projections: state.projections + next.projections,
+            ..next
+        };
+        match failed {
+            None => state = counted,
+            Some(cause) => return Err(Box::new(StaticsError { cause, best: counted })),
+        }
+    }
+    Ok(state)
+}
+
+/// Ridges that are left at most.
+const RIDGES: usize = 6;
 
 /// `max |v|`, infinite for NaN.
 pub fn norm(v: &[f64]) -> f64 {

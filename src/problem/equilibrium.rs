@@ -45,7 +45,7 @@ pub(super) fn settle(
     stop: &dyn Fn() -> bool,
 ) -> (Statics, Vec<f64>) {
     let start: Vec<f64> = inner.start.as_ref().unwrap_or(&inner.mesh.nodes).iter().flatten().copied().collect();
-    let (mut state, cause) = match statics::solve(model, &start, &StaticsSettings::default(), stop) {
+    let (mut state, cause) = match statics::minimum(model, &start, &StaticsSettings::default(), stop) {
         Ok(state) => (state, None),
         Err(error) => (error.best, Some(error.cause)),
     };

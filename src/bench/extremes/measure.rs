@@ -52,8 +52,9 @@ fn solved(case: &Case, problem: &Problem, stop: &dyn Fn() -> bool) -> Outcome {
         return outcome;
     }
     let size = size(problem);
-    if problem.mesh.nodes.len() <= REFERENCE_NODES {
-        let rigid = rigid_motions(problem);
+    let (rigid, pieces) = rigid_motions(problem);
+    // Loose pieces that hang together by slack cables have no one answer.
+    if problem.mesh.nodes.len() <= REFERENCE_NODES && (rigid == 0 || pieces == 1) {
         if let Some(reference) = reference::near(problem, &state.x, rigid) {
             let error = if rigid > 0 {
                 shape_error(problem, &state.x, &reference.x)
@@ -146,10 +147,12 @@ fn unsound(state: &Statics) -> Option<String> {
     scalars.into_iter().find(|(_, v)| !v.is_finite()).map(|(name, _)| format!("{name} is not finite"))
 }
 
-/// Free rigid motions of the whole: 3 without a pin, 1 about a single one; more where the body is in several pieces.
-fn rigid_motions(problem: &Problem) -> usize {
-    let model = answer::model(problem);
-    model.map_or(0, |m| m.loose().iter().map(|l| if l.pinned == 0 { 3 } else { 1 }).sum())
+/// Free rigid motions, 3 for a piece without a pin and 1 about a single one; and the number of pieces.
+fn rigid_motions(problem: &Problem) -> (usize, usize) {
+    let motions = |m: crate::physics::Model| {
+        (m.loose().iter().map(|l| if l.pinned == 0 { 3 } else { 1 }).sum(), m.pieces())
+    };
+    answer::model(problem).map_or((0, 1), motions)
 }
 
 /// Longer side of the rest shape's box, m.

@@ -45,8 +45,12 @@ pub fn rows(short: bool) -> Vec<Row> {
 }
 
 impl Extremes {
-    pub fn run(&self, session: &Session) -> Result<Report, BenchError> {
-        Ok(report(&self.judge(session)?, self.short))
+    /// The table, and the rows that do not pass.
+    pub fn run(&self, session: &Session) -> Result<(Report, Option<String>), BenchError> {
+        let judged = self.judge(session)?;
+        let failing: Vec<&str> = judged.iter().filter(|j| !j.passes()).map(|j| j.row.name).collect();
+        let failed = (!failing.is_empty()).then(|| format!("rows that do not pass: {}", failing.join("; ")));
+        Ok((report(&judged, self.short), failed))
     }
 
     /// Runs every case of the rows asked for.

@@ -24,8 +24,8 @@ const CONVERGED: f64 = 1e-24;
 const CONVERGED_FREE: f64 = 1e-17;
 /// Step of the difference quotients, as a part of the body: half of the digits.
 const DIFFERENCE: f64 = 1e-15;
-/// Stiffness, as a part of the largest, that holds free rigid motions while a step is computed.
-const HELD: f64 = 1e-14;
+/// Stiffness, as a part of the shear modulus, that holds free rigid motions while a step is computed.
+const HELD: f64 = 1e-10;
 /// Below this part of the largest an eigenvalue counts as that of a free rigid motion, where there is one.
 const RIGID: f64 = 1e-11;
 /// Width of a point, as a part of an element's rest length: segments are `sqrt(d^2 + w^2)` long. It is part of the model.
@@ -39,7 +39,7 @@ pub fn near(problem: &Problem, from: &[[f64; 2]], rigid_motions: usize) -> Optio
     for _ in 0..STEPS {
         let gradient = gradient(&terms, &x);
         let hessian = self::hessian(&terms, &x, DIFFERENCE * size);
-        let held = HELD * hessian.amax();
+        let held = HELD * problem.material.mu;
         let mut matrix = hessian.clone();
         if rigid_motions > 0 {
             (0..matrix.nrows()).for_each(|d| matrix[(d, d)] += held);
