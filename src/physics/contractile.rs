@@ -288,10 +288,19 @@ impl Energy for Contractile {
     fn add_rounding(&self, x: &[f64], scale: &mut [f64]) {
         for (e, law) in self.elements.iter().zip(&self.laws) {
             let length = e.length(x);
-            let force = ROUNDING * law.tension_and_tangent(e, length).1 * length;
-            for &n in &e.routing {
-                scale[2 * n] += force;
-                scale[2 * n + 1] += force;
+            let (tau, tangent) = law.tension_and_tangent(e, length);
+            if tau == 0.0 && tangent == 0.0 {
+                continue;
+            }
+            // The tension changes with the length, and the direction of a segment the more, the shorter it is.
+            let along = tangent * length;
+            for s in e.routing.windows(2) {
+                let size = s.iter().fold(0.0, |m: f64, n| m.max(x[2 * n].abs()).max(x[2 * n + 1].abs()));
+                let force = ROUNDING * (along + tau / segment(x, s, e.point()).2 * size);
+                for &n in s {
+                    scale[2 * n] += force;
+                    scale[2 * n + 1] += force;
+                }
             }
         }
     }

@@ -6,7 +6,7 @@
 //! method goes on with residuals of twice the digits and the factor of the ordinary Hessian (iterative refinement). What
 //! comes out are forces in balance: the force of a stiff pin is what its node needs, as if its unknowns were eliminated.
 
-use super::contractile::Contractile;
+use super::contractile::{Element, Law};
 use super::double::Double;
 use super::energy::Energy;
 use super::model::Model;
@@ -86,15 +86,14 @@ fn evaluate(model: &Model, state: &[Double], x: &[f64], gradient: &mut [f64], sc
         term.add_gradient(x, gradient);
         term.add_force_scale(x, scale);
     }
-    let tensions = precise_tensions(&model.contractile, state);
-    for (e, tau) in model.contractile.elements.iter().zip(&tensions) {
-        if *tau != 0.0 {
-            e.add_length_gradient(x, *tau, gradient);
-            for &n in &e.routing {
-                scale[2 * n] += tau;
-                scale[2 * n + 1] += tau;
-            }
+    let mut tensions = Vec::with_capacity(model.contractile.elements.len());
+    for (element, law) in model.contractile.elements.iter().zip(&model.contractile.laws) {
+        let tau = add_pull(element, law, state, gradient);
+        for &n in &element.routing {
+            scale[2 * n] += tau;
+            scale[2 * n + 1] += tau;
         }
+        tensions.push(tau);
     }
     let mut pins = Vec::with_capacity(model.pins.pins.len());
     for pin in &model.pins.pins {
@@ -115,19 +114,26 @@ fn evaluate(model: &Model, state: &[Double], x: &[f64], gradient: &mut [f64], sc
     Forces { tensions, pins, residual: norm(gradient), scale: norm(scale), factorizations: 0 }
 }
 
-/// `U'(l - alpha)` of every spring, the difference taken in two words.
-fn precise_tensions(contractile: &Contractile, state: &[Double]) -> Vec<f64> {
-    use super::contractile::Law;
-    let tension = |(element, law): (&super::Element, &Law)| {
-        let point = Double::from(element.point()).square();
-        let length = element.routing.windows(2).fold(Double::ZERO, |sum, s| {
-            let [dx, dy] = [0, 1].map(|axis| state[2 * s[1] + axis] - state[2 * s[0] + axis]);
-            sum + (dx.square() + dy.square() + point).sqrt()
-        });
-        match *law {
-            Law::Spring { alpha } => element.tension((length - Double::from(alpha)).value()),
-            _ => law.tension_and_tangent(element, length.value()).0,
-        }
+/// Adds the forces of an element and returns its tension; length and directions in two words.
+fn add_pull(element: &Element, law: &Law, state: &[Double], gradient: &mut [f64]) -> f64 {
+    let point = Double::from(element.point()).square();
+    let segments = element.routing.windows(2).map(|s| {
+        let [dx, dy] = [0, 1].map(|axis| state[2 * s[1] + axis] - state[2 * s[0] + axis]);
+        ([dx, dy], (dx.square() + dy.square() + point).sqrt())
+    });
+    let length = segments.clone().fold(Double::ZERO, |sum, (_, length)| sum + length);
+    let tau = match *law {
+        Law::Spring { alpha } => element.tension((length - Double::from(alpha)).value()),
+        _ => law.tension_and_tangent(element, length.value()).0,
     };
-    contractile.elements.iter().zip(&contractile.laws).map(tension).collect()
+    if tau != 0.0 {
+        for (s, (d, length)) in element.routing.windows(2).zip(segments) {
+            for axis in 0..2 {
+                let pull = tau * (d[axis] / length).value();
+                gradient[2 * s[0] + axis] -= pull;
+                gradient[2 * s[1] + axis] += pull;
+            }
+        }
+    }
+    tau
 }
