@@ -16,12 +16,12 @@ use std::time::Duration;
 fn random_problems_and_edits_keep_their_properties() {
     let cancel = AtomicBool::new(false);
     let session = Session { seed: 2, stop: &|| false, cancel: &cancel, progress: &|_| {} };
-    let found = Properties { problems: 400, first: 0 }.try_out(&session).unwrap();
+    let found = Properties { problems: 300, first: 0 }.try_out(&session).unwrap();
     assert!(found.violations.is_empty(), "{:#?}", found.violations);
     let count = |end: End| End::ALL.iter().position(|e| *e == end).map_or(0, |k| found.ends[k]);
     // The run shows something only if all kinds occur.
-    assert!(count(End::Answered) > 200 && count(End::Refused) > 10 && count(End::FreeToMove) > 10, "{found:?}");
-    assert!(found.edits > 100, "{found:?}");
+    assert!(count(End::Answered) > 150 && count(End::Refused) > 10 && count(End::FreeToMove) > 10, "{found:?}");
+    assert!(found.edits > 40, "{found:?}");
 }
 
 /// Files to begin with: small ones, so that a change hits something.

@@ -122,12 +122,15 @@ enum Study {
         /// Only rows whose name or group holds this text
         #[arg(long, value_name = "TEXT")]
         only: Option<String>,
+        /// Write the problem file of every case into this folder, and solve nothing
+        #[arg(long, value_name = "DIR")]
+        scenes: Option<PathBuf>,
         #[command(flatten)]
         common: Common,
     },
     /// Random problems and random edits: what must hold for all of them
     Properties {
-        /// Number of problems; there is one sequence of edits for every fifty
+        /// Number of problems; there is one sequence of edits for every hundred
         #[arg(long, default_value_t = 10_000)]
         problems: usize,
         /// Number of the first problem, to look at one again
@@ -246,6 +249,10 @@ impl Bench {
             let text = properties::problem_text(common.seed, *first);
             return say(out, &text.ok_or_else(|| CommandError::Failed("the problem cannot be written".into()))?);
         }
+        if let Study::Extremes { short, only, scenes: Some(folder), .. } = &self.study {
+            let files = extremes::Extremes { short: *short, only: only.clone() }.files();
+            return write_files(&files, folder, cancel);
+        }
         let progress = Progress::default();
         let stop = || cancel.load(Ordering::SeqCst);
         let session = Session { seed: common.seed, stop: &stop, cancel, progress: &|what| progress.show(what) };
@@ -282,6 +289,16 @@ fn write(report: &Report, path: &Path, cancel: &AtomicBool) -> Result<(), Comman
         put(format!("{}.svg", plot.name), plot.svg().map_err(|e| failure(e, cancel))?)?;
     }
     put("report.txt".into(), report.text() + "\n")?;
+    staged.commit(cancel)
+}
+
+/// Texts in a folder that appears whole or not at all.
+fn write_files(files: &[(String, String)], path: &Path, cancel: &AtomicBool) -> Result<(), CommandError> {
+    check_cancel(cancel)?;
+    let staged = Staged::beside(path)?;
+    for (name, text) in files {
+        std::fs::write(staged.folder().join(name), text).map_err(|e| CommandError::write(path, e))?;
+    }
     staged.commit(cancel)
 }
 

@@ -5,7 +5,7 @@
 //! `F = sum_a x_a b_a^T`, `dE/dx_a = A P b_a`.
 
 use super::double::Double;
-use super::energy::{Energy, HessianForm};
+use super::energy::{Energy, HessianForm, ROUNDING};
 use super::material::{Material, cofactor, project};
 use super::pattern::Scatter;
 use nalgebra::{Matrix2, Vector2};
@@ -195,6 +195,21 @@ impl Energy for Body {
                 let rounding = floor * self.weights[k] * self.gradients[k][a].norm();
                 scale[2 * n] += force[0].abs() + rounding;
                 scale[2 * n + 1] += force[1].abs() + rounding;
+            }
+        }
+    }
+
+    /// `F` changes with the coordinates, and the stress by the largest modulus with it.
+    fn add_rounding(&self, x: &[f64], scale: &mut [f64]) {
+        let modulus = ROUNDING * self.material.largest_modulus();
+        for (k, t) in self.triangles.iter().enumerate() {
+            let size = t.iter().fold(0.0, |m: f64, n| m.max(x[2 * n].abs()).max(x[2 * n + 1].abs()));
+            let steepest = self.gradients[k].iter().map(|g| g.norm()).fold(0.0, f64::max);
+            let stress = modulus * size * steepest * self.weights[k];
+            for (a, &n) in t.iter().enumerate() {
+                let force = stress * self.gradients[k][a].norm();
+                scale[2 * n] += force;
+                scale[2 * n + 1] += force;
             }
         }
     }

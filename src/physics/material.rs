@@ -25,6 +25,8 @@ pub trait Material: Send + Sync {
     }
     /// The shear modulus at rest: the unit of stress of this material.
     fn shear_modulus(&self) -> f64;
+    /// How much stress a change of `F` makes at most, at rest: what rounding of `F` is multiplied by.
+    fn largest_modulus(&self) -> f64;
 }
 
 /// The nearest positive semi-definite matrix: negative eigenvalues set to zero.

@@ -25,6 +25,7 @@ pub mod gravity;
 pub mod material;
 pub mod model;
 pub mod neo_hookean;
+mod patience;
 pub mod pattern;
 pub mod pins;
 pub mod refine;

@@ -12,6 +12,9 @@ const RIGID_SHIFT: f64 = 1e-8;
 /// Stiffness that holds a mechanism (everything slack) where even the projected Hessian is singular, as a fraction of the shear
 /// modulus. Only the step feels it: larger would slow Newton down, smaller drowns in rounding.
 const MECHANISM_SHIFT: f64 = 1e-6;
+/// Where it does not suffice, it grows by this factor, so many times: up to `1e9` shear moduli.
+const SHIFT_GROWTH: f64 = 1e3;
+const SHIFTS: usize = 6;
 
 /// A free part whose forces add up to this fraction of their magnitudes is pulled away: far above rounding.
 const PULLED_AWAY: f64 = 1e-9;
@@ -223,12 +226,20 @@ impl Model {
         if self.factorize(x, HessianForm::Projected).is_ok() {
             return Ok(HessianForm::Projected);
         }
-        // A mechanism without stiffness (slack everywhere): hold it by a small part of the shear modulus.
-        let shift = MECHANISM_SHIFT * self.body.material().shear_modulus();
-        for d in 0..self.pattern.dimension() {
-            self.values[self.pattern.diagonal(d)] += shift;
+        // A mechanism without stiffness (slack everywhere): hold it by a small part of the shear modulus, or by more where
+        // rounding of far stiffer parts drowns that.
+        let mut shift = MECHANISM_SHIFT * self.body.material().shear_modulus();
+        let mut shifted = 0.0;
+        for _ in 0..SHIFTS {
+            for d in 0..self.pattern.dimension() {
+                self.values[self.pattern.diagonal(d)] += shift - shifted;
+            }
+            if self.cholesky.factorize(&self.pattern, &self.values).is_ok() {
+                return Ok(HessianForm::Projected);
+            }
+            (shifted, shift) = (shift, SHIFT_GROWTH * shift);
         }
-        self.cholesky.factorize(&self.pattern, &self.values).map(|()| HessianForm::Projected)
+        Err(NotPositiveDefinite)
     }
 
     /// Solves with the factor of the last assembled Hessian, in place.

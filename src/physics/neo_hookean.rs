@@ -75,4 +75,8 @@ impl Material for NeoHookean {
     fn shear_modulus(&self) -> f64 {
         self.mu
     }
+
+    fn largest_modulus(&self) -> f64 {
+        2.0 * self.mu + self.kappa
+    }
 }

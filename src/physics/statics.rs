@@ -6,6 +6,7 @@
 use super::continuation;
 use super::energy::HessianForm;
 use super::model::Model;
+use super::patience::Patience;
 use super::ridge;
 
 /// Settings of [`solve`].
@@ -26,6 +27,8 @@ impl Default for StaticsSettings {
     }
 }
 
+/// Newton steps after which a search counts as slow, and more is done in each ([`Patience`]).
+const PATIENCE: usize = 15;
 /// Armijo: the part of the predicted decrease that must be met.
 const SUFFICIENT_DECREASE: f64 = 1e-4;
 /// Halvings before a step counts as failed: a factor of about 1e-12.
@@ -209,6 +212,7 @@ fn newton(
     if !energy.is_finite() {
         return Progress { cause: Some(Cause::InvalidStart), ..state };
     }
+    let mut patience = Patience::new(model);
     loop {
         state.energy = energy;
         state.residual = norm(gradient);
@@ -232,15 +236,13 @@ fn newton(
             return Progress { cause: Some(Cause::Cancelled), ..state };
         }
         state.iterations += 1;
-        state.factorizations += 1;
-        match model.factorize_for_descent(x) {
-            Ok(HessianForm::Exact) => {}
-            Ok(HessianForm::Projected) => {
-                state.factorizations += 1;
-                state.projections += 1;
-            }
-            Err(_) => return Progress { cause: Some(Cause::Factorization), ..state },
-        }
+        let slow = state.iterations > PATIENCE;
+        let factors = if slow { patience.factorize(model, x) } else { factorize(model, x) };
+        let Some((form, factors)) = factors else {
+            return Progress { cause: Some(Cause::Factorization), ..state };
+        };
+        state.factorizations += factors;
+        state.projections += (form == HessianForm::Projected) as usize;
         for (s, g) in step.iter_mut().zip(gradient.iter()) {
             *s = -g;
         }
@@ -253,7 +255,13 @@ fn newton(
             for ((p, x), s) in trial.iter_mut().zip(x.iter()).zip(step.iter()) {
                 *p = x + t * s;
             }
-            let trial_energy = model.energy(trial);
+            let mut trial_energy = model.energy(trial);
+            if slow {
+                if cancel() {
+                    return Progress { cause: Some(Cause::Cancelled), ..state };
+                }
+                trial_energy = patience.correct(model, gradient, t, trial, trial_energy);
+            }
             if trial_energy <= energy + SUFFICIENT_DECREASE * t * slope && slope < 0.0 {
                 accepted = true;
             } else if trial_energy.is_finite() && (t * slope).abs() <= ENERGY_ROUNDING * energy_scale(model, energy) {
@@ -274,6 +282,7 @@ fn newton(
         if !accepted {
             return Progress { cause: unsettled(stalled(model, x)), ..state };
         }
+        patience.learn(t);
         x.copy_from_slice(trial);
         model.gradient(x, gradient);
     }
@@ -318,6 +327,12 @@ pub fn minimum(
 
 /// Ridges that are left at most.
 const RIDGES: usize = 6;
+
+/// The exact Hessian or the projected one, and the number of factorisations that took.
+fn factorize(model: &mut Model, x: &[f64]) -> Option<(HessianForm, usize)> {
+    let form = model.factorize_for_descent(x).ok()?;
+    Some((form, 1 + (form == HessianForm::Projected) as usize))
+}
 
 /// `max |v|`, infinite for NaN.
 pub fn norm(v: &[f64]) -> f64 {

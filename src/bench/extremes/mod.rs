@@ -53,13 +53,34 @@ impl Extremes {
         Ok((report(&judged, self.short), failed))
     }
 
+    /// The rows asked for.
+    fn wanted(&self) -> Vec<Row> {
+        let holds = |row: &Row, text: &str| row.name.contains(text) || row.group.contains(text);
+        rows(self.short).into_iter().filter(|row| self.only.as_ref().is_none_or(|text| holds(row, text))).collect()
+    }
+
+    /// Name and text of the problem file of every case that can be written.
+    pub fn files(&self) -> Vec<(String, String)> {
+        let plain = |text: &str| {
+            let words = text.split(|c: char| !c.is_ascii_alphanumeric()).filter(|w| !w.is_empty());
+            words.collect::<Vec<_>>().join("-").to_lowercase()
+        };
+        let file = |(number, row): (usize, Row)| {
+            let name = plain(row.name);
+            let cases = row.cases.into_iter().enumerate();
+            let named = cases.filter_map(move |(k, case)| {
+                let at = plain(&case.at);
+                Some((format!("{number:02}-{name}-{k:02}-{at}.json"), case.problem.to_text().ok()?))
+            });
+            named.collect::<Vec<_>>()
+        };
+        self.wanted().into_iter().enumerate().flat_map(file).collect()
+    }
+
     /// Runs every case of the rows asked for.
     pub fn judge(&self, session: &Session) -> Result<Vec<Judged>, BenchError> {
-        let wanted = |row: &Row| {
-            self.only.as_ref().is_none_or(|text| row.name.contains(text.as_str()) || row.group.contains(text.as_str()))
-        };
         let mut judged = Vec::new();
-        for row in rows(self.short).into_iter().filter(wanted) {
+        for row in self.wanted() {
             let mut outcomes = Vec::new();
             for case in &row.cases {
                 session.next(&format!("{}: {}", row.name, case.at))?;

@@ -159,14 +159,15 @@ fn objective(random: &mut Random, problem: &mut Problem) {
     let home: Vec<[f64; 2]> = targets.iter().map(|t| t.xy).collect();
     problem.objective = Some(ObjectiveData { targets, default_weight, regulariser });
     let Ok(winches) = problem.free_winches() else { return };
-    if chance(random, 0.5) {
+    // These take a hundred times longer than statics.
+    if chance(random, 0.08) {
         let bound = |random: &mut Random| chance(random, 0.8).then(|| random.between(0.1, 0.8));
         let upper: Vec<Option<f64>> = winches.iter().map(|_| bound(random)).collect();
         let lower = winches.iter().map(|_| bound(random).map(|b| -b)).collect();
         problem.soft_ik =
             Some(SoftIkData { beta_upper: Some(upper), beta_lower: Some(lower), ..SoftIkData::default() });
     }
-    if chance(random, 0.3) {
+    if chance(random, 0.08) {
         let frames: Vec<Vec<[f64; 2]>> = (0..2 + random.index(5))
             .map(|_| home.iter().map(|p| p.map(|v| v + random.between(-far, far))).collect())
             .collect();

@@ -13,12 +13,12 @@ pub use check::End;
 use super::{BenchError, Report, Session, Table};
 
 /// So many problems to one sequence of edits: a sequence does the work of many problems.
-const PROBLEMS_PER_SEQUENCE: usize = 50;
+const PROBLEMS_PER_SEQUENCE: usize = 100;
 /// Violations that are listed.
 const LISTED: usize = 50;
 
 pub struct Properties {
-    /// Random problems; one sequence of edits for every fifty.
+    /// Random problems; one sequence of edits for every hundred.
     pub problems: usize,
     /// Number of the first one, to look at a violation again.
     pub first: usize,
