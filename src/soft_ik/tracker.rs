@@ -8,7 +8,7 @@
 //! one that the targets alone lead to.
 
 use super::contraction::GaussNewton;
-use super::tension::{Run, Workspace};
+use super::tension::{RETURNS, Run, Workspace, snapped};
 use super::{Budget, Method, Posture, Question, Winch};
 use crate::physics::{Cause, Law, StaticsSettings, statics};
 use std::time::Instant;
@@ -112,6 +112,9 @@ struct Fibers {
     waited: usize,
     /// The run is the challenger's until its pose was compared; whether it has converged.
     deciding: Option<bool>,
+    /// Whether the run has converged in this frame, and how often such a state has snapped since the targets moved.
+    ended: bool,
+    snaps: usize,
 }
 
 /// Whose turn it is while the targets rest.
@@ -161,7 +164,19 @@ impl Tracker {
             let run = Run::new(question, start, &mut work);
             let statics = statics::Workspace::new(start.x.len());
             let stage = Stage::Following;
-            Fibers { work, run, challenger, rest, stale: false, statics, stage, waited: 0, deciding: None }
+            Fibers {
+                work,
+                run,
+                challenger,
+                rest,
+                stale: false,
+                statics,
+                stage,
+                waited: 0,
+                deciding: None,
+                ended: false,
+                snaps: 0,
+            }
         });
         Self {
             posture: start.clone(),
@@ -307,17 +322,20 @@ impl Fibers {
         if moved {
             self.stage = Stage::Following;
             self.waited = 0;
+            self.snaps = 0;
             self.stale |= pulled;
             self.run.retarget(question, pulled, &mut self.work);
         } else {
             self.waited += 1;
         }
         let mut fresh = moved || self.waited == 1;
+        self.ended = false;
         while frame.factorizations < budget && self.stage != Stage::Done && !stop() {
             match self.stage {
                 Stage::Following => {
                     fresh = true;
                     let converged = self.step(question, frame, false, tolerance);
+                    self.ended = converged;
                     if converged || (self.waited > CHALLENGE_AFTER && frame.factorizations >= budget) {
                         if self.stale {
                             self.stage = Stage::Resting;
@@ -325,10 +343,8 @@ impl Fibers {
                         } else {
                             self.challenge(question);
                         }
-                        if moved {
-                            // The challenge can wait until the targets have rested for a frame.
-                            break;
-                        }
+                        // What the hand has found is shown, settled, before it is challenged.
+                        break;
                     }
                 }
                 Stage::Resting => {
@@ -344,12 +360,14 @@ impl Fibers {
                         // Whether it is as good is seen once it is settled.
                         std::mem::swap(&mut self.run, &mut self.challenger);
                         self.deciding = Some(converged);
+                        self.ended = converged;
                         return true;
                     }
                 }
                 Stage::Finishing => {
                     fresh = true;
-                    if self.step(question, frame, false, tolerance) {
+                    self.ended = self.step(question, frame, false, tolerance);
+                    if self.ended {
                         self.stage = Stage::Done;
                     }
                 }
@@ -362,14 +380,25 @@ impl Fibers {
     /// Takes note of what became of the best state when it was settled and shown (`None`: it was not taken).
     fn learn(&mut self, question: &mut Question, shown: Option<f64>, posture: &Posture) {
         let deciding = self.deciding.take();
+        let best = &mut self.run.best;
+        let snapped =
+            shown.is_some_and(|o| self.ended && self.snaps < RETURNS && snapped(o, best.objective, self.work.size));
         match (shown, deciding) {
-            (Some(objective), _) => self.run.best.objective = self.run.best.objective.max(objective),
+            (Some(_), _) if snapped => {
+                self.snaps += 1;
+                self.run.go_on_from(question, &posture.x, &posture.beta, &mut self.work);
+            }
+            (Some(objective), _) => best.objective = best.objective.max(objective),
             (None, Some(_)) => std::mem::swap(&mut self.run, &mut self.challenger),
             (None, None) => self.run.go_on_from(question, &posture.x, &posture.beta, &mut self.work),
         }
-        if let Some(converged) = deciding {
-            self.stage = if shown.is_some() && converged { Stage::Done } else { Stage::Finishing };
-        }
+        self.stage = match deciding {
+            Some(converged) if converged && shown.is_some() && !snapped => Stage::Done,
+            Some(_) => Stage::Finishing,
+            None if snapped && self.stage == Stage::Done => Stage::Finishing,
+            None if snapped => Stage::Following,
+            None => self.stage,
+        };
     }
 
     fn challenge(&mut self, question: &mut Question) {

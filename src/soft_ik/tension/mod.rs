@@ -33,10 +33,17 @@ pub(super) use workspace::Workspace;
 
 use super::{Answer, Budget, Method, Posture, Question};
 
-/// A state whose `O` grows by more than this factor when it is settled has snapped into another equilibrium: the run goes on
-/// from there, so often at most.
+/// Growth of `O`, as a factor and in squared body lengths, when a state is settled, from which on it counts as snapped.
 const SNAPPED: f64 = 1.01;
-const RETURNS: usize = 4;
+const SNAPPED_BY: f64 = 1e-6;
+/// How often a run goes on from a pose that a converged state snapped into.
+pub(super) const RETURNS: usize = 4;
+
+/// Whether a state has snapped into another equilibrium when it was settled: `O` there, what it was taken for before, and the
+/// size of the body.
+pub(super) fn snapped(settled: f64, expected: f64, size: f64) -> bool {
+    settled > SNAPPED * expected && settled > expected + SNAPPED_BY * size * size
+}
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AllAtOnce {
@@ -76,7 +83,7 @@ impl Method for AllAtOnce {
             run.best.activations_into(question, &mut beta);
             let (posture, factorizations) = question.settle(&beta, &run.best.x, &|| false);
             answer.factorizations += factorizations;
-            let snapped = posture.in_equilibrium && posture.objective > SNAPPED * run.best.objective;
+            let snapped = posture.in_equilibrium && snapped(posture.objective, run.best.objective, work.size);
             if snapped && answer.converged {
                 run.go_on_from(question, &posture.x, &posture.beta, &mut work);
             }
