@@ -24,6 +24,19 @@ fn random_problems_and_edits_keep_their_properties() {
     assert!(found.edits > 40, "{found:?}");
 }
 
+/// The long run without a release build: `PROBLEMS=100000 FIRST=0 cargo test --test properties -- --ignored --nocapture`.
+#[test]
+#[ignore = "takes long; scripts/properties does the same, optimised"]
+fn a_long_run() {
+    let number = |name: &str, default: usize| std::env::var(name).map_or(default, |v| v.parse().unwrap());
+    let cancel = AtomicBool::new(false);
+    let session = Session { seed: 1, stop: &|| false, cancel: &cancel, progress: &|what| eprintln!("{what}") };
+    let run = Properties { problems: number("PROBLEMS", 100_000), first: number("FIRST", 0) };
+    let found = run.try_out(&session).unwrap();
+    println!("{:?} {:?}", End::ALL, found);
+    assert!(found.violations.is_empty());
+}
+
 /// Files to begin with: small ones, so that a change hits something.
 fn texts(folder: &str, extension: &str, longest: u64) -> Vec<Vec<u8>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
@@ -35,8 +48,22 @@ fn texts(folder: &str, extension: &str, longest: u64) -> Vec<Vec<u8>> {
 
 /// What replaces a number of a file.
 const NUMBERS: [&str; 16] = [
-    "0", "-0.0", "-1", "1e308", "-1e308", "5e-324", "1e-320", "1e999", "NaN", "null", "18446744073709551616", "0.1", "1e9", "[]",
-    "\"\"", "7",
+    "0",
+    "-0.0",
+    "-1",
+    "1e308",
+    "-1e308",
+    "5e-324",
+    "1e-320",
+    "1e999",
+    "NaN",
+    "null",
+    "18446744073709551616",
+    "0.1",
+    "1e9",
+    "[]",
+    "\"\"",
+    "7",
 ];
 
 /// A few changes: a number becomes another, bytes flip, go or come again.
