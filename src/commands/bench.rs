@@ -77,9 +77,6 @@ enum Study {
         /// Drags of each shape and number of targets
         #[arg(long, default_value_t = 1)]
         draws: usize,
-        /// Work of the frames that make up the drag; small frames show its course in small steps
-        #[arg(long, value_enum, default_value_t = Effort::Draft)]
-        quality: Effort,
         #[command(flatten)]
         common: Common,
     },
@@ -202,14 +199,10 @@ impl Study {
                 baseline_up_to: *baseline,
             }
             .run(session),
-            Self::Cold { fibers, targets, draws, quality, common } => cold::Cold {
-                shapes: common.shapes(&["all"]),
-                fibers: *fibers,
-                targets: targets.clone(),
-                draws: *draws,
-                quality: quality_of(*quality),
+            Self::Cold { fibers, targets, draws, common } => {
+                cold::Cold { shapes: common.shapes(&["all"]), fibers: *fibers, targets: targets.clone(), draws: *draws }
+                    .run(session)
             }
-            .run(session),
             Self::Trade { fibers, reference, common } => {
                 let shapes = common.shapes(&["pig"]);
                 trade::Trade { shapes, fibers: fibers.clone(), reference: *reference }.run(session)

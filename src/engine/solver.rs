@@ -68,7 +68,8 @@ impl Solver {
                 (None, Question::Activations(given)) => given.clone(),
                 (None, Question::Targets(_)) => vec![0.0; design.networks.len()],
             };
-            idealize(&mut self.idealized, design, &request.question, &activations, &work)
+            let beside = realizable.as_ref().map(|shape| shape.nodes.as_flattened());
+            idealize(&mut self.idealized, design, &request.question, &activations, beside, &work)
         });
         let realizable = realizable.filter(|_| request.show_realizable);
         Outcome { id: request.id, idealized, realizable, refined: effort == Effort::Thorough }
@@ -94,7 +95,7 @@ fn realize(slot: &mut Option<Compiled>, design: &Design, question: &Question, wo
             (&[][..], held, Vec::new())
         }
     };
-    let answer = compiled.answer(design, targets, &actuation, beta, work);
+    let answer = compiled.answer(design, targets, &actuation, beta, None, work);
     let plushie = &compiled.plushie;
     let mut shape = report(design, plushie, targets, &answer.posture, clock).counted(&answer);
     if let Question::Activations(beta) = question {
@@ -103,12 +104,13 @@ fn realize(slot: &mut Option<Compiled>, design: &Design, question: &Question, wo
     shape
 }
 
-/// The fibres, with the winches held at `activations`.
+/// The fibres, with the winches held at `activations`. `beside`: where these winches alone have brought the realizable plushie.
 fn idealize(
     slot: &mut Option<Compiled>,
     design: &Design,
     question: &Question,
     activations: &[f64],
+    beside: Option<&[f64]>,
     work: &Work,
 ) -> Shape {
     let clock = Instant::now();
@@ -126,7 +128,7 @@ fn idealize(
     };
     let beta = vec![0.0; winches.len()];
     let actuation = Actuation { winches, fixed };
-    let answer = compiled.answer(design, targets, &actuation, beta, work);
+    let answer = compiled.answer(design, targets, &actuation, beta, beside, work);
     let plushie = &compiled.plushie;
     let mut shape = report(design, plushie, targets, &answer.posture, clock).counted(&answer);
     shape.activations_mm = activations.to_vec();
@@ -145,6 +147,7 @@ impl Compiled {
         targets: &[Target],
         actuation: &Actuation,
         beta: Vec<f64>,
+        beside: Option<&[f64]>,
         work: &Work,
     ) -> Answer {
         let objective = objective(design, &self.plushie, targets);
@@ -182,7 +185,16 @@ impl Compiled {
             self.tracker = Some((targets.to_vec(), tracker));
             answer
         } else if fibers {
-            pull_thoroughly(&mut question, &start, &stop)
+            let answer = pull_thoroughly(&mut question, &start, &stop);
+            match beside {
+                // Wound from rest all at once, a soft body may end elsewhere than the realizable plushie did.
+                Some(x) => {
+                    let (start, _) = question.settle(from, x, &stop);
+                    let other = pull_thoroughly(&mut question, &start, &stop);
+                    better(&mut question, answer, other)
+                }
+                None => answer,
+            }
         } else {
             wind_thoroughly(&mut question, &start, &beta, &stop)
         };
@@ -190,6 +202,15 @@ impl Compiled {
         self.last = Some(answer.posture.clone());
         answer
     }
+}
+
+/// The answer with the lower `O`, after the work of both; its contractions are put into the model.
+fn better(question: &mut soft_ik::Question, a: Answer, b: Answer) -> Answer {
+    let (iterations, factorizations) = (a.iterations + b.iterations, a.factorizations + b.factorizations);
+    let best = if b.posture.in_equilibrium && b.posture.objective < a.posture.objective { b } else { a };
+    let contractions = question.actuation.contractions(&best.posture.beta);
+    question.model.contractile.set_contractions(&contractions);
+    Answer { iterations, factorizations, ..best }
 }
 
 fn answered(tracker: &Tracker, frame: &soft_ik::Frame) -> Answer {
