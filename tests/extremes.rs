@@ -26,6 +26,17 @@ fn every_row_of_the_shortened_table_passes() {
     assert!(failing.is_empty(), "{}", failing.join("\n"));
 }
 
+/// The whole sweeps, up to 100 000 fibres, printed as `plushwright bench extremes` prints them.
+#[test]
+#[ignore = "takes minutes; plushwright bench extremes does the same, optimised"]
+fn every_row_of_the_whole_table_passes() {
+    let cancel = AtomicBool::new(false);
+    let session = Session { seed: 1, stop: &|| false, cancel: &cancel, progress: &|_| {} };
+    let (report, failed) = Extremes { short: false, only: std::env::var("ONLY").ok() }.run(&session).unwrap();
+    println!("{}", report.text());
+    assert_eq!(failed, None);
+}
+
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/extremes")
 }

@@ -16,12 +16,25 @@ use std::time::Duration;
 fn random_problems_and_edits_keep_their_properties() {
     let cancel = AtomicBool::new(false);
     let session = Session { seed: 2, stop: &|| false, cancel: &cancel, progress: &|_| {} };
-    let found = Properties { problems: 300, first: 0 }.try_out(&session).unwrap();
+    let found = Properties { problems: 200, first: 0 }.try_out(&session).unwrap();
     assert!(found.violations.is_empty(), "{:#?}", found.violations);
     let count = |end: End| End::ALL.iter().position(|e| *e == end).map_or(0, |k| found.ends[k]);
     // The run shows something only if all kinds occur.
-    assert!(count(End::Answered) > 150 && count(End::Refused) > 10 && count(End::FreeToMove) > 10, "{found:?}");
-    assert!(found.edits > 40, "{found:?}");
+    assert!(count(End::Answered) > 100 && count(End::Refused) > 4 && count(End::FreeToMove) > 3, "{found:?}");
+    assert!(found.edits > 10, "{found:?}");
+}
+
+/// The long run without a release build: `PROBLEMS=100000 FIRST=0 cargo test --test properties -- --ignored --nocapture`.
+#[test]
+#[ignore = "takes long; scripts/properties does the same, optimised"]
+fn a_long_run() {
+    let number = |name: &str, default: usize| std::env::var(name).map_or(default, |v| v.parse().unwrap());
+    let cancel = AtomicBool::new(false);
+    let session = Session { seed: 1, stop: &|| false, cancel: &cancel, progress: &|what| eprintln!("{what}") };
+    let run = Properties { problems: number("PROBLEMS", 100_000), first: number("FIRST", 0) };
+    let found = run.try_out(&session).unwrap();
+    println!("{:?} {:?}", End::ALL, found);
+    assert!(found.violations.is_empty());
 }
 
 /// Files to begin with: small ones, so that a change hits something.
@@ -94,7 +107,7 @@ fn mutilated_problem_files_are_refused_or_answered() {
     assert!(files.len() >= 10);
     let (mut refused, mut answered) = (0, 0);
     let options = Options { budget: Duration::from_millis(40), all: true, ..Options::default() };
-    for number in 0..1500 {
+    for number in 0..1000 {
         let mut random = Random::of(5, "problem text", number);
         let text = mutated(&mut random, &files[random.clone().index(files.len())]);
         let Ok((problem, _)) = read(&text) else {
@@ -107,7 +120,7 @@ fn mutilated_problem_files_are_refused_or_answered() {
             answered += 1;
         }
     }
-    assert!(refused > 300 && answered > 100, "{refused} refused, {answered} answered");
+    assert!(refused > 200 && answered > 80, "{refused} refused, {answered} answered");
 }
 
 #[test]

@@ -79,6 +79,16 @@ impl Body {
         self.material.as_ref()
     }
 
+    /// Limits the resistance to changes of area; returns the material that was there, if that changed it.
+    pub(super) fn soften(&mut self, limit: f64) -> Option<Box<dyn Material>> {
+        let softer = self.material.softened(limit)?;
+        Some(std::mem::replace(&mut self.material, softer))
+    }
+
+    pub(super) fn set_material(&mut self, material: Box<dyn Material>) {
+        self.material = material;
+    }
+
     /// `F` of triangle `k` at coordinates `x`.
     #[inline]
     pub fn deformation_gradient(&self, k: usize, x: &[f64]) -> Matrix2<f64> {

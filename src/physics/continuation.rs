@@ -4,9 +4,11 @@
 //! then creeps along the curved valley in which the length of the cable is right: a step that is right to first order
 //! misses that length to second order, `K` times magnified. With the stiffness limited to ten shear moduli the way is short;
 //! from there on each stage a hundred times stiffer only has to take away the rest of the stretch, and starts next to its answer.
-//! Pins are springs like any other.
+//! Pins are springs like any other, and so is a nearly incompressible material against changes of its area; that one shows only
+//! when Newton's method has been slow for a while.
 
 use super::contractile::Law;
+use super::material::Material;
 use super::model::Model;
 use super::statics::StaticsSettings;
 
@@ -43,11 +45,18 @@ pub(super) fn is_wanted(model: &Model, x: &[f64]) -> bool {
         })
 }
 
+/// Whether the material is far stiffer against changes of area than of shape.
+pub(super) fn is_bulky(model: &Model) -> bool {
+    let material = model.body.material();
+    material.largest_modulus() > STIFF * material.shear_modulus()
+}
+
 /// The limits on stiffness, one a stage, ascending; the last stage is the model itself.
 pub(super) fn stages(model: &Model) -> Vec<f64> {
     let mu = model.body.material().shear_modulus();
     let elements = model.contractile.elements.iter().map(|e| e.stiffness);
-    let stiffest = elements.chain(model.pins.pins.iter().map(|p| p.stiffness)).fold(0.0, f64::max);
+    let bulk = model.body.material().largest_modulus();
+    let stiffest = elements.chain(model.pins.pins.iter().map(|p| p.stiffness)).fold(bulk, f64::max);
     let mut stages = Vec::new();
     let mut limit = FIRST * mu;
     while limit < stiffest {
@@ -57,8 +66,12 @@ pub(super) fn stages(model: &Model) -> Vec<f64> {
     stages
 }
 
-/// What a stage changed: stiffness and half-width of every element, stiffness of every pin.
+/// Newton steps that a nearly incompressible body gets before it is taken step by step.
+pub(super) const FIRST_TRY: usize = 30;
+
+/// What a stage changed: the material, stiffness and half-width of every element, stiffness of every pin.
 pub(super) struct Kept {
+    material: Option<Box<dyn Material>>,
     elements: Vec<(f64, f64)>,
     pins: Vec<f64>,
 }
@@ -81,11 +94,14 @@ pub(super) fn enter(model: &mut Model, limit: f64) -> Kept {
         kept
     });
     let pins = pins.collect();
-    Kept { elements, pins }
+    Kept { material: model.body.soften(limit), elements, pins }
 }
 
 /// Puts everything back.
 pub(super) fn leave(model: &mut Model, kept: Kept) {
+    if let Some(material) = kept.material {
+        model.body.set_material(material);
+    }
     for (e, (stiffness, epsilon)) in model.contractile.elements.iter_mut().zip(kept.elements) {
         (e.stiffness, e.epsilon) = (stiffness, epsilon);
     }

@@ -23,6 +23,11 @@ pub trait Material: Send + Sync {
     fn precise_stress(&self, f: &[Double; 4]) -> Matrix2<f64> {
         self.stress(&Matrix2::from_column_slice(&f.map(Double::value)))
     }
+    /// The same material with its resistance to changes of area limited to `limit`, if it is above that.
+    fn softened(&self, limit: f64) -> Option<Box<dyn Material>> {
+        let _ = limit;
+        None
+    }
     /// The shear modulus at rest: the unit of stress of this material.
     fn shear_modulus(&self) -> f64;
     /// How much stress a change of `F` makes at most, at rest: what rounding of `F` is multiplied by.

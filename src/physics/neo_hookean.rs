@@ -72,6 +72,10 @@ impl Material for NeoHookean {
         Matrix2::from_column_slice(&[0, 1, 2, 3].map(entry))
     }
 
+    fn softened(&self, limit: f64) -> Option<Box<dyn Material>> {
+        (self.kappa > limit).then(|| Box::new(Self { kappa: limit, ..*self }) as Box<dyn Material>)
+    }
+
     fn shear_modulus(&self) -> f64 {
         self.mu
     }

@@ -156,29 +156,43 @@ pub fn settle(
     work: &mut Workspace,
 ) -> Progress {
     let mut spent = [0; 3];
-    if valid_energy(model, x).is_finite() && continuation::is_wanted(model, x) {
+    let mut count = |done: &Progress| {
+        for (sum, more) in spent.iter_mut().zip([done.iterations, done.factorizations, done.projections]) {
+            *sum += more;
+        }
+    };
+    if !valid_energy(model, x).is_finite() {
+        x.copy_from_slice(&model.rest);
+    }
+    let wanted = continuation::is_wanted(model, x);
+    if wanted || continuation::is_bulky(model) {
         let start = x.to_vec();
-        let before = model.energy(&start);
+        let mut best = model.energy(&start);
+        if !wanted {
+            let most = settings.max_iterations.min(continuation::FIRST_TRY);
+            let done = newton(model, x, &StaticsSettings { max_iterations: most, ..*settings }, cancel, work);
+            if done.cause != Some(Cause::Iterations) || most == settings.max_iterations {
+                return done;
+            }
+            count(&done);
+        }
+        let tried = x.to_vec();
+        best = best.min(model.energy(&tried));
+        x.copy_from_slice(&start);
         for stage in continuation::stages(model) {
             let kept = continuation::enter(model, stage);
             let done = newton(model, x, &continuation::SETTINGS, cancel, work);
             continuation::leave(model, kept);
-            for (sum, more) in spent.iter_mut().zip([done.iterations, done.factorizations, done.projections]) {
-                *sum += more;
-            }
+            count(&done);
         }
-        if model.energy(x) > before {
-            x.copy_from_slice(&start);
+        if model.energy(x) > best {
+            x.copy_from_slice(&tried);
         }
     }
     let done = newton(model, x, settings, cancel, work);
+    count(&done);
     let [iterations, factorizations, projections] = spent;
-    Progress {
-        iterations: done.iterations + iterations,
-        factorizations: done.factorizations + factorizations,
-        projections: done.projections + projections,
-        ..done
-    }
+    Progress { iterations, factorizations, projections, ..done }
 }
 
 /// Newton's method on the model as it is.
