@@ -7,6 +7,7 @@
 //! | [`trade`] | what does accuracy cost, and which settings are never worth it? ([`locking`] of the triangles) |
 //! | [`resolution`] | how far do poses, activations and networks agree over mesh resolutions? |
 //! | [`scene`] | what does each optional part of a scene cost? |
+//! | [`import`] | how well do outlines that nobody here drew become meshes? |
 //! | [`linear`] | which sparse factorisation is the fastest for our Hessians? |
 //!
 //! A study draws all its random numbers from the session's seed ([`random`]), so that the same seed gives the same
@@ -17,6 +18,7 @@ pub mod baseline;
 pub mod cold;
 pub mod drag;
 pub mod drags;
+pub mod import;
 pub mod linear;
 pub mod locking;
 pub mod ordering;
