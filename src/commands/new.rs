@@ -13,11 +13,11 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
-/// Make a meshed design from an outline (SVG)
+/// Make a meshed design from an outline (SVG, PNG, JPEG, DXF or OBJ)
 #[derive(Debug, Args)]
 #[command(after_help = "Example: plushwright new assets/pig.svg -o pig.plush --height 250 --fibers 571")]
 pub struct New {
-    /// Outline to read: an SVG file; all that it paints is joined to one silhouette
+    /// Outline to read: an SVG, PNG, JPEG or DXF file, or a flat OBJ mesh; all that it paints is joined to one silhouette
     pub outline: PathBuf,
     /// Design file to write (*.plush)
     #[arg(short, long, value_name = "DESIGN")]
@@ -53,6 +53,35 @@ pub struct Reading {
     /// Widen parts thinner than so many mm, 0 for none [default: 1 % of the size, adding at most 1 % of the area]
     #[arg(long, value_name = "MM", value_parser = parse_length, allow_hyphen_values = true)]
     pub min_width: Option<f64>,
+    /// Unit of plain numbers in DXF and OBJ files and of pixels [default: what the file says; else mm, and px for pixels]
+    #[arg(long, value_enum)]
+    pub unit: Option<Unit>,
+    /// Pictures: difference from the background from which a pixel is ink, 0 to 255 [default: found by Otsu's method]
+    #[arg(long, value_name = "LEVEL")]
+    pub threshold: Option<u8>,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum Unit {
+    Mm,
+    Cm,
+    M,
+    In,
+    Pt,
+    Px,
+}
+
+impl Unit {
+    fn mm(self) -> f64 {
+        match self {
+            Self::Mm => 1.0,
+            Self::Cm => 10.0,
+            Self::M => 1000.0,
+            Self::In => 25.4,
+            Self::Pt => 25.4 / 72.0,
+            Self::Px => 25.4 / 96.0,
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, Default, ValueEnum)]
@@ -95,6 +124,8 @@ impl Reading {
             },
             smooth_mm: self.smooth.unwrap_or(0.0),
             min_width_mm: self.min_width,
+            unit_mm: self.unit.map(Unit::mm),
+            threshold: self.threshold,
         }
     }
 }
@@ -151,7 +182,8 @@ impl New {
 /// needs more, the smallest possible.
 pub fn design(imported: Imported, fibers: Option<usize>, name: &str) -> Result<(Design, Changes), String> {
     let Imported { outline, mesh, mut changes } = imported;
-    if let Some((nodes, triangles)) = mesh {
+    // A file's own mesh stays as it is, unless another number of fibres is asked for.
+    if let (Some((nodes, triangles)), None) = (mesh, fibers) {
         let mesh = Mesh { nodes, triangles };
         mesh.validate().map_err(|e| e.to_string())?;
         return Ok((Design::new(name, outline, mesh), changes));

@@ -38,6 +38,9 @@ pub(super) fn clean(painting: Painting, import: &Import) -> Result<Imported, Out
     let shapes = without_specks(shapes, all, &mut changes);
     let shapes = filled(shapes, import.holes, &mut changes);
     let shapes = one_piece(shapes, import.pieces, &mut changes)?;
+    if holes_area(&shapes) > regions::area(&shapes) {
+        changes.notes.push("the drawing is mostly lines around holes; --holes fill makes a solid body of it".into());
+    }
     let (low, high) = regions::bounding_box(&shapes);
     let longer = (high[0] - low[0]).max(high[1] - low[1]);
     if !(regions::area(&shapes) > DEGENERATE_FRACTION * longer * longer) {
@@ -105,6 +108,10 @@ fn filled(shapes: Shapes, holes: Holes, changes: &mut Changes) -> Shapes {
     let shapes = regions::union(outers).unwrap_or(shapes);
     changes.add(What::Holes, count, (regions::area(&shapes) - before) / before, true);
     shapes
+}
+
+fn holes_area(shapes: &Shapes) -> f64 {
+    shapes.iter().flat_map(|rings| rings.iter().skip(1)).map(|ring| polygon::signed_area(ring).abs()).sum()
 }
 
 fn one_piece(mut shapes: Shapes, choice: Pieces, changes: &mut Changes) -> Result<Shapes, OutlineError> {

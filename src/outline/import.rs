@@ -1,7 +1,7 @@
 //! From the bytes of a file to one clean outline.
 
 use super::changes::Changes;
-use super::{Outline, OutlineError, Painting, Point, clean, svg};
+use super::{Outline, OutlineError, Painting, Point, clean, dxf, obj, picture, svg};
 use std::io::Read;
 use std::path::Path;
 
@@ -47,6 +47,10 @@ pub struct Import {
     pub smooth_mm: f64,
     /// Parts thinner than this are widened, mm. `None`: hairlines alone, as long as they change little.
     pub min_width_mm: Option<f64>,
+    /// What a plain number or a pixel measures, mm, whatever the file says. An SVG has units of its own.
+    pub unit_mm: Option<f64>,
+    /// Difference from the background, 0 to 255, from which a pixel is ink; `None` finds it.
+    pub threshold: Option<u8>,
 }
 
 /// An outline and what was changed to get it.
@@ -62,13 +66,33 @@ pub struct Imported {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     Svg,
+    /// PNG or JPEG.
+    Picture,
+    Dxf,
+    Obj,
 }
 
 impl Format {
     /// The format by the first bytes, whatever the file is called.
     pub fn of(bytes: &[u8]) -> Option<Self> {
-        let _ = bytes;
-        Some(Self::Svg)
+        let head = &bytes[..bytes.len().min(4000)];
+        if head.starts_with(b"\x89PNG") || head.starts_with(b"\xff\xd8\xff") {
+            Some(Self::Picture)
+        } else if dxf::is_dxf(head) {
+            Some(Self::Dxf)
+        } else if head
+            .trim_ascii_start()
+            .strip_prefix(b"\xef\xbb\xbf")
+            .unwrap_or(head)
+            .trim_ascii_start()
+            .starts_with(b"<")
+        {
+            Some(Self::Svg)
+        } else if obj::is_obj(head) {
+            Some(Self::Obj)
+        } else {
+            None
+        }
     }
 }
 
@@ -83,6 +107,9 @@ pub fn import(bytes: &[u8], import: &Import) -> Result<Imported, OutlineError> {
     }
     let painting = match Format::of(bytes).ok_or(OutlineError::UnknownFormat)? {
         Format::Svg => svg::painting(bytes, import)?,
+        Format::Picture => picture::painting(bytes, import)?,
+        Format::Dxf => dxf::painting(bytes, import)?,
+        Format::Obj => return obj::read(bytes, import),
     };
     finish(painting, import)
 }
@@ -105,7 +132,11 @@ impl Import {
         if let Some(height) = self.height_mm.filter(|h| !(h.is_finite() && *h > 0.0)) {
             return Err(OutlineError::Height(height));
         }
-        let lengths = [("the smoothing tolerance", Some(self.smooth_mm)), ("the least width", self.min_width_mm)];
+        let lengths = [
+            ("the smoothing tolerance", Some(self.smooth_mm)),
+            ("the least width", self.min_width_mm),
+            ("the unit", self.unit_mm),
+        ];
         for (what, value) in lengths {
             if let Some(value) = value.filter(|v| !(v.is_finite() && *v >= 0.0)) {
                 return Err(OutlineError::Length { what, value });
@@ -118,7 +149,11 @@ impl Import {
 /// Cleans what a reader found.
 pub(super) fn finish(painting: Painting, import: &Import) -> Result<Imported, OutlineError> {
     import.check()?;
-    let mut imported = clean::clean(painting, import)?;
+    Ok(warned(clean::clean(painting, import)?, import))
+}
+
+/// With a warning where the file's own size makes a small plushie.
+pub(super) fn warned(mut imported: Imported, import: &Import) -> Imported {
     let (_, high) = imported.outline.bounding_box();
     if import.height_mm.is_none() && high[1] < SMALL_MM {
         imported.changes.notes.push(format!(
@@ -126,5 +161,5 @@ pub(super) fn finish(painting: Painting, import: &Import) -> Result<Imported, Ou
             high[1]
         ));
     }
-    Ok(imported)
+    imported
 }

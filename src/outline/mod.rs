@@ -1,18 +1,22 @@
 //! A silhouette as polygons: reading, clean-up, measures.
 //!
-//! A reader turns a file into painted areas ([`svg`] for now); the clean-up makes one outline of them and says what it
+//! A reader turns a file into painted areas (SVG, PNG and JPEG, DXF, OBJ); the clean-up makes one outline of them and says what it
 //! changed. [`import`] does both.
 
 mod changes;
 mod clean;
+mod dxf;
 mod grid;
 mod import;
+mod obj;
+mod picture;
 pub mod polygon;
 mod regions;
 mod simplify;
 mod smooth;
 pub mod svg;
 mod thin;
+mod trace;
 
 pub use changes::{Change, Changes, What};
 pub use import::{Background, Format, Holes, Import, Imported, MAX_FILE_BYTES, Pieces, import, import_file};
