@@ -3,12 +3,16 @@
 use super::changes::Changes;
 use super::{Outline, OutlineError, Painting, Point, clean, dxf, obj, picture, svg};
 use std::io::Read;
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 /// Largest file that is read, bytes. Reading the largest SVG takes about a gigabyte of memory and some seconds.
 pub const MAX_FILE_BYTES: usize = 48 << 20;
 /// Without an asked height, a silhouette lower than this is small for a plushie, mm.
 const SMALL_MM: f64 = 60.0;
+
+/// Sizes that a plushie can have, mm. Others are slips, and their squares and cubes would lose digits.
+const SIZES_MM: RangeInclusive<f64> = 1e-2..=1e6;
 
 /// What to do about several pieces.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -129,7 +133,7 @@ pub fn import_file(path: &Path, import: &Import) -> Result<Imported, OutlineErro
 
 impl Import {
     pub(super) fn check(&self) -> Result<(), OutlineError> {
-        if let Some(height) = self.height_mm.filter(|h| !(h.is_finite() && *h > 0.0)) {
+        if let Some(height) = self.height_mm.filter(|h| !SIZES_MM.contains(h)) {
             return Err(OutlineError::Height(height));
         }
         let lengths = [
@@ -149,7 +153,12 @@ impl Import {
 /// Cleans what a reader found.
 pub(super) fn finish(painting: Painting, import: &Import) -> Result<Imported, OutlineError> {
     import.check()?;
-    Ok(warned(clean::clean(painting, import)?, import))
+    let imported = clean::clean(painting, import)?;
+    let (_, high) = imported.outline.bounding_box();
+    if let Some(side) = high.into_iter().find(|side| !SIZES_MM.contains(side)) {
+        return Err(OutlineError::Size(side));
+    }
+    Ok(warned(imported, import))
 }
 
 /// With a warning where the file's own size makes a small plushie.

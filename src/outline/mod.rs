@@ -68,8 +68,10 @@ pub enum OutlineError {
     Degenerate,
     #[error("{what} must be a length of at least 0 mm, not {value}")]
     Length { what: &'static str, value: f64 },
-    #[error("the height must be a positive length, not {0} mm")]
+    #[error("the height must be between 0.01 and 1000000 mm, not {0} mm")]
     Height(f64),
+    #[error("the silhouette would measure {0:e} mm; --height sets another height")]
+    Size(f64),
 }
 
 /// What a reader found in a file: areas that may overlap, y up, and what it has to say about them.

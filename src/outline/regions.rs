@@ -15,6 +15,8 @@ pub(super) type Shapes = Vec<Vec<Vec<Point>>>;
 const ROUND_JOIN: f64 = 0.3;
 /// Most vertices that are united at once: a second or two and half a gigabyte.
 const MAX_POINTS: usize = 3_000_000;
+/// Largest coordinate, in any unit: beyond it nothing is a drawing, and differences lose their digits.
+const MAX_COORDINATE: f64 = 1e12;
 /// Vertices from which crossings are estimated before the areas are resolved; fewer cannot cross too often.
 const TANGLE_FROM: usize = 4000;
 /// Most crossings that are resolved. A drawing of a million points has some thousands; a scribble of as many, billions.
@@ -28,6 +30,10 @@ const TANGLE_SAMPLES: u64 = 400_000;
 /// [`OutlineError::TooComplex`] where that would take unbounded time.
 pub(super) fn resolve(contours: &Vec<Vec<Point>>, rule: FillRule) -> Result<Shapes, OutlineError> {
     let points: usize = contours.iter().map(Vec::len).sum();
+    // The overlay library asserts finite coordinates of a sane size.
+    if !contours.iter().flatten().flatten().all(|v| v.abs() < MAX_COORDINATE) {
+        return Err(OutlineError::Degenerate);
+    }
     if points > MAX_POINTS {
         return Err(OutlineError::TooComplex("has more than three million points"));
     }

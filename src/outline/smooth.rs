@@ -7,7 +7,7 @@ use super::regions::{self, Shapes};
 use super::simplify::simplify;
 use super::{OutlineError, Point, polygon};
 
-/// A vertex that turns the boundary by more than this, measured over one window to either side, is a corner and stays.
+/// A vertex that turns the boundary by more than this, measured over two standard deviations of the window to either side, is a corner and stays.
 const CORNER_RAD: f64 = 0.9;
 /// Standard deviation of the window over the tolerance: wobble of that amplitude and a few times its length goes.
 const WINDOW: f64 = 3.0;
@@ -30,18 +30,18 @@ fn smooth_ring(ring: &[Point], tolerance: f64) -> Vec<Point> {
     let length = polygon::perimeter(ring);
     let sigma = WINDOW * tolerance;
     let count = (length / sigma * SAMPLES).ceil().min(MAX_SAMPLES);
-    if !(count >= 8.0) {
+    if count.is_nan() || count < 8.0 {
         return ring.to_vec();
     }
     let n = count as usize;
     let points = resample(ring, n);
     let n = points.len();
-    if n < 8 {
+    if n < 16 {
         return ring.to_vec();
     }
-    let half = (SAMPLES as usize).max(1);
-    let corner: Vec<bool> = (0..n).map(|i| is_corner(&points, i, half)).collect();
-    let kernel: Vec<f64> = (0..=3 * half).map(|k| (-0.5 * (k as f64 / SAMPLES).powi(2)).exp()).collect();
+    let reach = SAMPLES as usize;
+    let corner: Vec<bool> = (0..n).map(|i| is_corner(&points, i, 2 * reach)).collect();
+    let kernel: Vec<f64> = (0..=3 * reach).map(|k| (-0.5 * (k as f64 / SAMPLES).powi(2)).exp()).collect();
     (0..n).map(|i| if corner[i] { points[i] } else { averaged(&points, &corner, i, &kernel, tolerance) }).collect()
 }
 

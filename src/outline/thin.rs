@@ -5,6 +5,9 @@
 //! which stay, and the thin parts. Each piece of the rest borders on the opening along *cuts*: none (a thin figure of its
 //! own), one (a corner, a spike or a whisker), or more (a neck). Necks, and pieces that reach far beyond their cut, are
 //! grown to the wanted width.
+//!
+//! Two round parts that barely overlap leave no such piece between them, since their openings touch. But shrinking parts
+//! them, and where the pieces of `S - r`, grown again, meet, a disc joins them.
 
 use super::grid::Grid;
 use super::regions::{self, Shapes};
@@ -20,6 +23,8 @@ const ON_BOUNDARY: f64 = 1e-4;
 const SPECK: f64 = 1e-3;
 /// Most pieces that are looked at: time stays bounded on drawings made of hair.
 const MAX_PIECES: usize = 2000;
+/// Most pieces after shrinking whose meetings are looked for.
+const MAX_LOBES: usize = 100;
 /// Corners of the disc that joins a pinched point.
 const DISC: usize = 12;
 /// Rounds of joining pinched points, each with larger discs.
@@ -36,33 +41,60 @@ pub(super) struct Widened {
 /// Widens what is thinner than `width`, the smallest parts first, as long as no more than `budget` of area is added.
 pub(super) fn widen(shapes: Shapes, width: f64, budget: f64) -> Result<Widened, OutlineError> {
     let r = 0.5 * width;
-    let opening = regions::grown(&regions::grown(&shapes, -r), (1.0 + SLIVER) * r);
+    let shrunk = regions::grown(&shapes, -r);
+    let opening = regions::grown(&shrunk, (1.0 + SLIVER) * r);
     let mut rest = regions::difference(&shapes, &opening);
     rest.retain(|piece| regions::piece_area(piece) > SPECK * r * r);
     rest.sort_by(|a, b| regions::piece_area(a).total_cmp(&regions::piece_area(b)));
     let grid = Grid::new(shapes.iter().flatten().map(Vec::as_slice));
     let thin: Vec<Vec<Vec<Point>>> =
         rest.into_iter().take(MAX_PIECES).filter(|piece| is_thin(piece, &grid, r)).collect();
-    let total = thin.len();
+    let joints: Vec<Shapes> = joints(&shrunk, r).into_iter().map(|p| vec![vec![disc(p, r)]]).collect();
+    let total = thin.len() + joints.len();
     let mut added = Shapes::new();
-    let mut spent = 0.0;
-    for piece in thin {
+    let (mut parts, mut spent) = (0, 0.0);
+    let widened = thin.into_iter().map(|piece| {
         let grow = vec![piece];
         let area = regions::area(&grow);
         let length: f64 = grow.iter().flatten().map(|ring| polygon::perimeter(ring)).sum();
         // A strip of length l and width w has area l w and perimeter 2 l: its width is 2 A / P.
         let wide = 2.0 * area / length;
-        let grow = regions::grown(&grow, (0.5 * (width - wide)).max(0.1 * r));
+        regions::grown(&grow, (0.5 * (width - wide)).max(0.1 * r))
+    });
+    for grow in joints.into_iter().chain(widened) {
         let more = regions::area(&regions::difference(&grow, &shapes));
         if spent + more > budget {
             break;
         }
         spent += more;
         added.extend(grow);
+        parts += 1;
     }
-    let parts = added.len();
     let shapes = if parts > 0 { regions::union([shapes, added].concat())? } else { shapes };
     Ok(Widened { shapes, parts, kept: total.saturating_sub(parts) })
+}
+
+/// Where the pieces that shrinking parted meet when they are grown again.
+fn joints(shrunk: &Shapes, r: f64) -> Vec<Point> {
+    if !(2..=MAX_LOBES).contains(&shrunk.len()) {
+        return Vec::new();
+    }
+    let lobes: Vec<Shapes> =
+        shrunk.iter().map(|rings| regions::grown(&vec![rings.clone()], (1.0 + SLIVER) * r)).collect();
+    let boxes: Vec<(Point, Point)> = lobes.iter().map(regions::bounding_box).collect();
+    let apart = |a: usize, b: usize| {
+        (0..2).any(|axis| boxes[a].0[axis] > boxes[b].1[axis] || boxes[b].0[axis] > boxes[a].1[axis])
+    };
+    let mut found = Vec::new();
+    for a in 0..lobes.len() {
+        for b in (a + 1..lobes.len()).filter(|&b| !apart(a, b)) {
+            for meeting in regions::intersection(&lobes[a], &lobes[b]) {
+                let (low, high) = regions::bounding_box(&vec![meeting]);
+                found.push(polygon::lerp(low, high, 0.5));
+            }
+        }
+    }
+    found
 }
 
 /// How many parts of the regions, and how many gaps between them, are thinner than `width`.

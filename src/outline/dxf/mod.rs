@@ -269,7 +269,8 @@ mod tests {
         let header = format!("0 SECTION 2 HEADER 9 $INSUNITS 70 {unit} 0 ENDSEC");
         let blocks = format!("0 SECTION 2 BLOCKS {blocks} 0 ENDSEC");
         let entities = format!("0 SECTION 2 ENTITIES {entities} 0 ENDSEC 0 EOF");
-        [header, blocks, entities].join(" ").replace(' ', "\r\n").into_bytes()
+        let all = [header, blocks, entities].join(" ");
+        all.split_whitespace().collect::<Vec<_>>().join("\r\n").into_bytes()
     }
 
     fn read(bytes: &[u8]) -> Imported {

@@ -383,18 +383,76 @@ mod tests {
     #[test]
     fn faults_are_told_apart() {
         let attributes = "width='100' height='100'";
-        assert!(matches!(read(b"\x89PNG", None), Err(OutlineError::NotSvg(_))));
-        assert!(matches!(read(b"<html/>", None), Err(OutlineError::NotSvg(_))));
-        assert!(matches!(read(b"", None), Err(OutlineError::NotSvg(_))));
-        assert_eq!(read(&svg(attributes, ""), None), Err(OutlineError::NothingPainted));
-        assert_eq!(read(&svg(attributes, "<text y='20'>pig</text>"), None), Err(OutlineError::NothingPainted));
-        assert_eq!(read(&svg(attributes, "<path d='M0 0L50 50'/>"), None), Err(OutlineError::NothingPainted));
+        let no_svg = |bytes: &[u8]| matches!(read(bytes, None), Err(OutlineError::Unreadable { format: "SVG", .. }));
+        assert!(no_svg(b"\x89PNG") && no_svg(b"<html/>") && no_svg(b""));
+        let nothing = |body: &str| matches!(read(&svg(attributes, body), None), Err(OutlineError::NothingPainted(_)));
+        assert!(
+            nothing("") && nothing("<path d='M0 0L50 50'/>") && nothing("<rect width='9' height='9' fill='none'/>")
+        );
+        assert!(nothing("<rect width='50' height='50' fill='url(#none)'/>"));
         let dots = "<circle cx='10' cy='10' r='5'/><circle cx='30' cy='10' r='5'/><circle cx='50' cy='10' r='5'/>";
-        assert_eq!(read(&svg(attributes, dots), None), Err(OutlineError::Pieces { pieces: 3 }));
+        assert!(matches!(read(&svg(attributes, dots), None), Err(OutlineError::Pieces { pieces: 3, .. })));
         let hair = "<rect width='100' height='0.0005'/>";
         assert_eq!(read(&svg(attributes, hair), None), Err(OutlineError::Degenerate));
         let square = svg(attributes, "<rect width='50' height='50'/>");
         assert_eq!(read(&square, Some(-1.0)), Err(OutlineError::Height(-1.0)));
         assert!(matches!(read(&square, Some(f64::NAN)), Err(OutlineError::Height(_))));
+    }
+
+    fn full(body: &str, import: &Import) -> Result<super::super::Imported, OutlineError> {
+        super::super::import(&svg("width='100mm' height='100mm' viewBox='0 0 100 100'", body), import)
+    }
+
+    #[test]
+    fn a_rectangle_as_large_as_the_page_is_paper() {
+        let body = "<rect width='100' height='100' fill='white'/><circle cx='50' cy='50' r='30' fill='white'/>";
+        let dropped = full(body, &Import::default()).unwrap();
+        assert!((dropped.outline.area() / (std::f64::consts::PI * 900.0) - 1.0).abs() < 1e-3);
+        assert!(dropped.changes.notes[0].contains("background"), "{:?}", dropped.changes);
+        let kept = full(body, &Import { background: Background::Keep, ..Import::default() }).unwrap();
+        assert!((kept.outline.area() - 1e4).abs() < 0.1 && kept.changes.notes.is_empty());
+        // Something of that size on top of others is no paper.
+        let top = "<circle cx='50' cy='50' r='30'/><path d='M0 0h100v100h-100z'/>";
+        assert!((full(top, &Import::default()).unwrap().outline.area() - 1e4).abs() < 0.1);
+    }
+
+    #[test]
+    fn masks_let_through_what_is_not_black() {
+        let body = "<mask id='m'><rect width='100' height='100' fill='white'/><rect x='20' y='20' width='20' height='60'/>\
+                    </mask><rect x='10' y='10' width='60' height='80' mask='url(#m)'/>";
+        let imported = full(body, &Import::default()).unwrap();
+        assert!((imported.outline.area() - (4800.0 - 1200.0)).abs() < 0.1, "{}", imported.outline.area());
+        assert_eq!(imported.outline.holes.len(), 1);
+        let alpha = body.replace("<mask id='m'", "<mask id='m' style='mask-type:alpha'");
+        assert!((full(&alpha, &Import::default()).unwrap().outline.area() - 4800.0).abs() < 0.1);
+    }
+
+    #[test]
+    fn text_is_set_in_the_bundled_font_or_refused() {
+        let text = |t: &str| {
+            full(&format!("<text x='10' y='80' font-size='80' font-family='Nowhere'>{t}</text>"), &Import::default())
+        };
+        let imported = text("S").unwrap();
+        assert!(
+            imported.outline.area() > 100.0 && imported.changes.notes[0].contains("Ubuntu"),
+            "{:?}",
+            imported.changes
+        );
+        assert!(matches!(text("i"), Err(OutlineError::Pieces { pieces: 2, .. })));
+        assert!(matches!(text("\u{6f22}"), Err(OutlineError::NoFont(_))), "{:?}", text("\u{6f22}"));
+    }
+
+    #[test]
+    fn what_is_left_out_is_noted() {
+        let pixel = "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg==";
+        let body =
+            format!("<rect x='20' y='20' width='90' height='40'/><image href='{pixel}' width='10' height='10'/>");
+        let notes = full(&body, &Import::default()).unwrap().changes.notes;
+        assert!(
+            notes.iter().any(|n| n.contains("picture")) && notes.iter().any(|n| n.contains("off the page")),
+            "{notes:?}"
+        );
+        let shadow = "<filter id='f'><feGaussianBlur stdDeviation='2'/></filter><rect x='9' y='9' width='70' height='70' filter='url(#f)'/>";
+        assert!(full(shadow, &Import::default()).unwrap().changes.notes[0].contains("filter"));
     }
 }
