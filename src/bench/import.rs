@@ -21,8 +21,6 @@ const PATIENCE: Duration = Duration::from_secs(60);
 const SHOWN: usize = 8;
 /// Features narrower than this part of the height cannot be followed by a few hundred fibres.
 const NARROW_FRACTION: f64 = 0.03;
-/// Extensions of the files that are tried.
-const EXTENSIONS: [&str; 6] = ["svg", "png", "jpg", "jpeg", "dxf", "obj"];
 
 /// What to study.
 pub struct Imports {
@@ -354,7 +352,10 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
         // Links may go around in circles.
         if entry.file_type().is_ok_and(|kind| kind.is_dir()) {
             collect(&path, files);
-        } else if path.extension().is_some_and(|e| EXTENSIONS.iter().any(|known| e.eq_ignore_ascii_case(known))) {
+        } else if path
+            .extension()
+            .is_some_and(|e| outline::EXTENSIONS.iter().any(|known| e.eq_ignore_ascii_case(known)))
+        {
             files.push(path);
         }
     }

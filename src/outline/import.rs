@@ -11,6 +11,8 @@ pub const MAX_FILE_BYTES: usize = 48 << 20;
 /// Without an asked height, a silhouette lower than this is small for a plushie, mm.
 const SMALL_MM: f64 = 60.0;
 
+/// How files with outlines are called; what they are is told by their first bytes.
+pub const EXTENSIONS: [&str; 6] = ["svg", "png", "jpg", "jpeg", "dxf", "obj"];
 /// Sizes that a plushie can have, mm. Others are slips, and their squares and cubes would lose digits.
 const SIZES_MM: RangeInclusive<f64> = 1e-2..=1e6;
 

@@ -19,7 +19,9 @@ mod thin;
 mod trace;
 
 pub use changes::{Change, Changes, What};
-pub use import::{Background, Format, Holes, Import, Imported, MAX_FILE_BYTES, Pieces, import, import_file};
+pub use import::{
+    Background, EXTENSIONS, Format, Holes, Import, Imported, MAX_FILE_BYTES, Pieces, import, import_file,
+};
 
 use grid::Grid;
 use regions::Shapes;

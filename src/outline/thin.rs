@@ -49,7 +49,7 @@ pub(super) fn widen(shapes: Shapes, width: f64, budget: f64) -> Result<Widened, 
     let grid = Grid::new(shapes.iter().flatten().map(Vec::as_slice));
     let thin: Vec<Vec<Vec<Point>>> =
         rest.into_iter().take(MAX_PIECES).filter(|piece| is_thin(piece, &grid, r)).collect();
-    let joints: Vec<Shapes> = joints(&shrunk, r).into_iter().map(|p| vec![vec![disc(p, r)]]).collect();
+    let joints: Vec<Shapes> = joints(&shapes, &shrunk, r).into_iter().map(|p| vec![vec![disc(p, r)]]).collect();
     let total = thin.len() + joints.len();
     let mut added = Shapes::new();
     let (mut parts, mut spent) = (0, 0.0);
@@ -74,8 +74,8 @@ pub(super) fn widen(shapes: Shapes, width: f64, budget: f64) -> Result<Widened, 
     Ok(Widened { shapes, parts, kept: total.saturating_sub(parts) })
 }
 
-/// Where the pieces that shrinking parted meet when they are grown again.
-fn joints(shrunk: &Shapes, r: f64) -> Vec<Point> {
+/// Where the pieces that shrinking parted meet when they are grown again, unless across a gap.
+fn joints(shapes: &Shapes, shrunk: &Shapes, r: f64) -> Vec<Point> {
     if !(2..=MAX_LOBES).contains(&shrunk.len()) {
         return Vec::new();
     }
@@ -90,7 +90,11 @@ fn joints(shrunk: &Shapes, r: f64) -> Vec<Point> {
         for b in (a + 1..lobes.len()).filter(|&b| !apart(a, b)) {
             for meeting in regions::intersection(&lobes[a], &lobes[b]) {
                 let (low, high) = regions::bounding_box(&vec![meeting]);
-                found.push(polygon::lerp(low, high, 0.5));
+                let middle = polygon::lerp(low, high, 0.5);
+                let inside = shapes.iter().flatten().filter(|ring| polygon::contains(ring, middle)).count() % 2 == 1;
+                if inside {
+                    found.push(middle);
+                }
             }
         }
     }
