@@ -8,6 +8,8 @@
 //! | [`resolution`] | how far do poses, activations and networks agree over mesh resolutions? |
 //! | [`scene`] | what does each optional part of a scene cost? |
 //! | [`import`] | how well do outlines that nobody here drew become meshes? |
+//! | [`extremes`] | what do the solvers survive, and with how many digits? |
+//! | [`properties`] | what holds for every problem and design, whatever is in it? |
 //! | [`linear`] | which sparse factorisation is the fastest for our Hessians? |
 //!
 //! A study draws all its random numbers from the session's seed ([`random`]), so that the same seed gives the same
@@ -18,12 +20,14 @@ pub mod baseline;
 pub mod cold;
 pub mod drag;
 pub mod drags;
+pub mod extremes;
 pub mod import;
 pub mod linear;
 pub mod locking;
 pub mod ordering;
 pub mod plot;
 pub mod posing;
+pub mod properties;
 pub mod random;
 pub mod report;
 pub mod resolution;

@@ -52,6 +52,8 @@ pub(super) fn clean(painting: Painting, import: &Import) -> Result<Imported, Out
     let area = regions::area(&shapes);
     // What was not asked for is measured against the shape after the last step that was.
     let mut reference = shapes.clone();
+    // Offsets of polygons much finer than their distance take quadratic time.
+    let shapes = simplified(shapes, 0.25 * SIMPLIFY_FRACTION * longer)?;
     let shapes = widened(shapes, longer, import.min_width_mm, &mut changes)?;
     if import.min_width_mm.is_some() {
         reference.clone_from(&shapes);

@@ -26,6 +26,9 @@ const FLATTEN_FRACTION: f64 = 2e-5;
 const PAGE_FRACTION: f64 = 0.01;
 /// Groups and paths that are visited at most: clips and masks may refer to each other, which multiplies them.
 const MAX_VISITS: usize = 400_000;
+/// Clips and masks that are cut with at most, and how deep they may be clipped and masked themselves.
+const MAX_CUTS: usize = 10_000;
+const MAX_CUT_DEPTH: usize = 6;
 /// Points of all flattened curves together.
 const MAX_POINTS: usize = 3_000_000;
 /// Parts of the drawing beyond the page that are worth a note, as a part of the drawing's box.
@@ -59,6 +62,8 @@ pub(super) fn painting(svg: &[u8], import: &Import) -> Result<Painting, OutlineE
         page,
         keep_background: import.background == Background::Keep,
         visits: 0,
+        cuts: 0,
+        cut_depth: 0,
         points: 0,
         background: Shapes::new(),
         begun: false,
@@ -119,6 +124,8 @@ struct Reader {
     page: [f64; 2],
     keep_background: bool,
     visits: usize,
+    cuts: usize,
+    cut_depth: usize,
     points: usize,
     /// Page-sized rectangles below everything else.
     background: Shapes,
@@ -181,10 +188,16 @@ impl Reader {
     }
 
     /// Reads something that is not painted itself: it is neither background nor below anything.
-    fn aside<T>(&mut self, f: impl FnOnce(&mut Self) -> T) -> T {
+    fn aside<T>(&mut self, f: impl FnOnce(&mut Self) -> Result<T, OutlineError>) -> Result<T, OutlineError> {
+        self.cuts += 1;
+        if self.cuts > MAX_CUTS || self.cut_depth >= MAX_CUT_DEPTH {
+            return Err(OutlineError::TooComplex("has too many clips and masks within each other"));
+        }
+        self.cut_depth += 1;
         let begun = std::mem::replace(&mut self.begun, true);
         let result = f(self);
         self.begun = begun;
+        self.cut_depth -= 1;
         result
     }
 
