@@ -5,18 +5,15 @@ use super::trial::{SAME_STATE, WINDING_STEPS};
 use super::{Outcome, Quality, Question, Request, Shape};
 use crate::design::{Design, Target};
 use crate::soft_ik::contraction::GaussNewton;
-use crate::soft_ik::tension::AllAtOnce;
 use crate::soft_ik::{self, Actuation, Answer, Budget, Method, Posture, Tracker, default_method};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-/// Iterations of each method where there is time (checks, rigging).
+/// Iterations of the winches' methods where there is time (checks, rigging).
 const THOROUGH_ITERATIONS: usize = 200;
 
-/// Restarts of the fibres' solver where it has not converged: its proximal weight and its held elements begin anew.
-const RESTARTS: usize = 4;
-/// A restart goes on to another where it leaves at most this part of the objective.
-const WORTH_RESTARTING: f64 = 0.98;
+/// Frames of the fibres' solver there, at the finest quality: most poses are done in three.
+const THOROUGH_FRAMES: usize = 16;
 
 /// How much work a pose is worth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,7 +65,8 @@ impl Solver {
                 (None, Question::Activations(given)) => given.clone(),
                 (None, Question::Targets(_)) => vec![0.0; design.networks.len()],
             };
-            idealize(&mut self.idealized, design, &request.question, &activations, &work)
+            let beside = realizable.as_ref().map(|shape| shape.nodes.as_flattened());
+            idealize(&mut self.idealized, design, &request.question, &activations, beside, &work)
         });
         let realizable = realizable.filter(|_| request.show_realizable);
         Outcome { id: request.id, idealized, realizable, refined: effort == Effort::Thorough }
@@ -94,7 +92,7 @@ fn realize(slot: &mut Option<Compiled>, design: &Design, question: &Question, wo
             (&[][..], held, Vec::new())
         }
     };
-    let answer = compiled.answer(design, targets, &actuation, beta, work);
+    let answer = compiled.answer(design, targets, &actuation, beta, None, work);
     let plushie = &compiled.plushie;
     let mut shape = report(design, plushie, targets, &answer.posture, clock).counted(&answer);
     if let Question::Activations(beta) = question {
@@ -103,12 +101,13 @@ fn realize(slot: &mut Option<Compiled>, design: &Design, question: &Question, wo
     shape
 }
 
-/// The fibres, with the winches held at `activations`.
+/// The fibres, with the winches held at `activations`. `beside`: where these winches alone have brought the realizable plushie.
 fn idealize(
     slot: &mut Option<Compiled>,
     design: &Design,
     question: &Question,
     activations: &[f64],
+    beside: Option<&[f64]>,
     work: &Work,
 ) -> Shape {
     let clock = Instant::now();
@@ -126,7 +125,7 @@ fn idealize(
     };
     let beta = vec![0.0; winches.len()];
     let actuation = Actuation { winches, fixed };
-    let answer = compiled.answer(design, targets, &actuation, beta, work);
+    let answer = compiled.answer(design, targets, &actuation, beta, beside, work);
     let plushie = &compiled.plushie;
     let mut shape = report(design, plushie, targets, &answer.posture, clock).counted(&answer);
     shape.activations_mm = activations.to_vec();
@@ -145,6 +144,7 @@ impl Compiled {
         targets: &[Target],
         actuation: &Actuation,
         beta: Vec<f64>,
+        beside: Option<&[f64]>,
         work: &Work,
     ) -> Answer {
         let objective = objective(design, &self.plushie, targets);
@@ -182,7 +182,10 @@ impl Compiled {
             self.tracker = Some((targets.to_vec(), tracker));
             answer
         } else if fibers {
-            pull_thoroughly(&mut question, &start, &stop)
+            // The tracker starts from rest as well. Wound from there all at once, a soft body may end elsewhere than the
+            // realizable plushie did.
+            let beside = beside.map(|x| question.settle(from, x, &stop).0);
+            pull_thoroughly(&mut question, beside.as_ref().unwrap_or(&start), &stop)
         } else {
             wind_thoroughly(&mut question, &start, &beta, &stop)
         };
@@ -216,24 +219,27 @@ fn wind_thoroughly(question: &mut soft_ik::Question, start: &Posture, zero: &[f6
     answer
 }
 
-/// The fibres, begun anew where they have not converged.
+/// The fibres, frame by frame to the end: each ends in equilibrium, so that a state which would snap elsewhere is noticed and
+/// left. The best pose on the way counts.
 fn pull_thoroughly(question: &mut soft_ik::Question, start: &Posture, stop: &dyn Fn() -> bool) -> Answer {
-    let budget = Budget { iterations: THOROUGH_ITERATIONS, stop };
-    let mut answer = AllAtOnce::default().solve(question, start, &budget);
-    for _ in 0..RESTARTS {
-        if answer.converged {
-            break;
+    let mut tracker = Tracker::new(question, start);
+    let mut best = Answer { posture: start.clone(), iterations: 0, factorizations: 0, converged: false };
+    for _ in 0..THOROUGH_FRAMES {
+        let frame = tracker.frame(question, Quality::Accurate, stop);
+        best.iterations += frame.iterations;
+        best.factorizations += frame.factorizations;
+        let now = tracker.posture();
+        if now.in_equilibrium && (now.objective < best.posture.objective || !best.posture.in_equilibrium) {
+            best.posture = now.clone();
         }
-        let again = AllAtOnce::default().solve(question, &answer.posture, &budget);
-        let gained = again.posture.objective < WORTH_RESTARTING * answer.posture.objective;
-        let iterations = answer.iterations + again.iterations;
-        let factorizations = answer.factorizations + again.factorizations;
-        answer = Answer { iterations, factorizations, ..again };
-        if !gained {
+        best.converged = frame.converged;
+        if frame.converged || stop() {
             break;
         }
     }
-    answer
+    let contractions = question.actuation.contractions(&best.posture.beta);
+    question.model.contractile.set_contractions(&contractions);
+    best
 }
 
 fn compiled<'a>(slot: &'a mut Option<Compiled>, design: &Design, view: View) -> Result<&'a mut Compiled, String> {

@@ -37,6 +37,14 @@ pub(super) fn clean(painting: Painting, import: &Import) -> Result<Imported, Out
     }
     let shapes = without_specks(shapes, all, &mut changes);
     let shapes = filled(shapes, import.holes, &mut changes);
+    // Parts that touch in a point alone come as separate pieces.
+    let (low, high) = regions::bounding_box(&shapes);
+    let width = PINCH_FRACTION * (high[0] - low[0]).max(high[1] - low[1]);
+    let before = regions::area(&shapes);
+    let (shapes, touching) = thin::join_pinches(shapes, width)?;
+    let widened_by = (regions::area(&shapes) - before) / before;
+    changes.add(What::Pinches, touching, widened_by, false);
+    changes.unasked += widened_by.max(0.0);
     let shapes = one_piece(shapes, import.pieces, &mut changes)?;
     if holes_area(&shapes) > regions::area(&shapes) {
         changes.notes.push("the drawing is mostly lines around holes; --holes fill makes a solid body of it".into());
@@ -63,9 +71,10 @@ pub(super) fn clean(painting: Painting, import: &Import) -> Result<Imported, Out
         changes.unasked += regions::unlike(&reference, &shapes) / area;
         reference.clone_from(&smooth);
     }
+    let unjoined = regions::area(&smooth);
     let (shapes, pinches) = joined(smooth, longer)?;
     let shapes = simplified(shapes, SIMPLIFY_FRACTION * longer)?;
-    changes.add(What::Pinches, pinches, pinches as f64 * 1e-4, false);
+    changes.add(What::Pinches, pinches, (regions::area(&shapes) - unjoined) / area, false);
     changes.painted_mm2 = all * scale * scale;
     changes.unasked += regions::unlike(&reference, &shapes) / area;
     let outline = outline(shapes, import.height_mm)?;

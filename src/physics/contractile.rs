@@ -100,7 +100,7 @@ impl Element {
     }
 
     /// Width below which two points are one, length.
-    pub(super) fn point(&self) -> f64 {
+    pub(crate) fn point(&self) -> f64 {
         POINT * self.alpha0
     }
 

@@ -6,35 +6,36 @@ use crate::physics::Element;
 pub(super) struct Cables {
     starts: Vec<u32>,
     ends: Vec<[u32; 2]>,
-    /// `dl/dx` at the second end of each segment: its unit vector, zero where it has no length.
+    /// Squared width of a point of each element, as in the energy.
+    points: Vec<f64>,
+    /// `dl/dx` at the second end of each segment: its unit vector.
     directions: Vec<[f64; 2]>,
     pub lengths: Vec<f64>,
 }
 
-/// A segment shorter than this part of its element's initial rest length has no direction, as in the energy.
-const ZERO_SEGMENT: f64 = 1e-12;
-
 impl Cables {
     pub fn new<'a>(elements: impl Iterator<Item = &'a Element>) -> Self {
-        let mut out = Self { starts: vec![0], ends: Vec::new(), directions: Vec::new(), lengths: Vec::new() };
+        let mut out =
+            Self { starts: vec![0], ends: Vec::new(), points: Vec::new(), directions: Vec::new(), lengths: Vec::new() };
         for element in elements {
             out.ends.extend(element.routing.windows(2).map(|s| [s[0] as u32, s[1] as u32]));
             out.starts.push(out.ends.len() as u32);
+            out.points.push(element.point().powi(2));
             out.lengths.push(element.alpha0);
         }
         out.directions.resize(out.ends.len(), [0.0; 2]);
         out
     }
 
-    /// Takes lengths and directions at `x`. `scale` is a length of the elements' order.
-    pub fn update(&mut self, x: &[f64], scale: f64) {
+    /// Takes lengths and directions at `x`.
+    pub fn update(&mut self, x: &[f64]) {
         for (k, length) in self.lengths.iter_mut().enumerate() {
             *length = 0.0;
             for s in self.starts[k] as usize..self.starts[k + 1] as usize {
                 let [a, b] = self.ends[s].map(|n| 2 * n as usize);
                 let (dx, dy) = (x[b] - x[a], x[b + 1] - x[a + 1]);
-                let l = dx.hypot(dy);
-                self.directions[s] = if l > ZERO_SEGMENT * scale { [dx / l, dy / l] } else { [0.0; 2] };
+                let l = (dx * dx + dy * dy + self.points[k]).sqrt();
+                self.directions[s] = [dx / l, dy / l];
                 *length += l;
             }
         }

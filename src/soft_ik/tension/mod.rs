@@ -33,6 +33,11 @@ pub(super) use workspace::Workspace;
 
 use super::{Answer, Budget, Method, Posture, Question};
 
+/// A state whose `O` grows by more than this factor when it is settled has snapped into another equilibrium: the run goes on
+/// from there, so often at most.
+const SNAPPED: f64 = 1.01;
+const RETURNS: usize = 4;
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AllAtOnce {
     /// Converged when no node moves further than this part of the body in an iteration.
@@ -56,22 +61,33 @@ impl Method for AllAtOnce {
         let mut work = Workspace::new(question);
         let mut run = Run::new(question, start, &mut work);
         let mut answer = Answer { posture: start.clone(), iterations: 0, factorizations: 0, converged: false };
-        while answer.iterations < budget.iterations && !(budget.stop)() {
-            answer.iterations += 1;
-            let Some(progress) = run.iterate(question, &mut work) else { break };
-            answer.factorizations += progress.factorizations;
-            if progress.settled && progress.moved <= self.step_tolerance {
-                answer.converged = true;
+        for _ in 0..=RETURNS {
+            answer.converged = false;
+            while answer.iterations < budget.iterations && !(budget.stop)() {
+                answer.iterations += 1;
+                let Some(progress) = run.iterate(question, &mut work) else { break };
+                answer.factorizations += progress.factorizations;
+                if progress.settled && progress.moved <= self.step_tolerance {
+                    answer.converged = true;
+                    break;
+                }
+            }
+            let mut beta = start.beta.clone();
+            run.best.activations_into(question, &mut beta);
+            let (posture, factorizations) = question.settle(&beta, &run.best.x, &|| false);
+            answer.factorizations += factorizations;
+            let snapped = posture.in_equilibrium && posture.objective > SNAPPED * run.best.objective;
+            if snapped && answer.converged {
+                run.go_on_from(question, &posture.x, &posture.beta, &mut work);
+            }
+            let done = !snapped || !answer.converged;
+            let better = posture.objective < answer.posture.objective || !answer.posture.in_equilibrium;
+            if posture.in_equilibrium && better {
+                answer.posture = posture;
+            }
+            if done {
                 break;
             }
-        }
-        let mut beta = start.beta.clone();
-        run.best.activations_into(question, &mut beta);
-        let (posture, factorizations) = question.settle(&beta, &run.best.x, &|| false);
-        answer.factorizations += factorizations;
-        let better = posture.objective < answer.posture.objective || !answer.posture.in_equilibrium;
-        if posture.in_equilibrium && better {
-            answer.posture = posture;
         }
         let contractions = question.actuation.contractions(&answer.posture.beta);
         question.model.contractile.set_contractions(&contractions);

@@ -167,7 +167,7 @@ impl Run {
     /// One iteration; `None` where the stiffness matrix cannot be factorised.
     pub fn iterate(&mut self, question: &mut Question, work: &mut Workspace) -> Option<Progress> {
         let clock = Instant::now();
-        work.cables.update(&self.x, work.scale);
+        work.cables.update(&self.x);
         let elements = &question.model.contractile.elements;
         for (fiber, length) in self.fibers.iter_mut().zip(&work.cables.lengths) {
             fiber.release_slack(&elements[fiber.element], *length);

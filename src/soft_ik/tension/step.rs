@@ -209,7 +209,7 @@ impl Run {
         self.set_laws(question, work.softness);
         let step = self.search(question, form, work);
         let mut changed = false;
-        work.cables.update(&self.x, work.scale);
+        work.cables.update(&self.x);
         let elements = &question.model.contractile.elements;
         for (k, fiber) in self.fibers.iter_mut().enumerate() {
             fiber.follow(&elements[fiber.element], work.cables.lengths[k], work.softness);
@@ -232,5 +232,5 @@ fn add_row(target: &PointTarget, axis: usize, out: &mut [f64]) {
 
 /// The longest displacement of a node.
 pub(super) fn longest(dx: &[f64]) -> f64 {
-    dx.chunks_exact(2).map(|d| d[0].hypot(d[1])).fold(0.0, f64::max)
+    dx.chunks_exact(2).map(|d| d[0] * d[0] + d[1] * d[1]).fold(0.0, f64::max).sqrt()
 }

@@ -35,8 +35,6 @@ pub(in crate::soft_ik) struct Workspace {
     pub(super) softness: f64,
     /// Body size: the longer side of the rest box.
     pub size: f64,
-    /// A length of the elements' order.
-    pub(super) scale: f64,
     /// The forces at work where the run began; tensions since then may be larger.
     pub forces: f64,
     pub phases: Phases,
@@ -51,7 +49,6 @@ impl Workspace {
         let rows = 2 * question.objective.targets.len();
         let mu = question.model.body.material().shear_modulus();
         let weight = question.objective.tension_weight;
-        let scale = members.clone().map(|e| elements[e].alpha0).fold(0.0, f64::max);
         Self {
             cables: Cables::new(members.map(|e| &elements[e])),
             solved: vec![0.0; n * (rows + 2)],
@@ -72,7 +69,6 @@ impl Workspace {
             rho: if weight > 0.0 { weight } else { crate::defaults::TENSION_WEIGHT / (mu * mu) },
             softness: SOFT * mu,
             size: super::extent(&question.model.rest),
-            scale,
             forces: 0.0,
             phases: Phases::default(),
         }
