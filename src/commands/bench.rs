@@ -6,15 +6,10 @@ use super::output::{Staged, say, say_json};
 use super::solve::Effort;
 use crate::bench::drags::{Path as DragPath, SWEEP_FRAMES};
 use crate::bench::{
-<<<<<<< HEAD
     BenchError, Quality, Report, Session, cold, drag, extremes, import, linear, properties, resolution, scene, shapes,
     trade,
 };
 use crate::defaults;
-=======
-    BenchError, Quality, Report, Session, cold, drag, extremes, linear, properties, resolution, scene, shapes, trade,
-};
->>>>>>> main
 use clap::{Args, Subcommand, ValueEnum};
 use std::cell::Cell;
 use std::io::{IsTerminal, Write};
