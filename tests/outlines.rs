@@ -1,7 +1,7 @@
 //! The six bundled outlines: one piece, the stated size, and meshes fit for posing at their number of fibres.
 
 use plushwright::mesh::{self, quality::Quality};
-use plushwright::outline::svg;
+use plushwright::outline::{Import, Pieces, import, svg};
 
 #[test]
 fn the_bundled_outlines_mesh_well() {
@@ -24,4 +24,67 @@ fn the_bundled_outlines_mesh_well() {
         let tall = svg::read(&drawing, Some(100.0)).unwrap();
         assert!((tall.bounding_box().1[1] - 100.0).abs() < 1e-9);
     }
+}
+
+/// Small files of every format, with something of each construct.
+fn seeds() -> Vec<Vec<u8>> {
+    let svg = "<svg xmlns='http://www.w3.org/2000/svg' width='90mm' height='90mm' viewBox='0 0 90 90'><defs>\
+               <clipPath id='c'><rect width='80' height='80'/></clipPath><mask id='m'><rect width='70' height='70' \
+               fill='white'/><circle cx='20' cy='20' r='5'/></mask></defs><g clip-path='url(#c)' transform='rotate(3)'>\
+               <path mask='url(#m)' d='M9 9h60v50c-9 9-50 9-60 0z' stroke='red' stroke-width='2' stroke-dasharray='3 1'/>\
+               <text x='20' y='60' font-size='30'>S</text><ellipse cx='50' cy='50' rx='9' ry='20'/></g></svg>";
+    let dxf = "0 SECTION 2 HEADER 9 $INSUNITS 70 4 0 ENDSEC 0 SECTION 2 BLOCKS 0 BLOCK 2 B 10 0 20 0 0 CIRCLE 10 5 20 5 40 9 \
+               0 ENDBLK 0 ENDSEC 0 SECTION 2 ENTITIES 0 LWPOLYLINE 70 1 10 0 20 0 42 1 10 60 20 0 42 1 0 INSERT 2 B 10 \
+               20 20 5 41 2 42 2 0 ARC 10 9 20 9 40 9 50 0 51 90 0 SPLINE 70 1 71 2 40 0 40 0 40 0 40 1 40 1 40 1 10 0 20 \
+               0 10 50 20 9 10 9 20 60 0 ENDSEC 0 EOF";
+    let obj = "v 0 0 0\nv 9 0 0\nv 9 9 0\nv 0 9 0\nv 4 14 0\nf 1 2 3 4\nf 4/1 3/1 5/1\nf -5 -4 -3\n";
+    let mut files = vec![svg.into(), dxf.replace(' ', "\n").into_bytes(), obj.into()];
+    let picture =
+        image::RgbaImage::from_fn(24, 24, |x, y| image::Rgba([9, 9, 9, if x > 4 && y > x / 2 { 255 } else { 0 }]));
+    for format in [image::ImageFormat::Png, image::ImageFormat::Jpeg] {
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        image::DynamicImage::from(picture.clone()).to_rgb8().write_to(&mut bytes, format).unwrap();
+        files.push(bytes.into_inner());
+    }
+    files
+}
+
+#[test]
+fn mutations_of_good_files_are_read_or_refused() {
+    let mut state = 11_u64;
+    let mut random = |below: usize| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as usize % below
+    };
+    const NUMBERS: [&str; 10] =
+        ["0", "-1", "1e39", "-1e300", "nan", "inf", "1e-40", "99999999999999999999", "0.5", "65536"];
+    let options = Import { pieces: Pieces::Largest, ..Import::default() };
+    let mut read = 0;
+    for seed in seeds() {
+        assert!(import(&seed, &options).is_ok());
+        for _ in 0..250 {
+            let mut file = seed.clone();
+            for _ in 0..1 + random(4) {
+                let at = random(file.len());
+                match random(4) {
+                    0 => file[at] = random(256) as u8,
+                    1 => drop(file.drain(at..(at + 1 + random(8)).min(file.len()))),
+                    2 => {
+                        let piece = file[at..(at + 1 + random(40)).min(file.len())].to_vec();
+                        file.splice(at..at, piece);
+                    }
+                    _ => {
+                        let end = at + file[at..].iter().take_while(|b| b.is_ascii_digit()).count();
+                        file.splice(at..end, NUMBERS[random(NUMBERS.len())].bytes());
+                    }
+                }
+                if file.is_empty() {
+                    break;
+                }
+            }
+            read += usize::from(import(&file, &options).is_ok());
+        }
+    }
+    // Mutations that break everything would test little.
+    assert!(read > 200, "{read}");
 }

@@ -7,6 +7,7 @@
 //! | [`trade`] | what does accuracy cost, and which settings are never worth it? ([`locking`] of the triangles) |
 //! | [`resolution`] | how far do poses, activations and networks agree over mesh resolutions? |
 //! | [`scene`] | what does each optional part of a scene cost? |
+//! | [`import`] | how well do outlines that nobody here drew become meshes? |
 //! | [`extremes`] | what do the solvers survive, and with how many digits? |
 //! | [`properties`] | what holds for every problem and design, whatever is in it? |
 //! | [`linear`] | which sparse factorisation is the fastest for our Hessians? |
@@ -20,6 +21,7 @@ pub mod cold;
 pub mod drag;
 pub mod drags;
 pub mod extremes;
+pub mod import;
 pub mod linear;
 pub mod locking;
 pub mod ordering;

@@ -1,12 +1,15 @@
 //! `bench`: whole studies of the solvers, as tables, CSV and plots.
 
 use super::error::{CommandError, check_cancel};
+use super::new::Reading;
 use super::output::{Staged, say, say_json};
 use super::solve::Effort;
 use crate::bench::drags::{Path as DragPath, SWEEP_FRAMES};
 use crate::bench::{
-    BenchError, Quality, Report, Session, cold, drag, extremes, linear, properties, resolution, scene, shapes, trade,
+    BenchError, Quality, Report, Session, cold, drag, extremes, import, linear, properties, resolution, scene, shapes,
+    trade,
 };
+use crate::defaults;
 use clap::{Args, Subcommand, ValueEnum};
 use std::cell::Cell;
 use std::io::{IsTerminal, Write};
@@ -113,6 +116,21 @@ enum Study {
         #[command(flatten)]
         common: Common,
     },
+    /// Outlines that nobody here drew: what becomes of every file of a folder, mesh quality, times
+    Import {
+        /// Folder of SVG, PNG, JPEG, DXF and OBJ files, searched with all its folders
+        dir: PathBuf,
+        /// Numbers of muscle fibres; 0 for import alone
+        #[arg(long, value_delimiter = ',', default_values_t = [414, 2000, 10_000])]
+        fibers: Vec<usize>,
+        /// Try so many files, evenly spread [default: all]
+        #[arg(long, value_name = "FILES")]
+        limit: Option<usize>,
+        #[command(flatten)]
+        reading: Reading,
+        #[command(flatten)]
+        common: Common,
+    },
     /// Extreme scenes, every one swept over its range: what happened, digits lost, and whether it passes
     Extremes {
         /// Only the ends and the middle of every sweep, and no large body
@@ -165,6 +183,7 @@ impl Study {
             | Self::Trade { common, .. }
             | Self::Resolution { common, .. }
             | Self::Scene { common, .. }
+            | Self::Import { common, .. }
             | Self::Extremes { common, .. }
             | Self::Properties { common, .. }
             | Self::Linear { common, .. } => common,
@@ -216,6 +235,11 @@ impl Study {
             .run(session),
             Self::Scene { frames, common } => {
                 scene::Scene { shapes: common.shapes(&["pig"]), frames: *frames }.run(session)
+            }
+            Self::Import { dir, fibers, limit, reading, .. } => {
+                let import = reading.import(Some(reading.height.unwrap_or(defaults::HEIGHT_MM)));
+                let fibers = fibers.iter().copied().filter(|count| *count > 0).collect();
+                import::Imports { folder: dir.clone(), import, fibers, limit: limit.unwrap_or(0) }.run(session)
             }
             Self::Linear { fibers, common } => {
                 linear::Linear { shapes: common.shapes(&["pig"]), fibers: fibers.clone() }.run(session)

@@ -10,7 +10,7 @@ use crate::design::{Design, Target};
 use crate::engine::rig::{RigOptions, TendonChoice};
 use crate::engine::{Question, Shape};
 use crate::mesh::Mesh;
-use crate::outline::Point;
+use crate::outline::{self, Import, Point};
 use crate::picture::palette::{Palette, Theme};
 use crate::picture::{Item, Scene, raster};
 use clap::Args;
@@ -78,7 +78,8 @@ struct Tour<'a> {
 
 impl Tour<'_> {
     fn make(mut self) -> Result<(), CommandError> {
-        let mut design = new::design(OUTLINE, None, FIBERS, "pig").map_err(CommandError::Failed)?;
+        let pig = outline::import(OUTLINE, &Import::default()).map_err(|e| CommandError::Failed(e.to_string()))?;
+        let (mut design, _) = new::design(pig, Some(FIBERS), "pig").map_err(CommandError::Failed)?;
         self.outline(&design)?;
         self.mesh(&design)?;
         for (name, targets) in POSES {

@@ -2,58 +2,200 @@
 
 use super::document;
 use super::error::CommandError;
-use super::output::{read_file, say};
+use super::output::{say, say_json};
 use crate::defaults;
 use crate::design::Design;
-use crate::mesh;
-use crate::outline::svg;
-use clap::Args;
+use crate::mesh::{self, Mesh, MeshError};
+use crate::outline::{self, Background, Changes, Holes, Import, Imported, Pieces};
+use clap::{Args, ValueEnum};
+use serde::Serialize;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
-/// Make a meshed design from an outline (SVG)
+/// Make a meshed design from an outline (SVG, PNG, JPEG, DXF or OBJ)
 #[derive(Debug, Args)]
 #[command(after_help = "Example: plushwright new assets/pig.svg -o pig.plush --height 250 --fibers 571")]
 pub struct New {
-    /// Outline to read: an SVG file; its filled shapes are joined to one silhouette
+    /// Outline to read: an SVG, PNG, JPEG or DXF file, or a flat OBJ mesh; all that it paints is joined to one silhouette
     pub outline: PathBuf,
     /// Design file to write (*.plush)
     #[arg(short, long, value_name = "DESIGN")]
     pub output: PathBuf,
-    /// Height of the plushie in mm [default: the drawing's own size if it has one, else 250]
+    /// Muscle fibres (mesh edges) [default: 414, or the fewest that the outline allows if that is more]
+    #[arg(long, value_name = "N")]
+    pub fibers: Option<usize>,
+    #[command(flatten)]
+    pub reading: Reading,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// How an outline is read and cleaned.
+#[derive(Debug, Default, Args)]
+pub struct Reading {
+    /// Height of the silhouette in mm [default: its physical size in the file; plain numbers are 1/96 inch]
     #[arg(long, value_name = "MM", value_parser = parse_height, allow_hyphen_values = true)]
     pub height: Option<f64>,
-    /// Muscle fibres (mesh edges) to aim for
-    #[arg(long, value_name = "N", default_value_t = defaults::FIBERS)]
-    pub fibers: usize,
+    /// What to do about several pieces: refuse them, or keep the largest
+    #[arg(long, value_enum, default_value_t)]
+    pub pieces: PiecesChoice,
+    /// What to do about holes: keep or fill them
+    #[arg(long, value_enum, default_value_t)]
+    pub holes: HolesChoice,
+    /// What to do about a rectangle as large as the page below everything else: drop or keep it
+    #[arg(long, value_enum, default_value_t)]
+    pub background: BackgroundChoice,
+    /// Smooth the boundary, moving it by at most so many mm; corners stay
+    #[arg(long, value_name = "MM", value_parser = parse_length, allow_hyphen_values = true)]
+    pub smooth: Option<f64>,
+    /// Widen parts thinner than so many mm, 0 for none [default: 1 % of the size, adding at most 1 % of the area]
+    #[arg(long, value_name = "MM", value_parser = parse_length, allow_hyphen_values = true)]
+    pub min_width: Option<f64>,
+    /// Unit of plain numbers in DXF and OBJ files and of pixels [default: what the file says; else mm, and px for pixels]
+    #[arg(long, value_enum)]
+    pub unit: Option<Unit>,
+    /// Pictures: difference from the background from which a pixel is ink, 0 to 255 [default: found by Otsu's method]
+    #[arg(long, value_name = "LEVEL")]
+    pub threshold: Option<u8>,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum Unit {
+    Mm,
+    Cm,
+    M,
+    In,
+    Pt,
+    Px,
+}
+
+impl Unit {
+    fn mm(self) -> f64 {
+        match self {
+            Self::Mm => 1.0,
+            Self::Cm => 10.0,
+            Self::M => 1000.0,
+            Self::In => 25.4,
+            Self::Pt => 25.4 / 72.0,
+            Self::Px => 25.4 / 96.0,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+pub enum PiecesChoice {
+    #[default]
+    Refuse,
+    Largest,
+}
+
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+pub enum HolesChoice {
+    #[default]
+    Keep,
+    Fill,
+}
+
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+pub enum BackgroundChoice {
+    #[default]
+    Drop,
+    Keep,
+}
+
+impl Reading {
+    /// The same for the reader, with this height.
+    pub fn import(&self, height_mm: Option<f64>) -> Import {
+        Import {
+            height_mm,
+            pieces: match self.pieces {
+                PiecesChoice::Refuse => Pieces::Refuse,
+                PiecesChoice::Largest => Pieces::Largest,
+            },
+            holes: match self.holes {
+                HolesChoice::Keep => Holes::Keep,
+                HolesChoice::Fill => Holes::Fill,
+            },
+            background: match self.background {
+                BackgroundChoice::Drop => Background::Drop,
+                BackgroundChoice::Keep => Background::Keep,
+            },
+            smooth_mm: self.smooth.unwrap_or(0.0),
+            min_width_mm: self.min_width,
+            unit_mm: self.unit.map(Unit::mm),
+            threshold: self.threshold,
+        }
+    }
+}
+
+/// What `new --json` prints.
+#[derive(Serialize)]
+struct Summary<'a> {
+    design: String,
+    fibers: usize,
+    nodes: usize,
+    triangles: usize,
+    body_length_mm: f64,
+    height_mm: f64,
+    clean_up: &'a Changes,
 }
 
 impl New {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
-        let bytes = read_file(&self.outline)?;
-        let design = design(&bytes, self.height, self.fibers, &stem(&self.output))
-            .map_err(|reason| CommandError::input(&self.outline, reason))?;
+        let import = self.reading.import(self.reading.height);
+        let refuse = |reason: String| CommandError::input(&self.outline, reason);
+        let imported = outline::import_file(&self.outline, &import).map_err(|e| refuse(e.to_string()))?;
+        let (design, changes) = design(imported, self.fibers, &stem(&self.output)).map_err(refuse)?;
         document::save(&self.output, &design, cancel)?;
+        self.report(out, &design, &changes)
+    }
+
+    fn report(&self, out: &mut dyn Write, design: &Design, changes: &Changes) -> Result<(), CommandError> {
+        let (low, high) = design.outline.bounding_box();
+        let summary = Summary {
+            design: self.output.display().to_string(),
+            fibers: design.fiber_routings().len(),
+            nodes: design.mesh.nodes.len(),
+            triangles: design.mesh.triangles.len(),
+            body_length_mm: design.body_length_mm(),
+            height_mm: high[1] - low[1],
+            clean_up: changes,
+        };
+        if self.json {
+            return say_json(out, &summary);
+        }
+        let Summary { design, fibers, nodes, triangles, body_length_mm, .. } = summary;
         say(
             out,
-            &format!(
-                "{}: {} fibers, {} nodes, {} triangles, {:.1} mm long",
-                self.output.display(),
-                design.fiber_routings().len(),
-                design.mesh.nodes.len(),
-                design.mesh.triangles.len(),
-                design.body_length_mm()
-            ),
-        )
+            &format!("{design}: {fibers} fibers, {nodes} nodes, {triangles} triangles, {body_length_mm:.1} mm long"),
+        )?;
+        for line in changes.lines() {
+            say(out, &format!("note: {line}"))?;
+        }
+        Ok(())
     }
 }
 
-/// A design with default settings around an outline.
-pub fn design(svg: &[u8], height_mm: Option<f64>, fibers: usize, name: &str) -> Result<Design, String> {
-    let outline = svg::read(svg, height_mm).map_err(|e| e.to_string())?;
-    let mesh = mesh::generate(&outline, fibers).map_err(|e| e.to_string())?;
-    Ok(Design::new(name, outline, mesh))
+/// A design with default settings around an outline. Without a number of fibres, the default one or, where the outline
+/// needs more, the smallest possible.
+pub fn design(imported: Imported, fibers: Option<usize>, name: &str) -> Result<(Design, Changes), String> {
+    let Imported { outline, mesh, mut changes } = imported;
+    // A file's own mesh stays as it is, unless another number of fibres is asked for.
+    if let (Some((nodes, triangles)), None) = (mesh, fibers) {
+        let mesh = Mesh { nodes, triangles };
+        mesh.validate().map_err(|e| e.to_string())?;
+        return Ok((Design::new(name, outline, mesh), changes));
+    }
+    let mesh = match mesh::generate(&outline, fibers.unwrap_or(defaults::FIBERS)) {
+        Err(MeshError::Unreachable { nearest, asked }) if fibers.is_none() && nearest < mesh::MAX_FIBERS => {
+            changes.notes.push(format!("the outline needs more than {asked} fibers; it has {nearest}"));
+            mesh::generate(&outline, nearest)
+        }
+        other => other,
+    };
+    Ok((Design::new(name, outline, mesh.map_err(|e| e.to_string())?), changes))
 }
 
 fn stem(path: &Path) -> String {
@@ -64,5 +206,12 @@ fn parse_height(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(height) if height.is_finite() && height > 0.0 => Ok(height),
         _ => Err(format!("expected a height in mm above 0, found `{text}`")),
+    }
+}
+
+fn parse_length(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(length) if length.is_finite() && length >= 0.0 => Ok(length),
+        _ => Err(format!("expected a length in mm, found `{text}`")),
     }
 }

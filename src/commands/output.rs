@@ -82,11 +82,6 @@ pub fn json(value: &impl serde::Serialize) -> Result<String, CommandError> {
     serde_json::to_string_pretty(value).map_err(|e| CommandError::Failed(format!("cannot form JSON: {e}")))
 }
 
-/// Reads an input file.
-pub fn read_file(path: &Path) -> Result<Vec<u8>, CommandError> {
-    std::fs::read(path).map_err(|e| CommandError::input(path, e))
-}
-
 /// Reads an input file as text.
 pub fn read_text(path: &Path) -> Result<String, CommandError> {
     std::fs::read_to_string(path).map_err(|e| CommandError::input(path, e))

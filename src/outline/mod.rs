@@ -1,9 +1,30 @@
 //! A silhouette as polygons: reading, clean-up, measures.
+//!
+//! A reader turns a file into painted areas (SVG, PNG and JPEG, DXF, OBJ); the clean-up makes one outline of them and says what it
+//! changed. [`import`] does both.
 
+mod changes;
 mod clean;
+mod dxf;
+mod grid;
+mod import;
+mod obj;
+mod picture;
 pub mod polygon;
+mod regions;
+mod simplify;
+mod smooth;
 pub mod svg;
+mod thin;
+mod trace;
 
+pub use changes::{Change, Changes, What};
+pub use import::{
+    Background, EXTENSIONS, Format, Holes, Import, Imported, MAX_FILE_BYTES, Pieces, import, import_file,
+};
+
+use grid::Grid;
+use regions::Shapes;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -24,25 +45,48 @@ pub struct Outline {
 /// Why a file gave no outline.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum OutlineError {
-    #[error("not a readable SVG: {0}")]
-    NotSvg(String),
-    #[error("nothing is painted in the SVG (text must be converted to paths; pictures do not count)")]
-    NothingPainted,
-    #[error("the SVG uses {0}, which an outline cannot follow; expand it to plain paths")]
-    Unsupported(&'static str),
-    #[error("the silhouette falls into {pieces} pieces; a plushie is made of one, so join them or delete the others")]
-    Pieces { pieces: usize },
+    #[error("{0}")]
+    Unopened(String),
+    #[error("neither an SVG, PNG, JPEG, DXF nor OBJ file")]
+    UnknownFormat,
+    #[error("not a readable {format}: {reason}")]
+    Unreadable { format: &'static str, reason: String },
+    #[error("the file is larger than {max} MB, the most that is read for an outline", max = MAX_FILE_BYTES >> 20)]
+    TooLarge,
+    #[error("the drawing {0}, too much for an outline; simplify it")]
+    TooComplex(&'static str),
+    #[error("nothing is painted: {0}")]
+    NothingPainted(&'static str),
+    #[error("the text \"{0}\" has characters that the bundled font lacks; convert it to paths")]
+    NoFont(String),
+    #[error(
+        "the silhouette is in {pieces} separate pieces, the largest with {largest:.0} % of the area; choose --pieces \
+         largest, or join them in the drawing"
+    )]
+    Pieces { pieces: usize, largest: f64 },
     #[error("the silhouette touches itself in a single point near ({x:.1}, {y:.1}) mm; widen or open it there")]
     Pinched { x: f64, y: f64 },
     #[error("the silhouette is degenerate: it covers no area worth the name")]
     Degenerate,
-    #[error("the height must be a positive length, not {0} mm")]
+    #[error("{what} must be a length of at least 0 mm, not {value}")]
+    Length { what: &'static str, value: f64 },
+    #[error("the height must be between 0.01 and 1000000 mm, not {0} mm")]
     Height(f64),
+    #[error("the silhouette would measure {0:e} mm; --height sets another height")]
+    Size(f64),
+}
+
+/// What a reader found in a file: areas that may overlap, y up, and what it has to say about them.
+struct Painting {
+    shapes: Shapes,
+    /// Millimetres in a unit of the shapes.
+    unit_mm: f64,
+    notes: Vec<String>,
 }
 
 impl Outline {
     /// Outer polygon and holes, in this order.
-    pub fn polygons(&self) -> impl Iterator<Item = &[Point]> {
+    pub fn polygons(&self) -> impl Iterator<Item = &[Point]> + Clone {
         std::iter::once(self.outer.as_slice()).chain(self.holes.iter().map(Vec::as_slice))
     }
 
@@ -66,9 +110,32 @@ impl Outline {
         self.polygons().filter(|ring| polygon::contains(ring, p)).count() % 2 == 1
     }
 
+    /// The boundary in cells, for many questions of distance.
+    pub fn near(&self) -> Near {
+        Near { grid: Grid::new(self.polygons()) }
+    }
+
+    /// How many parts and gaps are narrower than `width`: limbs, necks and whiskers of the body, slits and notches into
+    /// it. Corners do not count.
+    pub fn narrow_parts(&self, width: f64) -> usize {
+        thin::narrow_parts(&vec![self.polygons().map(Vec::from).collect()], width)
+    }
+
     /// Distance from `p` to the nearest boundary, mm, without a sign.
     pub fn distance(&self, p: Point) -> f64 {
         self.polygons().map(|ring| polygon::distance(ring, p)).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// The boundary of an outline, prepared for many questions of distance.
+pub struct Near {
+    grid: Grid,
+}
+
+impl Near {
+    /// Distance from `p` to the nearest boundary, mm, without a sign.
+    pub fn distance(&self, p: Point) -> f64 {
+        self.grid.distance(p)
     }
 }
 

@@ -237,7 +237,7 @@ impl Session {
             let dialog = rfd::FileDialog::new().set_title(purpose.title()).set_directory(folder);
             let path = match purpose {
                 Purpose::Open => dialog.add_filter("Plushies", &["plush"]).pick_file(),
-                Purpose::Import => dialog.add_filter("Outlines", &["svg"]).pick_file(),
+                Purpose::Import => dialog.add_filter("Outlines", &outline::EXTENSIONS).pick_file(),
                 Purpose::SaveAs => dialog.add_filter("Plushies", &["plush"]).set_file_name(name).save_file(),
                 Purpose::Export => dialog.pick_folder(),
             };
@@ -246,7 +246,7 @@ impl Session {
     }
 
     fn open_path(&mut self, path: PathBuf) {
-        if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("svg")) {
+        if outline::EXTENSIONS.iter().any(|known| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(known))) {
             self.show_path_dialog(Purpose::Import);
             if let Some(Dialog::Path(dialog)) = &mut self.files.dialog {
                 dialog.path = path.to_string_lossy().into_owned();
@@ -327,8 +327,8 @@ fn plain(name: &str) -> String {
 }
 
 fn read_outline(path: &Path, height_mm: f64, fibers: usize) -> Result<Design, String> {
-    let bytes = std::fs::read(path).map_err(|e| e.to_string())?;
-    let outline = outline::svg::read(&bytes, Some(height_mm)).map_err(|e| e.to_string())?;
+    let import = outline::Import { height_mm: Some(height_mm), ..outline::Import::default() };
+    let outline = outline::import_file(path, &import).map_err(|e| e.to_string())?.outline;
     let mesh = mesh::generate(&outline, fibers).map_err(|e| e.to_string())?;
     let name = path.file_stem().map_or_else(|| "plushie".to_owned(), |s| s.to_string_lossy().into_owned());
     Ok(Design::new(name, outline, mesh))

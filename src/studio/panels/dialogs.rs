@@ -47,7 +47,7 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, actions: &mut Actio
         let width = ui.available_width() - if session.files.native_dialogs { 84.0 } else { 0.0 };
         let hint = match dialog.purpose {
             Purpose::Open | Purpose::SaveAs => "Path of a .plush file",
-            Purpose::Import => "Path of an .svg file",
+            Purpose::Import => "Path of an SVG, PNG, JPEG, DXF or OBJ file",
             Purpose::Export => "Path of a new folder",
         };
         let field = ui.add(TextEdit::singleline(&mut edited.path).hint_text(hint).desired_width(width));

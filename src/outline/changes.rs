@@ -1,0 +1,98 @@
+//! What the clean-up of a silhouette changed.
+
+use serde::Serialize;
+
+/// A step of the clean-up that changed something.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum What {
+    /// Tiny islands left out.
+    Specks,
+    /// Tiny holes filled.
+    Pinholes,
+    /// Holes filled as asked.
+    Holes,
+    /// Other pieces left out as asked.
+    Pieces,
+    /// Thin parts widened.
+    ThinParts,
+    /// Points in which the boundary touched itself joined.
+    Pinches,
+    /// Boundary smoothed as asked.
+    Smoothing,
+}
+
+/// One step of the clean-up.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Change {
+    pub what: What,
+    /// How many islands, holes, parts or points.
+    pub count: usize,
+    /// Area added or removed, as a part of the silhouette's area.
+    pub area: f64,
+    /// Whether an option asked for it.
+    pub asked: bool,
+}
+
+/// What lies between the painted areas and the outline.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Changes {
+    /// Area of all that is painted, mm^2.
+    pub painted_mm2: f64,
+    /// Area of the outline, mm^2.
+    pub outline_mm2: f64,
+    /// Area that the clean-up added or removed without being asked, as a part of the silhouette's area: at most 2 %.
+    pub unasked: f64,
+    pub steps: Vec<Change>,
+    /// What the reader and the clean-up have to say besides.
+    pub notes: Vec<String>,
+}
+
+impl Change {
+    fn line(&self) -> String {
+        let count = |one: &str, many: &str| match self.count {
+            1 => format!("1 {one}"),
+            n => format!("{n} {many}"),
+        };
+        let what = match self.what {
+            What::Specks => count("tiny island", "tiny islands") + " left out",
+            What::Pinholes => count("pinhole", "pinholes") + " closed",
+            What::Holes => count("hole", "holes") + " filled",
+            What::Pieces => count("smaller piece", "smaller pieces") + " left out",
+            What::ThinParts => count("thin part", "thin parts") + " widened",
+            What::Pinches => count("pinched point", "pinched points") + " joined",
+            What::Smoothing => "boundary smoothed".to_owned(),
+        };
+        format!("{what} ({:.2} % of the area)", 100.0 * self.area)
+    }
+}
+
+impl Changes {
+    /// One line for each step and note, in words.
+    pub fn lines(&self) -> Vec<String> {
+        self.steps.iter().map(Change::line).chain(self.notes.iter().cloned()).collect()
+    }
+
+    pub(super) fn add(&mut self, what: What, count: usize, area: f64, asked: bool) {
+        if count > 0 {
+            self.steps.push(Change { what, count, area, asked });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn changes_are_told_in_words() {
+        let mut changes = Changes { notes: vec!["text".into()], ..Default::default() };
+        changes.add(What::Specks, 0, 0.0, false);
+        changes.add(What::Pinches, 1, 0.0001, false);
+        changes.add(What::Holes, 3, 0.25, true);
+        assert_eq!(
+            changes.lines(),
+            ["1 pinched point joined (0.01 % of the area)", "3 holes filled (25.00 % of the area)", "text"]
+        );
+    }
+}

@@ -1,0 +1,169 @@
+//! A silhouette from a PNG or JPEG picture: what is opaque, or what differs from its background.
+//!
+//! A picture with transparency is painted where it is opaque. In any other one the background is what its rim shows: for
+//! each colour channel a quadratic surface in x and y is fitted to the rim and then, again and again, to all that is near
+//! it, so that a photo of paper may be lit unevenly. How far a pixel's colour is from that surface tells ink from paper;
+//! the level between the two is Otsu's (1979), which parts the histogram into the two classes with the least variance
+//! within. The boundary is traced to a fraction of a pixel.
+
+mod background;
+mod resolution;
+
+use super::regions::{self, Shapes};
+use super::simplify::simplify;
+use super::trace::Field;
+use super::{Import, OutlineError, Painting, Point, polygon};
+use i_overlay::core::fill_rule::FillRule;
+use image::{DynamicImage, ImageDecoder, ImageReader, Limits};
+use std::io::Cursor;
+
+/// Most pixels that are decoded: at most 8 bytes each, and as many again for the common form, so 650 MB.
+const MAX_PIXELS: u64 = 40_000_000;
+/// Longer side, in pixels, to which larger pictures are averaged down: 0.2 mm on 300 mm.
+const WORKING_SIDE: usize = 1600;
+/// Part of the pixels that must be less than half opaque for the opacity to be the silhouette.
+const TRANSPARENT_FRACTION: f64 = 1e-3;
+/// Differences from the background below this are noise; without larger ones nothing is painted.
+const LEAST_CONTRAST: f64 = 0.08;
+/// Regions and holes smaller than this are noise of the picture, in working pixels.
+const NOISE_PX2: f64 = 12.0;
+/// The same as a part of the area traced.
+const NOISE_FRACTION: f64 = 3e-4;
+/// How far the traced line may be simplified, in working pixels.
+const TOLERANCE_PX: f64 = 0.15;
+/// Levels of Otsu's histogram.
+const LEVELS: usize = 256;
+
+pub(super) fn painting(bytes: &[u8], import: &Import) -> Result<Painting, OutlineError> {
+    let unreadable =
+        |error: image::ImageError| OutlineError::Unreadable { format: "picture", reason: error.to_string() };
+    let (picture, format) =
+        decode(bytes).map_err(unreadable)?.ok_or(OutlineError::TooComplex("has more than 40 million pixels"))?;
+    let mut notes = Vec::new();
+    let (field, factor) = field(&picture, import.threshold, &mut notes)?;
+    drop(picture);
+    // Averaging has smoothed already; a picture at its own size has stairs, and a JPEG noise.
+    let passes = if factor > 1 {
+        0
+    } else if format == image::ImageFormat::Jpeg {
+        2
+    } else {
+        1
+    };
+    let (field, level) = field;
+    let shapes = traced(&field.blurred(passes), level, &mut notes)?;
+    let mm_per_px = import.unit_mm.unwrap_or_else(|| resolution::mm_per_px(bytes));
+    Ok(Painting { shapes, unit_mm: mm_per_px * factor as f64, notes })
+}
+
+/// The picture the right way up, or `None` if it is too large.
+fn decode(bytes: &[u8]) -> image::ImageResult<Option<(DynamicImage, image::ImageFormat)>> {
+    let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
+    let mut limits = Limits::default();
+    limits.max_alloc = Some(8 * MAX_PIXELS + (64 << 20));
+    reader.limits(limits);
+    let format = reader.format().unwrap_or(image::ImageFormat::Png);
+    let mut decoder = reader.into_decoder()?;
+    let (width, height) = decoder.dimensions();
+    if u64::from(width) * u64::from(height) > MAX_PIXELS {
+        return Ok(None);
+    }
+    let orientation = decoder.orientation()?;
+    let mut picture = DynamicImage::from_decoder(decoder)?;
+    picture.apply_orientation(orientation);
+    Ok(Some((picture, format)))
+}
+
+/// How much ink there is at each working pixel, with the level that parts it from the background, and how many pixels of
+/// the picture a working pixel measures.
+fn field(
+    picture: &DynamicImage,
+    threshold: Option<u8>,
+    notes: &mut Vec<String>,
+) -> Result<((Field, f64), usize), OutlineError> {
+    let rgba = picture.to_rgba8();
+    let (wide, high) = (rgba.width() as usize, rgba.height() as usize);
+    let factor = wide.max(high).div_ceil(WORKING_SIDE).max(1);
+    let (width, height) = (wide.div_ceil(factor), high.div_ceil(factor));
+    let clear = rgba.pixels().filter(|p| p[3] < 128).count() as f64 > TRANSPARENT_FRACTION * (wide * high) as f64;
+    // Averages of factor x factor pixels; with transparency, of the opacity alone.
+    let mut sums = vec![[0_f32; 4]; width * height];
+    for (x, y, pixel) in rgba.enumerate_pixels() {
+        let cell = &mut sums[y as usize / factor * width + x as usize / factor];
+        for (sum, value) in cell.iter_mut().zip(pixel.0) {
+            *sum += f32::from(value) / 255.0;
+        }
+    }
+    drop(rgba);
+    for (k, cell) in sums.iter_mut().enumerate() {
+        let count = |at: usize, size: usize| (size - at * factor).min(factor);
+        let pixels = count(k % width, wide) * count(k / width, high);
+        for value in cell {
+            *value /= pixels as f32;
+        }
+    }
+    let asked = threshold.map(|t| f64::from(t) / 255.0);
+    if clear {
+        let values = sums.iter().map(|cell| cell[3]).collect();
+        return Ok(((Field { width, height, values }, asked.unwrap_or(0.5)), factor));
+    }
+    let values = background::difference(&sums, width, height);
+    let most = values.iter().copied().fold(0.0, f32::max);
+    if f64::from(most) < LEAST_CONTRAST {
+        return Err(OutlineError::NothingPainted("the picture has one colour all over"));
+    }
+    let level = asked.unwrap_or_else(|| otsu(&values, f64::from(most)).max(0.5 * LEAST_CONTRAST));
+    notes.push(format!(
+        "ink is what differs from the background by more than {:.0} of 255 (--threshold sets another value)",
+        255.0 * level
+    ));
+    Ok(((Field { width, height, values }, level), factor))
+}
+
+/// The level that parts values between 0 and `most` into two classes with the largest variance between them.
+fn otsu(values: &[f32], most: f64) -> f64 {
+    let mut histogram = [0_f64; LEVELS];
+    for &value in values {
+        histogram[((f64::from(value) / most * LEVELS as f64) as usize).min(LEVELS - 1)] += 1.0;
+    }
+    let total = values.len() as f64;
+    let mean = |range: &[f64], from: usize| range.iter().enumerate().map(|(k, n)| (k + from) as f64 * n).sum::<f64>();
+    let all = mean(&histogram, 0);
+    let (mut count, mut sum) = (0.0, 0.0);
+    let (mut best, mut level) = (-1.0, LEVELS / 2);
+    for k in 0..LEVELS - 1 {
+        count += histogram[k];
+        sum += k as f64 * histogram[k];
+        let rest = total - count;
+        if count == 0.0 || rest == 0.0 {
+            continue;
+        }
+        let between = count * rest * (sum / count - (all - sum) / rest).powi(2);
+        if between > best {
+            (best, level) = (between, k + 1);
+        }
+    }
+    level as f64 / LEVELS as f64 * most
+}
+
+/// The regions at or above the level, without noise.
+fn traced(field: &Field, level: f64, notes: &mut Vec<String>) -> Result<Shapes, OutlineError> {
+    let contours = field.contours(level);
+    let areas: Vec<f64> = contours.iter().map(|ring| polygon::signed_area(ring).abs()).collect();
+    let least = NOISE_PX2.max(NOISE_FRACTION * areas.iter().copied().fold(0.0, f64::max));
+    let kept: Vec<Vec<Point>> = contours
+        .iter()
+        .zip(&areas)
+        .filter(|(_, area)| **area >= least)
+        .map(|(ring, _)| simplify(ring, TOLERANCE_PX))
+        .filter(|ring| ring.len() >= 3)
+        .collect();
+    let noise = contours.len() - kept.len();
+    if kept.is_empty() {
+        return Err(OutlineError::NothingPainted("the picture has no area that differs from its background"));
+    }
+    if noise > 0 {
+        notes.push(format!("{noise} speck(s) of the picture, each under {least:.0} pixels, left out"));
+    }
+    regions::resolve(&kept, FillRule::EvenOdd)
+}

@@ -1,0 +1,471 @@
+//! A silhouette from an SVG file: the union of all that is painted.
+//!
+//! `usvg` resolves styles, units, shapes, transforms, text and references to plain paths in px (96 to the inch) with y
+//! down. Fills count under their own fill rule, strokes as the area they cover (dashes too), clips and masks cut. Colour
+//! does not matter, so white counts as painted; what is fully transparent or hidden does not. A rectangle below
+//! everything else that fills the page is paper, not plushie. Filters (shadows, blurs) and embedded pictures are left
+//! out. What was left out or read in a special way is noted.
+
+mod flatten;
+mod mask;
+
+use super::regions::{self, Shapes};
+use super::{Background, Import, Outline, OutlineError, Painting, Point, import, polygon};
+use flatten::flatten;
+use i_overlay::core::fill_rule::FillRule;
+use std::sync::{Arc, LazyLock};
+use usvg::tiny_skia_path::PathStroker;
+use usvg::{Group, ImageKind, Node, Paint, Transform, Tree};
+
+/// Millimetres in a CSS px.
+const MM_PER_PX: f64 = 25.4 / 96.0;
+/// Farthest that a flattened curve may lie from the true one, as a fraction of the drawing's longer side: 6 um on
+/// 300 mm, below the simplification that follows.
+const FLATTEN_FRACTION: f64 = 2e-5;
+/// A rectangle is page-sized if it reaches every edge of the page within this part of the page's side.
+const PAGE_FRACTION: f64 = 0.01;
+/// Groups and paths that are visited at most: clips and masks may refer to each other, which multiplies them.
+const MAX_VISITS: usize = 400_000;
+/// Clips and masks that are cut with at most, and how deep they may be clipped and masked themselves.
+const MAX_CUTS: usize = 10_000;
+const MAX_CUT_DEPTH: usize = 6;
+/// Points of all flattened curves together.
+const MAX_POINTS: usize = 3_000_000;
+/// Parts of the drawing beyond the page that are worth a note, as a part of the drawing's box.
+const OFF_PAGE_FRACTION: f64 = 0.01;
+
+/// Reads the silhouette of an SVG, scaled so that it is `height_mm` high, or in its physical size, with the default
+/// clean-up.
+///
+/// In physical size, mm, cm, in, pt count as such and px or plain numbers as 1/96 inch. The result is in mm, y up,
+/// its origin at the lower left corner of the silhouette's box.
+///
+/// # Errors
+/// Not an SVG, nothing painted, more than one piece, degenerate; see [`OutlineError`].
+pub fn read(svg: &[u8], height_mm: Option<f64>) -> Result<Outline, OutlineError> {
+    let import = Import { height_mm, ..Import::default() };
+    Ok(import::finish(painting(svg, &import)?, &import)?.outline)
+}
+
+/// All that is painted, in px with y up.
+pub(super) fn painting(svg: &[u8], import: &Import) -> Result<Painting, OutlineError> {
+    let tree = Tree::from_data(svg, &options())
+        .map_err(|error| OutlineError::Unreadable { format: "SVG", reason: error.to_string() })?;
+    let bounds = tree.root().abs_stroke_bounding_box();
+    let longer = f64::from(bounds.width().max(bounds.height()));
+    let page = [f64::from(tree.size().width()), f64::from(tree.size().height())];
+    if !(longer.is_finite() && longer > 0.0) {
+        return Err(nothing(&tree));
+    }
+    let mut reader = Reader {
+        tolerance: FLATTEN_FRACTION * longer,
+        page,
+        keep_background: import.background == Background::Keep,
+        visits: 0,
+        cuts: 0,
+        cut_depth: 0,
+        points: 0,
+        background: Shapes::new(),
+        begun: false,
+        pictures: 0,
+        filters: 0,
+        texts: Vec::new(),
+    };
+    let mut shapes = reader.painted(tree.root(), Transform::identity())?;
+    let mut notes = Vec::new();
+    if shapes.is_empty() {
+        // Nothing lies on the rectangle: it is the silhouette.
+        shapes = std::mem::take(&mut reader.background);
+    } else if !reader.background.is_empty() {
+        notes.push("a background rectangle as large as the page was left out (--background keep keeps it)".to_owned());
+    }
+    if shapes.is_empty() {
+        return Err(nothing(&tree));
+    }
+    reader.describe(&mut notes, longer, &shapes)?;
+    Ok(Painting { shapes, unit_mm: MM_PER_PX, notes })
+}
+
+/// Nothing is painted: says so, and whether there is something that cannot count.
+fn nothing(tree: &Tree) -> OutlineError {
+    fn any(group: &Group, test: &dyn Fn(&Node) -> bool) -> bool {
+        group.children().iter().any(|node| match node {
+            Node::Group(child) => any(child, test),
+            other => test(other),
+        })
+    }
+    if any(tree.root(), &|node| matches!(node, Node::Image(_))) {
+        return OutlineError::NothingPainted("the SVG has embedded pictures alone; save the picture as PNG or JPEG");
+    }
+    OutlineError::NothingPainted("the SVG has no fill or stroke with an area")
+}
+
+/// The bundled fonts: text is set in the first one, whatever the drawing asks for, so that it looks the same everywhere.
+static FONTS: LazyLock<Arc<usvg::fontdb::Database>> = LazyLock::new(|| {
+    let mut fonts = usvg::fontdb::Database::new();
+    fonts.load_font_data(epaint_default_fonts::UBUNTU_LIGHT.to_vec());
+    fonts.load_font_data(epaint_default_fonts::HACK_REGULAR.to_vec());
+    Arc::new(fonts)
+});
+
+/// The default options, with references to files outside the SVG cut off: a silhouette needs none.
+fn options() -> usvg::Options<'static> {
+    let mut options = usvg::Options { fontdb: FONTS.clone(), ..usvg::Options::default() };
+    options.image_href_resolver.resolve_string = Box::new(|_, _| None);
+    options.font_resolver.select_font = Box::new(|_, fonts| fonts.faces().next().map(|face| face.id));
+    options
+}
+
+/// What is gathered while the tree is walked.
+struct Reader {
+    /// Farthest that a polygon may lie from its curve, px.
+    tolerance: f64,
+    /// Width and height of the page, px.
+    page: [f64; 2],
+    keep_background: bool,
+    visits: usize,
+    cuts: usize,
+    cut_depth: usize,
+    points: usize,
+    /// Page-sized rectangles below everything else.
+    background: Shapes,
+    /// Whether something else was painted.
+    begun: bool,
+    pictures: usize,
+    filters: usize,
+    texts: Vec<String>,
+}
+
+impl Reader {
+    /// The regions painted by a group, in px with y up. `place` comes after the group's own absolute transform (it is
+    /// the identity but inside clips and masks, whose content has a coordinate system of its own).
+    fn painted(&mut self, group: &Group, place: Transform) -> Result<Shapes, OutlineError> {
+        if group.opacity().get() == 0.0 {
+            return Ok(Shapes::new());
+        }
+        self.visit()?;
+        self.filters += group.filters().len();
+        let mut shapes = Shapes::new();
+        for node in group.children() {
+            match node {
+                Node::Group(child) => shapes.extend(self.painted(child, place)?),
+                Node::Path(path) if path.is_visible() => shapes.extend(self.painted_path(path, place)?),
+                Node::Path(_) => {}
+                Node::Text(text) => {
+                    self.text(text)?;
+                    shapes.extend(self.painted(text.flattened(), place)?);
+                }
+                Node::Image(image) => match image.kind() {
+                    // A nested drawing; its own page is the picture's box.
+                    ImageKind::SVG(tree) if image.is_visible() => {
+                        let to_page = place.pre_concat(image.abs_transform());
+                        shapes.extend(self.painted(tree.root(), to_page)?);
+                    }
+                    _ => self.pictures += 1,
+                },
+            }
+        }
+        self.cut(shapes, group, place)
+    }
+
+    /// What the clips and masks of a group leave of its regions.
+    fn cut(&mut self, mut shapes: Shapes, group: &Group, place: Transform) -> Result<Shapes, OutlineError> {
+        let mut clip = group.clip_path();
+        while let Some(path) = clip.filter(|_| !shapes.is_empty()) {
+            let to_page = place.pre_concat(group.abs_transform()).pre_concat(path.transform());
+            let window = self.aside(|reader| reader.painted(path.root(), to_page))?;
+            shapes = regions::intersection(&regions::union(shapes)?, &regions::union(window)?);
+            clip = path.clip_path();
+        }
+        let mut mask = group.mask();
+        while let Some(cover) = mask.filter(|_| !shapes.is_empty()) {
+            let to_page = place.pre_concat(group.abs_transform());
+            let window = self.aside(|reader| reader.shown(cover, to_page))?;
+            shapes = regions::intersection(&regions::union(shapes)?, &window);
+            mask = cover.mask();
+        }
+        Ok(shapes)
+    }
+
+    /// Reads something that is not painted itself: it is neither background nor below anything.
+    fn aside<T>(&mut self, f: impl FnOnce(&mut Self) -> Result<T, OutlineError>) -> Result<T, OutlineError> {
+        self.cuts += 1;
+        if self.cuts > MAX_CUTS || self.cut_depth >= MAX_CUT_DEPTH {
+            return Err(OutlineError::TooComplex("has too many clips and masks within each other"));
+        }
+        self.cut_depth += 1;
+        let begun = std::mem::replace(&mut self.begun, true);
+        let result = f(self);
+        self.begun = begun;
+        self.cut_depth -= 1;
+        result
+    }
+
+    fn visit(&mut self) -> Result<(), OutlineError> {
+        self.visits += 1;
+        if self.visits > MAX_VISITS { Err(OutlineError::TooComplex("has more than 400 000 parts")) } else { Ok(()) }
+    }
+
+    /// The regions of a path's fill and stroke.
+    fn painted_path(&mut self, path: &usvg::Path, place: Transform) -> Result<Shapes, OutlineError> {
+        self.visit()?;
+        let mut shapes = Shapes::new();
+        if path.fill().is_some_and(|fill| fill.opacity().get() > 0.0 && shows(fill.paint())) {
+            let area = self.fill(path, place)?;
+            if !self.begun && !self.keep_background && is_page(&area, self.page) {
+                self.background.extend(area);
+                return Ok(shapes);
+            }
+            shapes.extend(area);
+        }
+        if path.stroke().is_some_and(|stroke| stroke.opacity().get() > 0.0 && shows(stroke.paint())) {
+            shapes.extend(self.stroke(path, place)?);
+        }
+        self.begun |= !shapes.is_empty();
+        Ok(shapes)
+    }
+
+    fn fill(&mut self, path: &usvg::Path, place: Transform) -> Result<Shapes, OutlineError> {
+        let rule = match path.fill().map(usvg::Fill::rule) {
+            Some(usvg::FillRule::EvenOdd) => FillRule::EvenOdd,
+            _ => FillRule::NonZero,
+        };
+        let contours = self.flat(path.data(), place.pre_concat(path.abs_transform()))?;
+        regions::resolve(&contours, rule)
+    }
+
+    fn stroke(&mut self, path: &usvg::Path, place: Transform) -> Result<Shapes, OutlineError> {
+        let Some(stroke) = path.stroke() else { return Ok(Shapes::new()) };
+        let transform = place.pre_concat(path.abs_transform());
+        // The stroker is accurate to about a quarter px at a given scale: let it see `tolerance` as that.
+        let scale = PathStroker::compute_resolution_scale(&transform) * (0.25 / self.tolerance) as f32;
+        let stroke = stroke.to_tiny_skia();
+        let dashed = stroke.dash.as_ref().and_then(|dash| path.data().dash(dash, scale));
+        match dashed.as_ref().unwrap_or(path.data()).stroke(&stroke, scale) {
+            Some(area) => {
+                let contours = self.flat(&area, transform)?;
+                regions::resolve(&contours, FillRule::NonZero)
+            }
+            None => Ok(Shapes::new()),
+        }
+    }
+
+    fn flat(
+        &mut self,
+        path: &usvg::tiny_skia_path::Path,
+        transform: Transform,
+    ) -> Result<Vec<Vec<Point>>, OutlineError> {
+        let contours = flatten(path, transform, self.tolerance);
+        self.points += contours.iter().map(Vec::len).sum::<usize>();
+        if self.points > MAX_POINTS {
+            return Err(OutlineError::TooComplex("has more than three million points"));
+        }
+        Ok(contours)
+    }
+
+    /// Notes the text, and refuses what the bundled fonts cannot write.
+    fn text(&mut self, text: &usvg::Text) -> Result<(), OutlineError> {
+        let written: String = text.chunks().iter().map(|chunk| chunk.text()).collect();
+        let glyphs = text.layouted().iter().flat_map(|span| &span.positioned_glyphs);
+        if glyphs.into_iter().any(|glyph| glyph.id.0 == 0) {
+            return Err(OutlineError::NoFont(shortened(&written)));
+        }
+        if !written.trim().is_empty() {
+            self.texts.push(shortened(&written));
+        }
+        Ok(())
+    }
+
+    fn describe(&self, notes: &mut Vec<String>, longer: f64, shapes: &Shapes) -> Result<(), OutlineError> {
+        if !self.texts.is_empty() {
+            let texts = self.texts.iter().take(3).map(|t| format!("\"{t}\"")).collect::<Vec<_>>().join(", ");
+            notes.push(format!("text ({texts}) is set in the bundled font Ubuntu Light"));
+        }
+        if self.pictures > 0 {
+            notes.push(format!("{} embedded picture(s) left out; only drawn shapes count", self.pictures));
+        }
+        if self.filters > 0 {
+            notes.push("filter effects (shadows, blurs) left out".to_owned());
+        }
+        let (low, high) = regions::bounding_box(shapes);
+        let off = (-low[0]).max(high[0] - self.page[0]).max(high[1]).max(-low[1] - self.page[1]);
+        if off > OFF_PAGE_FRACTION * longer {
+            notes.push("parts of the drawing lie off the page; they count".to_owned());
+        }
+        Ok(())
+    }
+}
+
+fn shortened(text: &str) -> String {
+    const SHOWN: usize = 24;
+    let plain: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).take(SHOWN).collect();
+    if text.chars().count() > SHOWN { plain + "..." } else { plain }
+}
+
+/// Whether a paint has any opaque part.
+fn shows(paint: &Paint) -> bool {
+    let any = |stops: &[usvg::Stop]| stops.iter().any(|stop| stop.opacity().get() > 0.0);
+    match paint {
+        Paint::Color(_) | Paint::Pattern(_) => true,
+        Paint::LinearGradient(gradient) => any(gradient.stops()),
+        Paint::RadialGradient(gradient) => any(gradient.stops()),
+    }
+}
+
+/// Whether an area is one upright rectangle that covers the page.
+fn is_page(area: &Shapes, page: [f64; 2]) -> bool {
+    let [rings] = area.as_slice() else { return false };
+    let [ring] = rings.as_slice() else { return false };
+    let (low, high) = polygon::bounding_box(ring);
+    let slack = page.map(|side| PAGE_FRACTION * side);
+    // The page has y from -height to 0 here.
+    let covers =
+        low[0] <= slack[0] && high[0] >= page[0] - slack[0] && low[1] <= slack[1] - page[1] && high[1] >= -slack[1];
+    let boxed = (high[0] - low[0]) * (high[1] - low[1]);
+    covers && ring.len() == 4 && polygon::signed_area(ring) > (1.0 - 1e-6) * boxed
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn svg(attributes: &str, body: &str) -> Vec<u8> {
+        format!("<svg xmlns='http://www.w3.org/2000/svg' {attributes}>{body}</svg>").into_bytes()
+    }
+
+    #[test]
+    fn a_square_of_100_mm_is_that_in_every_unit() {
+        for size in ["100mm", "10cm", "3.937007874in", "283.4645669pt", "377.9527559px", "377.9527559"] {
+            for (view, body) in [
+                ("viewBox='0 0 50 50'", "<rect width='50' height='50'/>"),
+                ("", "<rect width='100%' height='100%' style='fill:red'/>"),
+                ("viewBox='-1 -1 2 2'", "<path transform='rotate(90)' d='M-1-1h2v2h-2z'/>"),
+            ] {
+                let outline = read(&svg(&format!("width='{size}' height='{size}' {view}"), body), None).unwrap();
+                let (low, high) = outline.bounding_box();
+                assert_eq!((low, outline.outer.len()), ([0.0, 0.0], 4), "{size} {view}");
+                assert!((high[0] - 100.0).abs() < 1e-4 && (high[1] - 100.0).abs() < 1e-4, "{size} {view} {high:?}");
+                assert!((outline.area() - 1e4).abs() < 0.02);
+            }
+        }
+    }
+
+    #[test]
+    fn the_asked_height_wins_and_y_points_up() {
+        let wedge = svg("width='10mm' height='20mm' viewBox='0 0 10 20'", "<path d='M2 2h6l-3 12z'/>");
+        let outline = read(&wedge, Some(240.0)).unwrap();
+        let (_, high) = outline.bounding_box();
+        assert!((high[1] - 240.0).abs() < 1e-9 && (high[0] - 120.0).abs() < 1e-3);
+        // The tip, at the bottom of the page, is at the bottom here too.
+        assert!(outline.contains([60.0, 20.0]) && outline.contains([10.0, 235.0]) && !outline.contains([10.0, 20.0]));
+        assert!(crate::outline::polygon::signed_area(&outline.outer) > 0.0);
+    }
+
+    #[test]
+    fn circles_meet_their_closed_form() {
+        let disc =
+            read(&svg("width='100mm' height='100mm' viewBox='0 0 100 100'", "<circle cx='50' cy='50' r='40'/>"), None);
+        let area = disc.unwrap().area();
+        assert!((area / (std::f64::consts::PI * 1600.0) - 1.0).abs() < 1e-3, "{area}");
+        let ring = svg(
+            "width='100mm' height='100mm' viewBox='0 0 100 100'",
+            "<circle cx='50' cy='50' r='40' fill='none' stroke='black' stroke-width='10'/>",
+        );
+        let ring = read(&ring, None).unwrap();
+        assert_eq!(ring.holes.len(), 1);
+        let expected = std::f64::consts::PI * (45.0 * 45.0 - 35.0 * 35.0);
+        assert!((ring.area() / expected - 1.0).abs() < 1e-3, "{}", ring.area());
+        assert!(crate::outline::polygon::signed_area(&ring.holes[0]) < 0.0);
+    }
+
+    #[test]
+    fn fills_strokes_clips_and_references_are_united() {
+        let body = "<defs><clipPath id='c'><rect x='0' y='0' width='50' height='100'/></clipPath>\
+                    <rect id='r' width='30' height='20'/></defs>\
+                    <g clip-path='url(#c)'><rect x='10' y='10' width='80' height='20'/></g>\
+                    <use href='#r' x='40' y='20'/>\
+                    <path d='M20 20V80' stroke='blue' stroke-width='10' fill='none'/>\
+                    <rect x='0' y='0' width='100' height='100' opacity='0'/>\
+                    <rect x='0' y='0' width='100' height='100' visibility='hidden'/>";
+        let outline = read(&svg("width='100mm' height='100mm' viewBox='0 0 100 100'", body), None).unwrap();
+        let (_, high) = outline.bounding_box();
+        assert!((high[0] - 60.0).abs() < 1e-3 && (high[1] - 70.0).abs() < 1e-3, "{high:?}");
+        assert!((outline.area() - (40.0 * 20.0 + 30.0 * 20.0 - 100.0 + 50.0 * 10.0)).abs() < 0.1, "{}", outline.area());
+    }
+
+    #[test]
+    fn faults_are_told_apart() {
+        let attributes = "width='100' height='100'";
+        let no_svg = |bytes: &[u8]| matches!(read(bytes, None), Err(OutlineError::Unreadable { format: "SVG", .. }));
+        assert!(no_svg(b"\x89PNG") && no_svg(b"<html/>") && no_svg(b""));
+        let nothing = |body: &str| matches!(read(&svg(attributes, body), None), Err(OutlineError::NothingPainted(_)));
+        assert!(
+            nothing("") && nothing("<path d='M0 0L50 50'/>") && nothing("<rect width='9' height='9' fill='none'/>")
+        );
+        assert!(nothing("<rect width='50' height='50' fill='url(#none)'/>"));
+        let dots = "<circle cx='10' cy='10' r='5'/><circle cx='30' cy='10' r='5'/><circle cx='50' cy='10' r='5'/>";
+        assert!(matches!(read(&svg(attributes, dots), None), Err(OutlineError::Pieces { pieces: 3, .. })));
+        let hair = "<rect width='100' height='0.0005'/>";
+        assert_eq!(read(&svg(attributes, hair), None), Err(OutlineError::Degenerate));
+        let square = svg(attributes, "<rect width='50' height='50'/>");
+        assert_eq!(read(&square, Some(-1.0)), Err(OutlineError::Height(-1.0)));
+        assert!(matches!(read(&square, Some(f64::NAN)), Err(OutlineError::Height(_))));
+    }
+
+    fn full(body: &str, import: &Import) -> Result<super::super::Imported, OutlineError> {
+        super::super::import(&svg("width='100mm' height='100mm' viewBox='0 0 100 100'", body), import)
+    }
+
+    #[test]
+    fn a_rectangle_as_large_as_the_page_is_paper() {
+        let body = "<rect width='100' height='100' fill='white'/><circle cx='50' cy='50' r='30' fill='white'/>";
+        let dropped = full(body, &Import::default()).unwrap();
+        assert!((dropped.outline.area() / (std::f64::consts::PI * 900.0) - 1.0).abs() < 1e-3);
+        assert!(dropped.changes.notes[0].contains("background"), "{:?}", dropped.changes);
+        let kept = full(body, &Import { background: Background::Keep, ..Import::default() }).unwrap();
+        assert!((kept.outline.area() - 1e4).abs() < 0.1 && kept.changes.notes.is_empty());
+        // Something of that size on top of others is no paper.
+        let top = "<circle cx='50' cy='50' r='30'/><path d='M0 0h100v100h-100z'/>";
+        assert!((full(top, &Import::default()).unwrap().outline.area() - 1e4).abs() < 0.1);
+    }
+
+    #[test]
+    fn masks_let_through_what_is_not_black() {
+        let body = "<mask id='m'><rect width='100' height='100' fill='white'/><rect x='20' y='20' width='20' height='60'/>\
+                    </mask><rect x='10' y='10' width='60' height='80' mask='url(#m)'/>";
+        let imported = full(body, &Import::default()).unwrap();
+        assert!((imported.outline.area() - (4800.0 - 1200.0)).abs() < 0.1, "{}", imported.outline.area());
+        assert_eq!(imported.outline.holes.len(), 1);
+        let alpha = body.replace("<mask id='m'", "<mask id='m' style='mask-type:alpha'");
+        assert!((full(&alpha, &Import::default()).unwrap().outline.area() - 4800.0).abs() < 0.1);
+    }
+
+    #[test]
+    fn text_is_set_in_the_bundled_font_or_refused() {
+        let text = |t: &str| {
+            full(&format!("<text x='10' y='80' font-size='80' font-family='Nowhere'>{t}</text>"), &Import::default())
+        };
+        let imported = text("S").unwrap();
+        assert!(
+            imported.outline.area() > 100.0 && imported.changes.notes[0].contains("Ubuntu"),
+            "{:?}",
+            imported.changes
+        );
+        assert!(matches!(text("i"), Err(OutlineError::Pieces { pieces: 2, .. })));
+        assert!(matches!(text("\u{6f22}"), Err(OutlineError::NoFont(_))), "{:?}", text("\u{6f22}"));
+    }
+
+    #[test]
+    fn what_is_left_out_is_noted() {
+        let pixel = "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg==";
+        let body =
+            format!("<rect x='20' y='20' width='90' height='40'/><image href='{pixel}' width='10' height='10'/>");
+        let notes = full(&body, &Import::default()).unwrap().changes.notes;
+        assert!(
+            notes.iter().any(|n| n.contains("picture")) && notes.iter().any(|n| n.contains("off the page")),
+            "{notes:?}"
+        );
+        let shadow = "<filter id='f'><feGaussianBlur stdDeviation='2'/></filter><rect x='9' y='9' width='70' height='70' filter='url(#f)'/>";
+        assert!(full(shadow, &Import::default()).unwrap().changes.notes[0].contains("filter"));
+    }
+}
