@@ -6,23 +6,35 @@
 //! division by three come out. What is searched is the spacing along the boundary, among a few about the one at which
 //! boundary and interior would be equally dense, for the mesh with the best triangles.
 
+use super::curve::Curve;
 use super::quality::Quality;
-use super::{Mesh, MeshError, fill, sample, smooth};
+use super::refine::{Place, Refiner};
+use super::sample::{Closeness, sample};
+use super::{Mesh, MeshError, smooth};
 use crate::outline::Outline;
 
 /// Most muscle fibres that are meshed: far beyond what a pose could be solved with.
 pub const MAX_FIBERS: usize = 200_000;
 /// Boundary spacings tried, relative to the evenly dense one, for small meshes and for large ones, where the boundary is
 /// few of the nodes and the even spacing is good.
-const SPACINGS: [f64; 12] = [1.0, 0.94, 1.06, 0.88, 1.12, 0.97, 1.03, 1.18, 1.24, 1.3, 1.09, 1.15];
+const SPACINGS: [f64; 5] = [1.0, 0.94, 1.06, 1.14, 1.24];
 const SPACINGS_LARGE: [f64; 1] = [1.0];
 /// Longest wanted edges inside, in boundary spacings, tried in turn while the body is one triangle across somewhere: a
 /// coarser trunk leaves more nodes for the limbs.
 const COARSEST: [f64; 3] = [1.25, 1.5, 1.8];
 /// Fibres from which a mesh is large.
 const LARGE: usize = 3000;
+/// A mesh without bridges and with no angle below this is taken at once, degrees.
+const FINE_DEG: f64 = 30.5;
 /// Steps of 2 % taken upward to find a possible count: a factor of 3.3.
-const NEAREST_STEPS: usize = 60;
+const NEAREST_STEPS: usize = 20;
+/// Farthest that a chord may stray from the outline, as fractions of its height, tried in turn: with few fibres fine features
+/// are rounded off rather than refused.
+const STRAYS: [f64; 4] = [0.004, 0.008, 0.016, 0.03];
+/// Area that the mesh may lose or win at the first of those, as a fraction; twice as much at each further one.
+const AREA_FRACTION: f64 = 0.0095;
+/// How far the number of edges may be from the asked one where no mesh has it exactly.
+const COUNT_FRACTION: f64 = 0.03;
 /// Number of spacings tried where the boundary alone has too many edges at those, and the factor from one to the next.
 const COARSER: i32 = 40;
 const COARSENING: f64 = 1.12;
@@ -39,30 +51,101 @@ pub fn generate(outline: &Outline, fibers: usize) -> Result<Mesh, MeshError> {
     if fibers > MAX_FIBERS {
         return Err(MeshError::Unreachable { asked: fibers, nearest: MAX_FIBERS });
     }
-    if let Some(mesh) = with_count(outline, fibers) {
+    let curves: Vec<Curve> = outline.polygons().map(Curve::new).collect();
+    if let Some(mesh) = with_count(outline, &curves, fibers) {
         return Ok(mesh);
     }
-    Err(MeshError::Unreachable { asked: fibers, nearest: nearest(outline, fibers) })
+    Err(MeshError::Unreachable { asked: fibers, nearest: nearest(outline, &curves, fibers) })
 }
 
-/// The best mesh found that has exactly `fibers` edges.
-fn with_count(outline: &Outline, fibers: usize) -> Option<Mesh> {
+/// The best mesh found with `fibers` edges.
+fn with_count(outline: &Outline, curves: &[Curve], fibers: usize) -> Option<Mesh> {
     let even = even_spacing(outline, fibers);
-    let spacings: &[f64] = if fibers < LARGE { &SPACINGS } else { &SPACINGS_LARGE };
-    let mut found: Vec<Candidate> = Vec::new();
-    for coarsest in COARSEST {
-        found.extend(spacings.iter().filter_map(|factor| attempt(outline, fibers, factor * even, coarsest)));
-        if found.is_empty() || found.iter().any(|c| c.quality.bridges + c.quality.below_20_deg == 0) {
-            break;
+    let (low, high) = outline.bounding_box();
+    let height = high[1] - low[1];
+    for (k, stray) in STRAYS.into_iter().enumerate() {
+        let close = Closeness { stray: stray * height, area: AREA_FRACTION * f64::from(1 << k) };
+        let body = Body { outline, curves, forced: &[], close, fibers };
+        if let Some(mesh) = body.best(even) {
+            return Some(mesh);
         }
     }
-    if let Some(mesh) = best(found) {
-        return Some(mesh);
+    None
+}
+
+struct Body<'a> {
+    outline: &'a Outline,
+    curves: &'a [Curve<'a>],
+    forced: &'a [usize],
+    close: Closeness,
+    fibers: usize,
+}
+
+impl Body<'_> {
+    fn best(&self, even: f64) -> Option<Mesh> {
+        let spacings: &[f64] = if self.fibers < LARGE { &SPACINGS } else { &SPACINGS_LARGE };
+        let mut found: Vec<Candidate> = Vec::new();
+        for coarsest in COARSEST {
+            for factor in spacings {
+                found.extend(self.attempt(factor * even, coarsest));
+                if found.last().is_some_and(|c| c.is_fine(self.fibers)) {
+                    return found.pop().map(|c| c.mesh);
+                }
+            }
+            if found.is_empty() || spacings.len() == 1 {
+                break;
+            }
+        }
+        if let Some(mesh) = best(found) {
+            return Some(mesh);
+        }
+        // The boundary's own features ask for many nodes: sample it more and more coarsely.
+        let coarser = (1..=COARSER).map(|k| even * COARSENING.powi(k));
+        best(coarser.filter_map(|h| self.attempt(h, COARSEST[0])).take(3))
     }
-    // The boundary's own features ask for many nodes: sample it more and more coarsely.
-    let coarser: Vec<f64> = (1..=COARSER).map(|k| even * COARSENING.powi(k)).collect();
-    let found = coarser.iter().filter_map(|&h| attempt(outline, fibers, h, COARSEST[0])).take(SPACINGS.len());
-    best(found)
+
+    /// A mesh at boundary spacing `h`, if there is one with the asked count, or nearly.
+    fn attempt(&self, h: f64, coarsest: f64) -> Option<Candidate> {
+        let mut near = None;
+        for extra in 0..6 {
+            let boundary = sample(self.outline, self.curves, self.forced, h, extra, self.close)?;
+            let mut refiner = Refiner::new(&boundary, self.curves, h, coarsest)?;
+            if refiner.run(self.fibers).is_none() {
+                break;
+            }
+            let exact = refiner.tri.edges() == self.fibers;
+            if !exact && near.is_some() {
+                continue;
+            }
+            let Some(candidate) = finish(refiner) else { continue };
+            if exact {
+                return Some(candidate);
+            }
+            near = Some(candidate);
+        }
+        near.filter(|c| within(c.quality.edges, self.fibers))
+    }
+}
+
+/// Whether a count is as good as the asked one.
+fn within(count: usize, asked: usize) -> bool {
+    count.abs_diff(asked) as f64 <= COUNT_FRACTION * asked as f64
+}
+
+/// Smooths, and checks what came out.
+fn finish(refiner: Refiner) -> Option<Candidate> {
+    let Refiner { mut tri, places, .. } = refiner;
+    let free: Vec<usize> = (0..places.len()).filter(|&n| places[n] == Place::Inside).collect();
+    smooth::smooth(&mut tri, &free);
+    let mut triangles = tri.corners;
+    for t in &mut triangles {
+        let smallest = (0..3).min_by_key(|&k| t[k]).unwrap_or(0);
+        t.rotate_left(smallest);
+    }
+    triangles.sort_unstable();
+    let mesh = Mesh { nodes: tri.points, triangles };
+    let quality = Quality::of(&mesh);
+    mesh.validate().is_ok().then_some(Candidate { mesh, quality })
 }
 
 fn check(outline: &Outline) -> Result<(), MeshError> {
@@ -85,6 +168,14 @@ struct Candidate {
     quality: Quality,
 }
 
+impl Candidate {
+    /// Whether no better one need be sought.
+    fn is_fine(&self, fibers: usize) -> bool {
+        let q = &self.quality;
+        q.edges == fibers && q.bridges == 0 && q.min_angle_deg > FINE_DEG
+    }
+}
+
 /// The candidate with the fewest poor triangles, and among those the one with the least of what else is unwanted: an
 /// inner edge across a limb weighs as much as ten degrees of the least angle, or edges that differ by a factor of two
 /// more.
@@ -95,39 +186,27 @@ fn best(candidates: impl IntoIterator<Item = Candidate>) -> Option<Mesh> {
     candidates.into_iter().min_by(|a, b| order(&a.quality, &b.quality)).map(|c| c.mesh)
 }
 
-/// A mesh at boundary spacing `h`, if there is one with the asked count.
-fn attempt(outline: &Outline, fibers: usize, h: f64, coarsest: f64) -> Option<Candidate> {
-    let holes = 3 * outline.holes.len();
-    for extra in 0..6 {
-        let boundary = sample::sample(outline, h, extra)?;
-        let fixed = boundary.nodes.len();
-        let interior3 = (fibers + 3).checked_sub(2 * fixed + holes)?;
-        if interior3 % 3 != 0 {
-            continue;
-        }
-        let mut nodes = fill::fill(&boundary, interior3 / 3, h, coarsest)?;
-        let triangles = smooth::smooth(&mut nodes, fixed, &boundary.segments)?;
-        let mesh = Mesh { nodes, triangles };
-        let quality = Quality::of(&mesh);
-        let sound =
-            quality.edges == fibers && (mesh.area() / outline.area() - 1.0).abs() < 0.01 && mesh.validate().is_ok();
-        if sound {
-            return Some(Candidate { mesh, quality });
+/// The least count above `asked` that was found to give a mesh.
+fn nearest(outline: &Outline, curves: &[Curve], asked: usize) -> usize {
+    let (low, high) = outline.bounding_box();
+    let height = high[1] - low[1];
+    let mut least = MAX_FIBERS;
+    for (k, stray) in STRAYS.into_iter().enumerate() {
+        let close = Closeness { stray: stray * height, area: AREA_FRACTION * f64::from(1 << k) };
+        let mut h = even_spacing(outline, asked);
+        for _ in 0..10 {
+            let Some(boundary) = sample(outline, curves, &[], h, 0, close) else { break };
+            let Some(mut refiner) = Refiner::new(&boundary, curves, h, COARSEST[0]) else { break };
+            if refiner.run_angles(MAX_FIBERS).is_some() {
+                least = least.min(refiner.tri.edges());
+            }
+            h *= 1.5;
         }
     }
-    None
-}
-
-/// The least count above `asked` that was found to give a mesh, searched upward in steps of 2 % from the edges that the
-/// coarsest boundary has alone; [`MAX_FIBERS`] if none was found.
-fn nearest(outline: &Outline, asked: usize) -> usize {
-    let h = even_spacing(outline, asked);
-    let holes = 3 * outline.holes.len();
-    let coarse = [1.0, 4.0, 16.0, 64.0].into_iter().filter_map(|factor| sample::sample(outline, factor * h, 0));
-    let alone = coarse.map(|b| (2 * b.nodes.len() + holes).saturating_sub(3)).min().unwrap_or(asked);
-    let mut count = alone.max(asked + 1);
+    // Smoothing and the count's parity may ask for a little more.
+    let mut count = least.max(asked + 1);
     for _ in 0..NEAREST_STEPS {
-        if with_count(outline, count).is_some() {
+        if with_count(outline, curves, count).is_some() {
             return count;
         }
         count += (count / 50).max(1);

@@ -4,12 +4,15 @@
 //! [`Mesh::locate`] finds the point of the body at a place.
 
 mod check;
-mod fill;
+mod curve;
 mod generate;
+mod grid;
 mod locate;
 pub mod quality;
+mod refine;
 mod sample;
 mod smooth;
+mod tri;
 mod triangulate;
 
 pub use generate::{MAX_FIBERS, generate};

@@ -1,49 +1,38 @@
 //! Moves interior nodes so that triangles come close to equilateral.
 
-use super::quality::min_angle;
-use super::triangulate::{self, doubled_area};
+use super::quality::min_tangent;
+use super::tri::Tri;
+use super::triangulate::doubled_area;
 use crate::outline::Point;
 
 /// Rounds of optimal-Delaunay smoothing: the angles gain little after a dozen.
 const ROUNDS: usize = 12;
-/// Rounds of angle climbing, each followed by a new triangulation.
+/// Rounds of angle climbing, each followed by flips.
 const CLIMBS: usize = 6;
 /// Triangles with a smaller least angle than this have their interior nodes climbed, degrees.
 const CLIMB_BELOW_DEG: f64 = 36.0;
 
-/// Smooths the nodes from `fixed` on; returns the triangles. `None` where no triangulation exists.
+/// Smooths the nodes that are `free`.
 ///
 /// Rounds of the optimal Delaunay triangulation (Chen and Holst, *Efficient mesh optimization schemes based on optimal
 /// Delaunay triangulations*, 2011): each node goes to the mean of the circumcentres of its triangles, weighted by area.
 /// Then nodes at poor triangles climb to where the least angle around them is largest.
-pub(super) fn smooth(nodes: &mut [Point], fixed: usize, segments: &[[usize; 2]]) -> Option<Vec<[usize; 3]>> {
-    let mut triangles = triangulate::triangles(nodes, segments)?;
+pub(super) fn smooth(tri: &mut Tri, free: &[usize]) {
+    let mut star = Vec::new();
     for _ in 0..ROUNDS {
-        let stars = stars(nodes.len(), &triangles);
-        for (node, star) in stars.iter().enumerate().skip(fixed) {
-            let Some(goal) = circumcentre_mean(nodes, &triangles, star) else { continue };
-            step(nodes, &triangles, star, node, goal);
+        for &node in free {
+            tri.star(node, &mut star);
+            let Some(goal) = circumcentre_mean(&tri.points, &tri.corners, &star) else { continue };
+            step(&mut tri.points, &tri.corners, &star, node, goal);
         }
-        triangles = triangulate::triangles(nodes, segments)?;
+        tri.legalise_all();
     }
     for _ in 0..CLIMBS {
-        if !climb(nodes, fixed, &triangles) {
+        if !climb(tri, free) {
             break;
         }
-        triangles = triangulate::triangles(nodes, segments)?;
+        tri.legalise_all();
     }
-    Some(triangles)
-}
-
-/// The triangles at each node.
-fn stars(nodes: usize, triangles: &[[usize; 3]]) -> Vec<Vec<usize>> {
-    let mut stars = vec![Vec::new(); nodes];
-    for (t, triangle) in triangles.iter().enumerate() {
-        for &node in triangle {
-            stars[node].push(t);
-        }
-    }
-    stars
 }
 
 fn circumcentre_mean(nodes: &[Point], triangles: &[[usize; 3]], star: &[usize]) -> Option<Point> {
@@ -85,32 +74,39 @@ fn step(nodes: &mut [Point], triangles: &[[usize; 3]], star: &[usize], node: usi
 }
 
 /// One pass of climbing over the nodes at poor triangles; whether any moved.
-fn climb(nodes: &mut [Point], fixed: usize, triangles: &[[usize; 3]]) -> bool {
-    let stars = stars(nodes.len(), triangles);
-    let angle = |nodes: &[Point], t: usize| min_angle(triangles[t].map(|n| nodes[n]));
-    let worst = |nodes: &[Point], star: &[usize]| star.iter().map(|&t| angle(nodes, t)).fold(f64::INFINITY, f64::min);
-    let mut poor: Vec<usize> = (fixed..nodes.len()).filter(|&n| worst(nodes, &stars[n]) < CLIMB_BELOW_DEG).collect();
-    poor.sort_by(|&a, &b| worst(nodes, &stars[a]).total_cmp(&worst(nodes, &stars[b])).then(a.cmp(&b)));
+fn climb(tri: &mut Tri, free: &[usize]) -> bool {
+    let worst = |tri: &Tri, star: &[usize]| star.iter().map(|&t| min_tangent(tri.places(t))).fold(f64::INFINITY, f64::min);
+    let mut star = Vec::new();
+    let mut poor: Vec<(f64, usize)> = Vec::new();
+    for &node in free {
+        tri.star(node, &mut star);
+        let angle = worst(tri, &star);
+        if angle < CLIMB_BELOW_DEG.to_radians().tan() {
+            poor.push((angle, node));
+        }
+    }
+    poor.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     let mut moved = false;
-    for node in poor {
-        let Some(&first) = stars[node].first() else { continue };
-        let [a, b, c] = triangles[first].map(|n| nodes[n]);
+    for (_, node) in poor {
+        tri.star(node, &mut star);
+        let Some(&first) = star.first() else { continue };
+        let [a, b, c] = tri.places(first);
         let mut reach = 0.2 * doubled_area(a, b, c).abs().sqrt();
-        let mut best = worst(nodes, &stars[node]);
+        let mut best = worst(tri, &star);
         for _ in 0..6 {
-            let centre = nodes[node];
+            let centre = tri.points[node];
             let mut improved = false;
             for direction in
                 [[1.0, 0.0], [0.7, 0.7], [0.0, 1.0], [-0.7, 0.7], [-1.0, 0.0], [-0.7, -0.7], [0.0, -1.0], [0.7, -0.7]]
             {
-                let here = nodes[node];
-                nodes[node] = [centre[0] + reach * direction[0], centre[1] + reach * direction[1]];
-                let value = worst(nodes, &stars[node]);
+                let here = tri.points[node];
+                tri.points[node] = [centre[0] + reach * direction[0], centre[1] + reach * direction[1]];
+                let value = worst(tri, &star);
                 if value > best + 1e-3 {
                     best = value;
                     improved = true;
                 } else {
-                    nodes[node] = here;
+                    tri.points[node] = here;
                 }
             }
             moved |= improved;

@@ -1,0 +1,380 @@
+//! Delaunay refinement: nodes are added until every triangle has good angles, then until there are as many as asked for.
+//!
+//! After Ruppert (*A Delaunay refinement algorithm for quality 2-dimensional mesh generation*, 1995): a poor triangle gets
+//! a node at its circumcentre, unless that lies behind or close to a fixed edge, which is then split instead; the new
+//! node lies on the outline, not on the chord. Nodes next to a sharp corner are put at distances of powers of two from
+//! it, so that its two legs do not split each other for ever. What is still missing is spread farthest point first:
+//! at the circumcentre of the triangle that is largest for its place.
+
+use super::curve::Curve;
+use super::quality::min_angle;
+use super::sample::Boundary;
+use super::tri::{NONE, Side, Tri, Way};
+use super::triangulate::doubled_area;
+use crate::outline::{Point, polygon};
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+/// Triangles with a smaller angle are split, degrees: the refinement ends well for a little more than 20, smoothing then
+/// adds some ten.
+const POOR_DEG: f64 = 24.0;
+/// A fixed edge is split where it is seen under more than this angle, degrees: 90 is Ruppert's circle, 180 none at all. More
+/// spares nodes, up to what the smallest angle wanted allows (180 - 2 * 24).
+const SEEN_DEG: f64 = 120.0;
+/// Corners of the rim sharper than this get nodes at equal distances on both legs, degrees.
+const SHARP_DEG: f64 = 60.0;
+/// Edges shorter than this are not split for the angles' sake, as a fraction of the spacing.
+const SHORTEST: f64 = 0.02;
+/// Growth of the wanted edge length per length of way from a finely sampled stretch of the boundary.
+const GRADATION: f64 = 0.35;
+/// Nearest that an interior node may come to the boundary, in wanted edge lengths: below, triangles grow flat.
+const BOUNDARY_GAP: f64 = 0.42;
+/// Preference for triangles between boundary nodes alone, as a factor on that ratio: a limb is to be two across before
+/// the trunk is filled evenly.
+const LIMB_FIRST: f64 = 1.35;
+/// Smallest ratio of circumradius to wanted edge length that takes a node: an equilateral triangle of the wanted size has
+/// 0.577.
+const LEAST_RATIO: f64 = 0.4;
+
+/// Where a node lies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Place {
+    /// On a ring of the outline, at an arc length.
+    Rim(usize, f64),
+    /// On a track.
+    Track,
+    Inside,
+}
+
+pub(super) struct Refiner<'a> {
+    pub tri: Tri,
+    pub places: Vec<Place>,
+    curves: &'a [Curve<'a>],
+    sizes: Vec<f64>,
+    h: f64,
+    coarsest: f64,
+    queue: BinaryHeap<Entry>,
+    star: Vec<usize>,
+}
+
+/// A triangle that wants a node. Poor angles go before size, the worst first.
+struct Entry {
+    poor: bool,
+    weight: f64,
+    corners: [usize; 3],
+    triangle: usize,
+}
+
+impl Ord for Entry {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let key = |e: &Self| (e.poor, e.corners);
+        self.poor
+            .cmp(&other.poor)
+            .then(self.weight.total_cmp(&other.weight))
+            .then_with(|| key(other).cmp(&key(self)))
+    }
+}
+impl PartialOrd for Entry {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+impl PartialEq for Entry {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+impl Eq for Entry {}
+
+impl<'a> Refiner<'a> {
+    /// The triangulation of a boundary sampled at spacing `h`, to be refined to edges of at most `coarsest` times that.
+    pub fn new(boundary: &Boundary, curves: &'a [Curve<'a>], h: f64, coarsest: f64) -> Option<Self> {
+        let tri = Tri::new(boundary.nodes.clone(), &boundary.segments, &[])?;
+        let mut refiner = Self {
+            places: boundary.places.iter().map(|&(ring, s)| Place::Rim(ring, s)).collect(),
+            sizes: rim_sizes(boundary, h),
+            tri,
+            curves,
+            h,
+            coarsest,
+            queue: BinaryHeap::new(),
+            star: Vec::new(),
+        };
+        for t in 0..refiner.tri.corners.len() {
+            refiner.enqueue(t);
+        }
+        Some(refiner)
+    }
+
+    /// Adds nodes until there are `edges` edges, or up to two fewer. `None` where good angles alone need more than that, or so
+    /// many find no room.
+    pub fn run(&mut self, edges: usize) -> Option<()> {
+        while let Some(entry) = self.queue.pop() {
+            if self.tri.corners[entry.triangle] != entry.corners {
+                continue;
+            }
+            if self.tri.edges() > edges {
+                return None;
+            }
+            if entry.poor {
+                self.improve(entry.triangle);
+            } else if self.tri.edges() + 3 > edges {
+                return Some(());
+            } else {
+                self.fill(entry.triangle);
+            }
+        }
+        (self.tri.edges() <= edges && self.tri.edges() + 3 > edges).then_some(())
+    }
+
+    /// Adds nodes until the angles are good; `None` beyond `most` edges.
+    pub fn run_angles(&mut self, most: usize) -> Option<()> {
+        while let Some(entry) = self.queue.pop() {
+            if self.tri.edges() > most {
+                return None;
+            }
+            if entry.poor && self.tri.corners[entry.triangle] == entry.corners {
+                self.improve(entry.triangle);
+            }
+        }
+        Some(())
+    }
+
+    fn enqueue(&mut self, t: usize) {
+        let corners = self.tri.corners[t];
+        let places = self.tri.places(t);
+        let angle = min_angle(places);
+        let seen = (0..3).any(|k| self.is_seen((t, k)));
+        if seen || (angle < POOR_DEG && !self.is_given(t)) {
+            self.queue.push(Entry { poor: true, weight: if seen { 90.0 } else { -angle }, corners, triangle: t });
+        } else {
+            let weight = self.ratio(t);
+            if weight > LEAST_RATIO {
+                self.queue.push(Entry { poor: false, weight, corners, triangle: t });
+            }
+        }
+    }
+
+    /// Circumradius in wanted edge lengths.
+    fn ratio(&self, t: usize) -> f64 {
+        let (_, radius) = circumcircle(self.tri.places(t));
+        let limb = self.tri.corners[t].iter().all(|&n| matches!(self.places[n], Place::Rim(..)));
+        let factor = if limb { LIMB_FIRST } else { 1.0 };
+        factor * radius / self.wanted(t, radius)
+    }
+
+    fn wanted(&self, t: usize, radius: f64) -> f64 {
+        let grown = self.tri.corners[t].iter().map(|&n| self.sizes[n] + GRADATION * radius);
+        grown.fold(self.coarsest * self.h, f64::min)
+    }
+
+    /// Whether a fixed edge is seen from the triangle's apex under so large an angle that it must be split.
+    fn is_seen(&self, side: Side) -> bool {
+        if !self.tri.fixed[side.0][side.1] {
+            return false;
+        }
+        let [a, b] = self.tri.ends(side).map(|n| self.tri.points[n]);
+        seen(a, b, self.tri.points[self.tri.apex(side)]) && polygon::length(a, b) > SHORTEST * self.h
+    }
+
+    /// Whether the smallest angle is one of the outline's own corners, or lies behind the base of one.
+    fn is_given(&self, t: usize) -> bool {
+        let p = self.tri.places(t);
+        let Some(k) = (0..3).min_by(|&i, &j| side2(p, i).total_cmp(&side2(p, j))) else { return true };
+        // The shortest side is opposite of the smallest angle.
+        let fixed = self.tri.fixed[t];
+        (fixed[(k + 1) % 3] && fixed[(k + 2) % 3]) || side2(p, k).sqrt() < SHORTEST * self.h
+    }
+
+    /// One step against a poor triangle.
+    fn improve(&mut self, t: usize) {
+        for k in 0..3 {
+            if self.is_seen((t, k)) {
+                if !self.split((t, k)) {
+                    continue;
+                }
+                return;
+            }
+        }
+        let (centre, _) = circumcircle(self.tri.places(t));
+        if !centre.iter().all(|v| v.is_finite()) {
+            return;
+        }
+        match self.tri.walk(t, centre) {
+            Way::Blocked(side) => {
+                self.split_if_long(side);
+            }
+            Way::Inside(home) => {
+                if let Some(side) = self.seen_from(home, centre) {
+                    self.split_if_long(side);
+                } else {
+                    let size = self.wanted(t, 0.0).min(circumcircle(self.tri.places(t)).1);
+                    self.add(home, centre, size);
+                }
+            }
+        }
+    }
+
+    fn split_if_long(&mut self, side: Side) -> bool {
+        let [a, b] = self.tri.ends(side).map(|n| self.tri.points[n]);
+        polygon::length(a, b) > SHORTEST * self.h && self.split(side)
+    }
+
+    /// A node for size: in the middle of the circumcircle, if that is inside and not near a fixed edge.
+    fn fill(&mut self, t: usize) {
+        let (centre, radius) = circumcircle(self.tri.places(t));
+        let size = self.wanted(t, radius);
+        let Way::Inside(home) = self.tri.walk(t, centre) else { return };
+        if self.fixed_distance(home, centre) > BOUNDARY_GAP * size {
+            self.add(home, centre, size);
+        }
+    }
+
+    /// The fixed edges of a triangle and of its neighbours.
+    fn fixed_near(&self, t: usize) -> impl Iterator<Item = Side> + '_ {
+        let own = (0..3).map(move |k| (t, k));
+        let next = (0..3).filter(move |&k| !self.tri.fixed[t][k]).map(move |k| self.tri.across[t][k]);
+        let next = next.filter(|&u| u != NONE).flat_map(|u| (0..3).map(move |k| (u, k)));
+        own.chain(next).filter(|&(t, k)| self.tri.fixed[t][k])
+    }
+
+    /// The fixed edge near `home` that `p` would see under too large an angle.
+    fn seen_from(&self, home: usize, p: Point) -> Option<Side> {
+        self.fixed_near(home).find(|&side| {
+            let [a, b] = self.tri.ends(side).map(|n| self.tri.points[n]);
+            seen(a, b, p)
+        })
+    }
+
+    fn fixed_distance(&self, home: usize, p: Point) -> f64 {
+        let distance = |side| {
+            let [a, b] = self.tri.ends(side).map(|n| self.tri.points[n]);
+            polygon::distance_to_segment(a, b, p)
+        };
+        self.fixed_near(home).map(distance).fold(f64::INFINITY, f64::min)
+    }
+
+    fn add(&mut self, home: usize, p: Point, size: f64) {
+        if let Some(node) = self.tri.insert(home, p) {
+            self.places.push(Place::Inside);
+            self.sizes.push(size);
+            self.enqueue_star(node);
+        }
+    }
+
+    /// Splits a fixed edge, on the outline where it belongs to it and the triangles allow; whether that was possible.
+    fn split(&mut self, side: Side) -> bool {
+        let [a, b] = self.tri.ends(side);
+        let share = self.share(side);
+        let (pa, pb) = (self.tri.points[a], self.tri.points[b]);
+        let on_chord = polygon::lerp(pa, pb, share);
+        let (place, goal) = match (self.places[a], self.places[b]) {
+            (Place::Rim(ring, from), Place::Rim(_, to)) if self.tri.across[side.0][side.1] == NONE => {
+                let curve = &self.curves[ring];
+                let to = if to > from { to } else { to + curve.length() };
+                let s = from + share * (to - from);
+                (Place::Rim(ring, s.rem_euclid(curve.length())), curve.at(s))
+            }
+            _ => (Place::Track, on_chord),
+        };
+        let node = [goal, on_chord].into_iter().find_map(|p| {
+            let apex = self.tri.points[self.tri.apex(side)];
+            let sound = place == Place::Track
+                || min_angle([pa, p, apex]).min(min_angle([p, pb, apex])) > 0.25 * min_angle([pa, pb, apex]);
+            if sound || p == on_chord { self.tri.split(side, p) } else { None }
+        });
+        let Some(node) = node else { return false };
+        let p = self.tri.points[node];
+        self.places.push(place);
+        self.sizes.push((0.5 * polygon::length(pa, pb)).min(self.h));
+        for (n, end) in [(a, pa), (b, pb)] {
+            // A size is the mean of both edges at a node; that of the longer one has just fallen.
+            let shorter = polygon::length(end, p);
+            self.sizes[n] = self.sizes[n].min(0.5 * (self.sizes[n] + shorter)).max(shorter.min(self.sizes[n]));
+        }
+        self.enqueue_star(node);
+        true
+    }
+
+    /// Where along a fixed edge to split it: in the middle, or at a power of two from a sharp corner at one end.
+    fn share(&mut self, side: Side) -> f64 {
+        let [a, b] = self.tri.ends(side);
+        let length = polygon::length(self.tri.points[a], self.tri.points[b]);
+        let shell = |length: f64| {
+            let power = (0.5 * length).log2().round().exp2() / length;
+            if power.is_finite() { power.clamp(0.25, 0.75) } else { 0.5 }
+        };
+        match (self.is_sharp(a), self.is_sharp(b)) {
+            (true, false) => shell(length),
+            (false, true) => 1.0 - shell(length),
+            _ => 0.5,
+        }
+    }
+
+    /// Whether the fixed edges at a node enclose a sharp corner of the body.
+    fn is_sharp(&mut self, node: usize) -> bool {
+        let mut star = std::mem::take(&mut self.star);
+        self.tri.star(node, &mut star);
+        let mut turned = 0.0;
+        let mut sharp = false;
+        let mut opened = false;
+        for &t in &star {
+            let Some(k) = (0..3).find(|&k| self.tri.corners[t][k] == node) else { continue };
+            let [p, q, r] = [k, (k + 1) % 3, (k + 2) % 3].map(|k| self.tri.points[self.tri.corners[t][k]]);
+            if self.tri.fixed[t][k] {
+                opened = true;
+                turned = 0.0;
+            }
+            turned += angle_at(p, q, r);
+            if self.tri.fixed[t][(k + 2) % 3] && opened {
+                sharp |= turned < SHARP_DEG.to_radians();
+                turned = 0.0;
+            }
+        }
+        self.star = star;
+        sharp
+    }
+
+    fn enqueue_star(&mut self, node: usize) {
+        let mut star = std::mem::take(&mut self.star);
+        self.tri.star(node, &mut star);
+        for &t in &star {
+            self.enqueue(t);
+        }
+        self.star = star;
+    }
+}
+
+/// The mean length of the two boundary edges at each node, at most `h`.
+fn rim_sizes(boundary: &Boundary, h: f64) -> Vec<f64> {
+    let mut sizes = vec![0.0; boundary.nodes.len()];
+    for &[a, b] in &boundary.segments {
+        let half = 0.5 * polygon::length(boundary.nodes[a], boundary.nodes[b]);
+        sizes[a] += half;
+        sizes[b] += half;
+    }
+    sizes.into_iter().map(|s: f64| s.min(h)).collect()
+}
+
+fn side2(p: [Point; 3], k: usize) -> f64 {
+    let (a, b) = (p[k], p[(k + 1) % 3]);
+    (b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)
+}
+
+fn angle_at(p: Point, q: Point, r: Point) -> f64 {
+    let dot = (q[0] - p[0]) * (r[0] - p[0]) + (q[1] - p[1]) * (r[1] - p[1]);
+    doubled_area(p, q, r).atan2(dot)
+}
+
+fn seen(a: Point, b: Point, p: Point) -> bool {
+    angle_at(p, a, b).abs() > SEEN_DEG.to_radians()
+}
+
+/// Centre and radius of the circle through three points.
+fn circumcircle([a, b, c]: [Point; 3]) -> (Point, f64) {
+    let (u, v) = ([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]);
+    let d = 2.0 * doubled_area(a, b, c);
+    let (uu, vv) = (u[0] * u[0] + u[1] * u[1], v[0] * v[0] + v[1] * v[1]);
+    let (x, y) = ((v[1] * uu - u[1] * vv) / d, (u[0] * vv - v[0] * uu) / d);
+    ([a[0] + x, a[1] + y], x.hypot(y))
+}
