@@ -17,7 +17,7 @@ use crate::outline::Outline;
 pub const MAX_FIBERS: usize = 200_000;
 /// Boundary spacings tried, relative to the evenly dense one, for small meshes and for large ones, where the boundary is
 /// few of the nodes and the even spacing is good.
-const SPACINGS: [f64; 5] = [1.0, 0.94, 1.06, 1.14, 1.24];
+const SPACINGS: [f64; 7] = [1.0, 1.08, 0.94, 1.16, 1.24, 1.34, 1.5];
 const SPACINGS_LARGE: [f64; 1] = [1.0];
 /// Longest wanted edges inside, in boundary spacings, tried in turn while the body is one triangle across somewhere: a
 /// coarser trunk leaves more nodes for the limbs.
@@ -30,9 +30,9 @@ const FINE_DEG: f64 = 30.5;
 const NEAREST_STEPS: usize = 20;
 /// Farthest that a chord may stray from the outline, as fractions of its height, tried in turn: with few fibres fine features
 /// are rounded off rather than refused.
-const STRAYS: [f64; 4] = [0.004, 0.008, 0.016, 0.03];
-/// Area that the mesh may lose or win at the first of those, as a fraction; twice as much at each further one.
-const AREA_FRACTION: f64 = 0.0095;
+const STRAYS: [f64; 4] = [0.0047, 0.008, 0.016, 0.03];
+/// Area that the mesh may lose or win at each of those, as a fraction.
+const AREAS: [f64; 4] = [0.0095, 0.0095, 0.0095, 0.03];
 /// How far the number of edges may be from the asked one where no mesh has it exactly.
 const COUNT_FRACTION: f64 = 0.03;
 /// Number of spacings tried where the boundary alone has too many edges at those, and the factor from one to the next.
@@ -64,7 +64,7 @@ fn with_count(outline: &Outline, curves: &[Curve], fibers: usize) -> Option<Mesh
     let (low, high) = outline.bounding_box();
     let height = high[1] - low[1];
     for (k, stray) in STRAYS.into_iter().enumerate() {
-        let close = Closeness { stray: stray * height, area: AREA_FRACTION * f64::from(1 << k) };
+        let close = Closeness { stray: stray * height, area: AREAS[k] };
         let body = Body { outline, curves, forced: &[], close, fibers };
         if let Some(mesh) = body.best(even) {
             return Some(mesh);
@@ -92,6 +92,7 @@ impl Body<'_> {
                     return found.pop().map(|c| c.mesh);
                 }
             }
+            if std::env::var("DBG").is_ok() { for c in &found { eprintln!("{coarsest} {} {} {} {}", c.quality.edges, c.quality.bridges, c.quality.min_angle_deg, 2*c.quality.edges-3*c.quality.triangles); } }
             if found.is_empty() || spacings.len() == 1 {
                 break;
             }
@@ -101,29 +102,24 @@ impl Body<'_> {
         }
         // The boundary's own features ask for many nodes: sample it more and more coarsely.
         let coarser = (1..=COARSER).map(|k| even * COARSENING.powi(k));
-        best(coarser.filter_map(|h| self.attempt(h, COARSEST[0])).take(3))
+        best(coarser.filter_map(|h| self.attempt(h, COARSEST[0])).take(2))
     }
 
     /// A mesh at boundary spacing `h`, if there is one with the asked count, or nearly.
     fn attempt(&self, h: f64, coarsest: f64) -> Option<Candidate> {
-        let mut near = None;
+        let mut near: Option<Refiner> = None;
         for extra in 0..6 {
             let boundary = sample(self.outline, self.curves, self.forced, h, extra, self.close)?;
             let mut refiner = Refiner::new(&boundary, self.curves, h, coarsest)?;
             if refiner.run(self.fibers).is_none() {
                 break;
             }
-            let exact = refiner.tri.edges() == self.fibers;
-            if !exact && near.is_some() {
-                continue;
+            if refiner.tri.edges() == self.fibers {
+                return finish(refiner);
             }
-            let Some(candidate) = finish(refiner) else { continue };
-            if exact {
-                return Some(candidate);
-            }
-            near = Some(candidate);
+            near = near.or(Some(refiner));
         }
-        near.filter(|c| within(c.quality.edges, self.fibers))
+        near.filter(|r| within(r.tri.edges(), self.fibers)).and_then(finish)
     }
 }
 
@@ -192,7 +188,7 @@ fn nearest(outline: &Outline, curves: &[Curve], asked: usize) -> usize {
     let height = high[1] - low[1];
     let mut least = MAX_FIBERS;
     for (k, stray) in STRAYS.into_iter().enumerate() {
-        let close = Closeness { stray: stray * height, area: AREA_FRACTION * f64::from(1 << k) };
+        let close = Closeness { stray: stray * height, area: AREAS[k] };
         let mut h = even_spacing(outline, asked);
         for _ in 0..10 {
             let Some(boundary) = sample(outline, curves, &[], h, 0, close) else { break };

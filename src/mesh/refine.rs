@@ -35,6 +35,8 @@ const LIMB_FIRST: f64 = 1.35;
 /// Smallest ratio of circumradius to wanted edge length that takes a node: an equilateral triangle of the wanted size has
 /// 0.577.
 const LEAST_RATIO: f64 = 0.4;
+/// Triangles above this ratio are split before their angles are looked at.
+const LARGE_RATIO: f64 = 0.85;
 
 /// Where a node lies.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,9 +59,20 @@ pub(super) struct Refiner<'a> {
     star: Vec<usize>,
 }
 
-/// A triangle that wants a node. Poor angles go before size, the worst first.
+/// Why a triangle wants a node; the last goes first.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Why {
+    Size,
+    Angle,
+    /// So large for its place that it is split whatever its angles: nodes for the angles' sake lie better afterwards.
+    Large,
+    /// Sees a fixed edge under too large an angle.
+    Edge,
+}
+
+/// A triangle that wants a node.
 struct Entry {
-    poor: bool,
+    why: Why,
     weight: f64,
     corners: [usize; 3],
     triangle: usize,
@@ -67,11 +80,10 @@ struct Entry {
 
 impl Ord for Entry {
     fn cmp(&self, other: &Self) -> Ordering {
-        let key = |e: &Self| (e.poor, e.corners);
-        self.poor
-            .cmp(&other.poor)
+        self.why
+            .cmp(&other.why)
             .then(self.weight.total_cmp(&other.weight))
-            .then_with(|| key(other).cmp(&key(self)))
+            .then_with(|| other.corners.cmp(&self.corners))
     }
 }
 impl PartialOrd for Entry {
@@ -116,12 +128,11 @@ impl<'a> Refiner<'a> {
             if self.tri.edges() > edges {
                 return None;
             }
-            if entry.poor {
-                self.improve(entry.triangle);
-            } else if self.tri.edges() + 3 > edges {
-                return Some(());
-            } else {
-                self.fill(entry.triangle);
+            match entry.why {
+                Why::Edge | Why::Angle => self.improve(entry.triangle),
+                Why::Large if self.tri.edges() + 3 > edges => return None,
+                Why::Size if self.tri.edges() + 3 > edges => return Some(()),
+                Why::Large | Why::Size => self.fill(entry.triangle),
             }
         }
         (self.tri.edges() <= edges && self.tri.edges() + 3 > edges).then_some(())
@@ -133,8 +144,12 @@ impl<'a> Refiner<'a> {
             if self.tri.edges() > most {
                 return None;
             }
-            if entry.poor && self.tri.corners[entry.triangle] == entry.corners {
-                self.improve(entry.triangle);
+            if self.tri.corners[entry.triangle] == entry.corners {
+                match entry.why {
+                    Why::Edge | Why::Angle => self.improve(entry.triangle),
+                    Why::Large => self.fill(entry.triangle),
+                    Why::Size => {}
+                }
             }
         }
         Some(())
@@ -144,14 +159,20 @@ impl<'a> Refiner<'a> {
         let corners = self.tri.corners[t];
         let places = self.tri.places(t);
         let angle = min_angle(places);
-        let seen = (0..3).any(|k| self.is_seen((t, k)));
-        if seen || (angle < POOR_DEG && !self.is_given(t)) {
-            self.queue.push(Entry { poor: true, weight: if seen { 90.0 } else { -angle }, corners, triangle: t });
-        } else {
-            let weight = self.ratio(t);
-            if weight > LEAST_RATIO {
-                self.queue.push(Entry { poor: false, weight, corners, triangle: t });
-            }
+        let ratio = self.ratio(t);
+        let poor = angle < POOR_DEG && !self.is_given(t);
+        let mut put = |why, weight| self.queue.push(Entry { why, weight, corners, triangle: t });
+        // A triangle that finds no room for its size may still be improved for its angle.
+        if ratio > LARGE_RATIO {
+            put(Why::Large, ratio);
+        } else if ratio > LEAST_RATIO {
+            put(Why::Size, ratio);
+        }
+        if poor {
+            put(Why::Angle, -angle);
+        }
+        if (0..3).any(|k| self.is_seen((t, k))) {
+            self.queue.push(Entry { why: Why::Edge, weight: 0.0, corners, triangle: t });
         }
     }
 

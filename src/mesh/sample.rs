@@ -13,6 +13,9 @@ const CURVATURE_WEIGHTS: [f64; 4] = [0.4, 0.7, 1.0, 1.4];
 /// Farthest that a chord may stray from the outline, in spacings: features finer than `h` stay.
 const STRAY: f64 = 0.12;
 
+/// Most change of the spacing along the boundary per length of way: neighbouring edges differ by a third.
+const GRADATION: f64 = 0.35;
+
 /// Sampled boundary. Nodes of a ring are consecutive and in the ring's order.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Boundary {
@@ -112,26 +115,24 @@ fn join(curves: &[Curve], rings: &[Vec<f64>]) -> Boundary {
 fn along(curve: &Curve, forced: &[usize], h: f64, weight: f64, stray: f64, extra: usize) -> Vec<f64> {
     let corners = curve.corners(h, forced);
     let starts = if corners.is_empty() { vec![0.0] } else { corners };
-    let window = curve.window(h);
     // A ring without corners still needs a few nodes to be round.
     let least = if starts.len() == 1 { 5 } else { 1 };
-    let mut sections: Vec<(Vec<f64>, f64, usize)> = Vec::new();
-    for (i, &from) in starts.iter().enumerate() {
-        let to = curve.arc(&starts, i).1;
-        let steps = ((to - from) / (0.08 * h)).ceil().max(8.0) as usize;
-        let step = (to - from) / steps as f64;
-        let mut mass = vec![0.0];
-        for k in 0..steps {
-            let s = from + (k as f64 + 0.5) * step;
-            // A corner is a node already: its turning must not crowd the nodes beside it.
-            let (a, b) = ((s - window).max(from + 1e-9 * h), (s + window).min(to - 1e-9 * h));
-            let bend = weight * h * curve.turning(a, b) / (2.0 * window);
-            mass.push(mass[k] + step / h * (1.0 + bend * bend).sqrt());
-        }
-        let total = mass[steps];
-        let n = (total.round() as usize).max(least);
-        sections.push((mass, total, n));
+    let mut steps: Vec<Step> = Vec::new();
+    let mut firsts = Vec::new();
+    for i in 0..starts.len() {
+        firsts.push(steps.len());
+        steps.extend(section(curve, curve.arc(&starts, i), h, weight, stray));
     }
+    grade(&mut steps);
+    firsts.push(steps.len());
+    let mut sections: Vec<(&[Step], f64, usize)> = firsts
+        .windows(2)
+        .map(|w| {
+            let section = &steps[w[0]..w[1]];
+            let total: f64 = section.iter().map(|s| s.length / s.spacing).sum();
+            (section, total, (total.round() as usize).max(least))
+        })
+        .collect();
     for _ in 0..extra {
         let wanting = |k: &usize| sections[*k].1 - sections[*k].2 as f64;
         if let Some(k) = (0..sections.len()).max_by(|a, b| wanting(a).total_cmp(&wanting(b)).then(b.cmp(a))) {
@@ -139,15 +140,18 @@ fn along(curve: &Curve, forced: &[usize], h: f64, weight: f64, stray: f64, extra
         }
     }
     let mut nodes = Vec::new();
-    for (i, (mass, total, n)) in sections.iter().enumerate() {
+    for (i, (section, total, n)) in sections.iter().enumerate() {
         let (from, to) = curve.arc(&starts, i);
-        let step = (to - from) / (mass.len() - 1) as f64;
         nodes.push(from);
+        let (mut k, mut mass, mut s) = (0, 0.0, from);
         for j in 1..*n {
             let wanted = total * j as f64 / *n as f64;
-            let k = mass.partition_point(|&m| m < wanted).clamp(1, mass.len() - 1);
-            let t = (wanted - mass[k - 1]) / (mass[k] - mass[k - 1]);
-            nodes.push(from + (k as f64 - 1.0 + t) * step);
+            while k + 1 < section.len() && mass + section[k].length / section[k].spacing < wanted {
+                mass += section[k].length / section[k].spacing;
+                s += section[k].length;
+                k += 1;
+            }
+            nodes.push((s + (wanted - mass) * section[k].spacing).min(to));
         }
     }
     for s in &mut nodes {
@@ -156,6 +160,45 @@ fn along(curve: &Curve, forced: &[usize], h: f64, weight: f64, stray: f64, extra
     nodes.sort_by(f64::total_cmp);
     nodes.dedup();
     keep_features(curve, nodes, stray)
+}
+
+/// A short stretch of a ring and the spacing wanted there.
+struct Step {
+    length: f64,
+    spacing: f64,
+}
+
+/// The stretches between two corners. The spacing is that of the density, and short enough for the chords of an arc of
+/// the local curvature to stray no more than `stray`: `l = sqrt(8 stray / kappa)`.
+fn section(curve: &Curve, (from, to): (f64, f64), h: f64, weight: f64, stray: f64) -> Vec<Step> {
+    let window = curve.window(h);
+    let count = ((to - from) / (0.08 * h)).ceil().max(8.0) as usize;
+    let length = (to - from) / count as f64;
+    let step = |k: usize| {
+        let s = from + (k as f64 + 0.5) * length;
+        // A corner is a node already: its turning must not crowd the nodes beside it.
+        let (a, b) = ((s - window).max(from + 1e-9 * h), (s + window).min(to - 1e-9 * h));
+        let curvature = curve.turning(a, b).abs() / (2.0 * window);
+        let bend = weight * h * curvature;
+        let chord = (8.0 * stray / curvature).sqrt();
+        Step { length, spacing: (h / (1.0 + bend * bend).sqrt()).min(chord) }
+    };
+    (0..count).map(step).collect()
+}
+
+/// Lets the spacing change along a closed ring by no more than [`GRADATION`] a length.
+fn grade(steps: &mut [Step]) {
+    let n = steps.len();
+    for round in 0..2 * n {
+        let (i, j) = (round % n, (round + 1) % n);
+        let most = steps[i].spacing + GRADATION * 0.5 * (steps[i].length + steps[j].length);
+        steps[j].spacing = steps[j].spacing.min(most);
+    }
+    for round in (0..2 * n).rev() {
+        let (i, j) = ((round + 1) % n, round % n);
+        let most = steps[i].spacing + GRADATION * 0.5 * (steps[i].length + steps[j].length);
+        steps[j].spacing = steps[j].spacing.min(most);
+    }
 }
 
 /// Adds the farthest vertex of every arc that strays from its chord by more than `stray`, again and again.
