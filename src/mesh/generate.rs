@@ -35,9 +35,11 @@ const STRAYS: [f64; 4] = [0.0047, 0.008, 0.016, 0.03];
 const AREAS: [f64; 4] = [0.0095, 0.0095, 0.0095, 0.03];
 /// How far the number of edges may be from the asked one where no mesh has it exactly.
 const COUNT_FRACTION: f64 = 0.03;
-/// Number of spacings tried where the boundary alone has too many edges at those, and the factor from one to the next.
-const COARSER: i32 = 40;
-const COARSENING: f64 = 1.12;
+/// Number of spacings tried where the boundary alone has too many edges at those, the factor from one to the next, and that
+/// before the first.
+const COARSER: i32 = 12;
+const COARSENING: f64 = 1.25;
+const SPACINGS_END: f64 = 1.24;
 
 /// A mesh of the outline with `fibers` edges, exactly so where nothing stands in the way.
 ///
@@ -63,14 +65,15 @@ fn with_count(outline: &Outline, curves: &[Curve], fibers: usize) -> Option<Mesh
     let even = even_spacing(outline, fibers);
     let (low, high) = outline.bounding_box();
     let height = high[1] - low[1];
-    for (k, stray) in STRAYS.into_iter().enumerate() {
-        let close = Closeness { stray: stray * height, area: AREAS[k] };
+    let mut found = Vec::new();
+    for (stray, area) in STRAYS.into_iter().zip(AREAS) {
+        let close = Closeness { stray: stray * height, area };
         let body = Body { outline, curves, forced: &[], close, fibers };
-        if let Some(mesh) = body.best(even) {
-            return Some(mesh);
+        if body.search(even, &mut found) {
+            break;
         }
     }
-    None
+    best(found)
 }
 
 struct Body<'a> {
@@ -82,34 +85,39 @@ struct Body<'a> {
 }
 
 impl Body<'_> {
-    fn best(&self, even: f64) -> Option<Mesh> {
+    /// Tries boundary spacings about the even one, and coarser ones where the boundary's own features ask for many nodes;
+    /// whether a mesh without poor triangles was among them.
+    fn search(&self, even: f64, found: &mut Vec<Candidate>) -> bool {
         let spacings: &[f64] = if self.fibers < LARGE { &SPACINGS } else { &SPACINGS_LARGE };
-        let mut found: Vec<Candidate> = Vec::new();
+        let good = |found: &[Candidate]| found.iter().any(|c| c.quality.below_20_deg == 0);
         for coarsest in COARSEST {
+            let before = found.len();
             for factor in spacings {
                 found.extend(self.attempt(factor * even, coarsest));
                 if found.last().is_some_and(|c| c.is_fine(self.fibers)) {
-                    return found.pop().map(|c| c.mesh);
+                    found.drain(..found.len() - 1);
+                    return true;
                 }
             }
-            if std::env::var("DBG").is_ok() { for c in &found { eprintln!("{coarsest} {} {} {} {}", c.quality.edges, c.quality.bridges, c.quality.min_angle_deg, 2*c.quality.edges-3*c.quality.triangles); } }
-            if found.is_empty() || spacings.len() == 1 {
+            if found.len() == before || spacings.len() == 1 || !good(found) {
                 break;
             }
         }
-        if let Some(mesh) = best(found) {
-            return Some(mesh);
+        for k in 1..=COARSER {
+            if good(found) {
+                return true;
+            }
+            found.extend(self.attempt(even * SPACINGS_END * COARSENING.powi(k), COARSEST[0]));
         }
-        // The boundary's own features ask for many nodes: sample it more and more coarsely.
-        let coarser = (1..=COARSER).map(|k| even * COARSENING.powi(k));
-        best(coarser.filter_map(|h| self.attempt(h, COARSEST[0])).take(2))
+        good(found)
     }
 
     /// A mesh at boundary spacing `h`, if there is one with the asked count, or nearly.
     fn attempt(&self, h: f64, coarsest: f64) -> Option<Candidate> {
         let mut near: Option<Refiner> = None;
+        let most = self.fibers / 2 + 2;
         for extra in 0..6 {
-            let boundary = sample(self.outline, self.curves, self.forced, h, extra, self.close)?;
+            let boundary = sample(self.outline, self.curves, self.forced, h, extra, self.close, most)?;
             let mut refiner = Refiner::new(&boundary, self.curves, h, coarsest)?;
             if refiner.run(self.fibers).is_none() {
                 break;
@@ -141,7 +149,7 @@ fn finish(refiner: Refiner) -> Option<Candidate> {
     triangles.sort_unstable();
     let mesh = Mesh { nodes: tri.points, triangles };
     let quality = Quality::of(&mesh);
-    mesh.validate().is_ok().then_some(Candidate { mesh, quality })
+    (quality.below_5_deg == 0 && mesh.validate().is_ok()).then_some(Candidate { mesh, quality })
 }
 
 fn check(outline: &Outline) -> Result<(), MeshError> {
@@ -187,16 +195,15 @@ fn nearest(outline: &Outline, curves: &[Curve], asked: usize) -> usize {
     let (low, high) = outline.bounding_box();
     let height = high[1] - low[1];
     let mut least = MAX_FIBERS;
-    for (k, stray) in STRAYS.into_iter().enumerate() {
-        let close = Closeness { stray: stray * height, area: AREAS[k] };
-        let mut h = even_spacing(outline, asked);
-        for _ in 0..10 {
-            let Some(boundary) = sample(outline, curves, &[], h, 0, close) else { break };
-            let Some(mut refiner) = Refiner::new(&boundary, curves, h, COARSEST[0]) else { break };
-            if refiner.run_angles(MAX_FIBERS).is_some() {
+    for (stray, area) in STRAYS.into_iter().zip(AREAS) {
+        let close = Closeness { stray: stray * height, area };
+        for k in 0..8 {
+            let h = even_spacing(outline, asked) * 1.5_f64.powi(k);
+            let Some(boundary) = sample(outline, curves, &[], h, 0, close, least / 2) else { continue };
+            let Some(mut refiner) = Refiner::new(&boundary, curves, h, COARSEST[0]) else { continue };
+            if refiner.run_angles(least).is_some() {
                 least = least.min(refiner.tri.edges());
             }
-            h *= 1.5;
         }
     }
     // Smoothing and the count's parity may ask for a little more.

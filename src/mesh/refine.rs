@@ -24,7 +24,7 @@ const SEEN_DEG: f64 = 120.0;
 /// Corners of the rim sharper than this get nodes at equal distances on both legs, degrees.
 const SHARP_DEG: f64 = 60.0;
 /// Edges shorter than this are not split for the angles' sake, as a fraction of the spacing.
-const SHORTEST: f64 = 0.02;
+const SHORTEST: f64 = 0.002;
 /// Growth of the wanted edge length per length of way from a finely sampled stretch of the boundary.
 const GRADATION: f64 = 0.35;
 /// Nearest that an interior node may come to the boundary, in wanted edge lengths: below, triangles grow flat.

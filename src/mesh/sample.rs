@@ -36,7 +36,8 @@ pub(super) struct Closeness {
 }
 
 /// Samples all polygons of the outline at spacing `h`, with `extra` nodes beyond what the spacing asks for; `forced`
-/// vertices of the outer polygon are nodes. `None` where no choice gives a boundary free of crossings.
+/// vertices of the outer polygon are nodes. `None` where no choice of at most `most` nodes gives a boundary free of
+/// crossings.
 pub(super) fn sample(
     outline: &Outline,
     curves: &[Curve],
@@ -44,6 +45,7 @@ pub(super) fn sample(
     h: f64,
     extra: usize,
     close: Closeness,
+    most: usize,
 ) -> Option<Boundary> {
     let area = outline.area();
     let stray = (STRAY * h).min(close.stray);
@@ -62,9 +64,15 @@ pub(super) fn sample(
             break;
         }
     }
-    while lost(&rings).abs() > close.area {
-        let (k, i) = widest_lens(curves, &rings, lost(&rings).signum())?;
-        split(&curves[k], &mut rings[k], i)?;
+    loop {
+        let lost = lost(&rings);
+        if rings.iter().map(Vec::len).sum::<usize>() > most {
+            return None;
+        }
+        if lost.abs() <= close.area {
+            break;
+        }
+        split_widest(curves, &mut rings, lost.signum())?;
     }
     // Chords across narrow gaps may cross: halve what does until nothing is left to halve.
     loop {
@@ -84,19 +92,26 @@ pub(super) fn sample(
     }
 }
 
-/// The chord that cuts off the largest area (`sign` 1) or adds the largest (-1), as ring and index of its first node.
-fn widest_lens(curves: &[Curve], rings: &[Vec<f64>], sign: f64) -> Option<(usize, usize)> {
-    let mut widest = (0.0, None);
-    for (k, (curve, ring)) in curves.iter().zip(rings).enumerate() {
+/// Halves the arcs whose chords cut off the largest areas (`sign` 1) or add the largest (-1), a tenth of them at once.
+fn split_widest(curves: &[Curve], rings: &mut [Vec<f64>], sign: f64) -> Option<()> {
+    let mut lenses: Vec<(f64, usize, usize)> = Vec::new();
+    for (k, (curve, ring)) in curves.iter().zip(rings.iter()).enumerate() {
         for i in 0..ring.len() {
             let (from, to) = curve.arc(ring, i);
             let lens = sign * polygon::signed_area(&curve.arc_points(from, to));
-            if lens > widest.0 {
-                widest = (lens, Some((k, i)));
+            if lens > 0.0 {
+                lenses.push((lens, k, i));
             }
         }
     }
-    widest.1
+    lenses.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2)));
+    lenses.truncate(lenses.len().div_ceil(10));
+    // From behind, so that the numbers before stay.
+    lenses.sort_by_key(|&(_, k, i)| std::cmp::Reverse((k, i)));
+    for &(_, k, i) in &lenses {
+        split(&curves[k], &mut rings[k], i)?;
+    }
+    (!lenses.is_empty()).then_some(())
 }
 
 fn join(curves: &[Curve], rings: &[Vec<f64>]) -> Boundary {
