@@ -27,7 +27,9 @@ const LARGE: usize = 3000;
 /// A mesh without bridges and with no angle below this is taken at once, degrees.
 const FINE_DEG: f64 = 30.5;
 /// Steps of 2 % taken upward to find a possible count: a factor of 3.3.
-const NEAREST_STEPS: usize = 20;
+const NEAREST_STEPS: usize = 6;
+/// Largest multiple of the asked count that is looked for instead.
+const NEAREST_MOST: usize = 10;
 /// Farthest that a chord may stray from the outline, as fractions of its height, tried in turn: with few fibres fine features
 /// are rounded off rather than refused.
 const STRAYS: [f64; 4] = [0.0047, 0.008, 0.016, 0.03];
@@ -35,11 +37,9 @@ const STRAYS: [f64; 4] = [0.0047, 0.008, 0.016, 0.03];
 const AREAS: [f64; 4] = [0.0095, 0.0095, 0.0095, 0.03];
 /// How far the number of edges may be from the asked one where no mesh has it exactly.
 const COUNT_FRACTION: f64 = 0.03;
-/// Number of spacings tried where the boundary alone has too many edges at those, the factor from one to the next, and that
-/// before the first.
+/// Number of spacings tried where the boundary alone has too many edges at those, and the factor from one to the next.
 const COARSER: i32 = 12;
 const COARSENING: f64 = 1.25;
-const SPACINGS_END: f64 = 1.24;
 
 /// A mesh of the outline with `fibers` edges, exactly so where nothing stands in the way.
 ///
@@ -73,7 +73,7 @@ fn with_count(outline: &Outline, curves: &[Curve], fibers: usize) -> Option<Mesh
             break;
         }
     }
-    best(found)
+    best(found, fibers)
 }
 
 struct Body<'a> {
@@ -93,7 +93,12 @@ impl Body<'_> {
         for coarsest in COARSEST {
             let before = found.len();
             for factor in spacings {
-                found.extend(self.attempt(factor * even, coarsest));
+                let candidate = self.attempt(factor * even, coarsest);
+                if candidate.is_none() && found.is_empty() {
+                    // Not even at the spacing meant for it: there is no need to look closely.
+                    break;
+                }
+                found.extend(candidate);
                 if found.last().is_some_and(|c| c.is_fine(self.fibers)) {
                     found.drain(..found.len() - 1);
                     return true;
@@ -107,7 +112,7 @@ impl Body<'_> {
             if good(found) {
                 return true;
             }
-            found.extend(self.attempt(even * SPACINGS_END * COARSENING.powi(k), COARSEST[0]));
+            found.extend(self.attempt(even * COARSENING.powi(k), COARSEST[0]));
         }
         good(found)
     }
@@ -115,12 +120,15 @@ impl Body<'_> {
     /// A mesh at boundary spacing `h`, if there is one with the asked count, or nearly.
     fn attempt(&self, h: f64, coarsest: f64) -> Option<Candidate> {
         let mut near: Option<Refiner> = None;
-        let most = self.fibers / 2 + 2;
+        let most = most_nodes(self.outline, self.fibers)?;
         for extra in 0..6 {
             let boundary = sample(self.outline, self.curves, self.forced, h, extra, self.close, most)?;
             let mut refiner = Refiner::new(&boundary, self.curves, h, coarsest)?;
             if refiner.run(self.fibers).is_none() {
-                break;
+                if near.is_none() {
+                    return None;
+                }
+                continue;
             }
             if refiner.tri.edges() == self.fibers {
                 return finish(refiner);
@@ -129,6 +137,13 @@ impl Body<'_> {
         }
         near.filter(|r| within(r.tri.edges(), self.fibers)).and_then(finish)
     }
+}
+
+/// Boundary nodes of a mesh with `edges` edges: those without an interior node. `None` where the rings cannot have so few.
+fn most_nodes(outline: &Outline, edges: usize) -> Option<usize> {
+    let rings = outline.holes.len() + 1;
+    let most = (edges + 3).checked_sub(3 * outline.holes.len())? / 2;
+    (most >= 3 * rings).then_some(most)
 }
 
 /// Whether a count is as good as the asked one.
@@ -183,10 +198,10 @@ impl Candidate {
 /// The candidate with the fewest poor triangles, and among those the one with the least of what else is unwanted: an
 /// inner edge across a limb weighs as much as ten degrees of the least angle, or edges that differ by a factor of two
 /// more.
-fn best(candidates: impl IntoIterator<Item = Candidate>) -> Option<Mesh> {
+fn best(candidates: Vec<Candidate>, fibers: usize) -> Option<Mesh> {
     let unwanted = |q: &Quality| q.bridges as f64 - 0.1 * q.min_angle_deg + 0.5 * q.max_edge / q.min_edge;
     let order =
-        |a: &Quality, b: &Quality| a.below_20_deg.cmp(&b.below_20_deg).then(unwanted(a).total_cmp(&unwanted(b)));
+        |a: &Quality, b: &Quality| a.below_20_deg.cmp(&b.below_20_deg).then((a.edges != fibers).cmp(&(b.edges != fibers))).then(unwanted(a).total_cmp(&unwanted(b)));
     candidates.into_iter().min_by(|a, b| order(&a.quality, &b.quality)).map(|c| c.mesh)
 }
 
@@ -194,12 +209,13 @@ fn best(candidates: impl IntoIterator<Item = Candidate>) -> Option<Mesh> {
 fn nearest(outline: &Outline, curves: &[Curve], asked: usize) -> usize {
     let (low, high) = outline.bounding_box();
     let height = high[1] - low[1];
-    let mut least = MAX_FIBERS;
+    let mut least = (NEAREST_MOST * asked.max(100)).min(MAX_FIBERS);
     for (stray, area) in STRAYS.into_iter().zip(AREAS) {
         let close = Closeness { stray: stray * height, area };
         for k in 0..8 {
             let h = even_spacing(outline, asked) * 1.5_f64.powi(k);
-            let Some(boundary) = sample(outline, curves, &[], h, 0, close, least / 2) else { continue };
+            let Some(most) = most_nodes(outline, least) else { break };
+            let Some(boundary) = sample(outline, curves, &[], h, 0, close, most) else { continue };
             let Some(mut refiner) = Refiner::new(&boundary, curves, h, COARSEST[0]) else { continue };
             if refiner.run_angles(least).is_some() {
                 least = least.min(refiner.tri.edges());
@@ -212,7 +228,7 @@ fn nearest(outline: &Outline, curves: &[Curve], asked: usize) -> usize {
         if with_count(outline, curves, count).is_some() {
             return count;
         }
-        count += (count / 50).max(1);
+        count += (count / 12).max(1);
     }
     MAX_FIBERS
 }

@@ -130,8 +130,7 @@ impl<'a> Refiner<'a> {
             }
             match entry.why {
                 Why::Edge | Why::Angle => self.improve(entry.triangle),
-                Why::Large if self.tri.edges() + 3 > edges => return None,
-                Why::Size if self.tri.edges() + 3 > edges => return Some(()),
+                Why::Large | Why::Size if self.tri.edges() + 3 > edges => return Some(()),
                 Why::Large | Why::Size => self.fill(entry.triangle),
             }
         }
@@ -236,9 +235,14 @@ impl<'a> Refiner<'a> {
         }
     }
 
-    fn split_if_long(&mut self, side: Side) -> bool {
-        let [a, b] = self.tri.ends(side).map(|n| self.tri.points[n]);
-        polygon::length(a, b) > SHORTEST * self.h && self.split(side)
+    /// Splits a fixed edge in the way of a circumcentre. Not one that ends in a sharp corner: its legs would drive each other
+    /// into the corner without end.
+    fn split_if_long(&mut self, side: Side) {
+        let ends = self.tri.ends(side);
+        let [a, b] = ends.map(|n| self.tri.points[n]);
+        if polygon::length(a, b) > SHORTEST * self.h && !ends.into_iter().any(|n| self.is_sharp(n)) {
+            self.split(side);
+        }
     }
 
     /// A node for size: in the middle of the circumcircle, if that is inside and not near a fixed edge.
