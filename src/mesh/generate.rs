@@ -1,170 +1,121 @@
-//! Outline to triangle mesh with a given number of edges.
-//!
-//! A triangulation with `B` boundary nodes, `I` interior nodes and `H` holes has `E = 2 B + 3 I - 3 + 3 H` edges (Euler:
-//! `V - E + T = 1 - H`, and `3 T = 2 E - B`). So once the boundary is sampled, the number of interior nodes for the
-//! asked edge count follows, and no search for a mesh size is needed; a node or two more on the boundary make the
-//! division by three come out. What is searched is the spacing along the boundary, among a few about the one at which
-//! boundary and interior would be equally dense, for the mesh with the best triangles.
+//! Outline to triangle mesh: what can be asked for, and the refusal of what cannot be.
 
-use super::curve::Curve;
 use super::quality::Quality;
-use super::refine::{Place, Refiner};
-use super::sample::{Closeness, sample};
-use super::{Mesh, MeshError, smooth};
-use crate::outline::Outline;
+use super::search::{Pool, Subject, even_spacing};
+use super::symmetry::{self, Axis};
+use super::{Mesh, MeshError};
+use crate::outline::{Outline, Point};
 
 /// Most muscle fibres that are meshed: far beyond what a pose could be solved with.
 pub const MAX_FIBERS: usize = 200_000;
-/// Boundary spacings tried, relative to the evenly dense one, for small meshes and for large ones, where the boundary is
-/// few of the nodes and the even spacing is good.
-const SPACINGS: [f64; 7] = [1.0, 1.08, 0.94, 1.16, 1.24, 1.34, 1.5];
-const SPACINGS_LARGE: [f64; 1] = [1.0];
-/// Longest wanted edges inside, in boundary spacings, tried in turn while the body is one triangle across somewhere: a
-/// coarser trunk leaves more nodes for the limbs.
-const COARSEST: [f64; 3] = [1.25, 1.5, 1.8];
-/// Fibres from which a mesh is large.
-const LARGE: usize = 3000;
-/// A mesh without bridges and with no angle below this is taken at once, degrees.
-const FINE_DEG: f64 = 30.5;
-/// Steps of 2 % taken upward to find a possible count: a factor of 3.3.
+/// Steps of a twelfth taken upward from the edges that good angles need alone, to find a count that smoothing and the search
+/// reach as well: 1.6 times in all.
 const NEAREST_STEPS: usize = 6;
-/// Largest multiple of the asked count that is looked for instead.
+/// Largest multiple of the asked count that is looked for instead, at first.
 const NEAREST_MOST: usize = 10;
-/// Farthest that a chord may stray from the outline, as fractions of its height, tried in turn: with few fibres fine features
-/// are rounded off rather than refused.
-const STRAYS: [f64; 4] = [0.0047, 0.008, 0.016, 0.03];
-/// Area that the mesh may lose or win at each of those, as a fraction.
-const AREAS: [f64; 4] = [0.0095, 0.0095, 0.0095, 0.03];
-/// How far the number of edges may be from the asked one where no mesh has it exactly.
-const COUNT_FRACTION: f64 = 0.03;
-/// Number of spacings tried where the boundary alone has too many edges at those, and the factor from one to the next.
-const COARSER: i32 = 12;
-const COARSENING: f64 = 1.25;
 
-/// A mesh of the outline with `fibers` edges, exactly so where nothing stands in the way.
+/// What mesh is wanted.
+#[derive(Clone, Debug)]
+pub struct Request {
+    pub size: Size,
+    /// Polylines inside the body, mm, along which edges shall run, so that a thread can follow them.
+    pub tracks: Vec<Vec<Point>>,
+    /// Whether an outline that is its own mirror image gets a mesh that is one too.
+    pub mirror: bool,
+}
+
+/// How fine a mesh is wanted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Size {
+    /// Number of edges: the muscle fibres.
+    Fibers(usize),
+    /// Typical length of an edge, mm.
+    EdgeMm(f64),
+}
+
+impl Request {
+    pub fn fibers(fibers: usize) -> Self {
+        Self { size: Size::Fibers(fibers), tracks: Vec::new(), mirror: true }
+    }
+}
+
+/// A mesh and how it came out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Meshed {
+    pub mesh: Mesh,
+    pub quality: Quality,
+    /// The axis about which the mesh is its own mirror image, if it was made so.
+    pub axis: Option<Axis>,
+}
+
+/// A mesh of the outline with `fibers` edges: exactly so, or within 3 % where nothing comes out even.
 ///
-/// Boundary nodes lie on the outline, its corners are nodes, the area is kept within 1 %, and triangles are as near to
-/// equilateral as the outline permits. The same outline gives the same bits. About n log n in the number of fibres.
+/// Boundary nodes lie on the outline and its corners are nodes; area is kept within 1 %, the boundary within 0.5 % of the
+/// height where there are fibres enough, and triangles are as near to equilateral as the outline permits. A symmetric
+/// outline gives a symmetric mesh. The same outline gives the same bits. About n log n in the number of fibres.
 ///
 /// # Errors
-/// [`MeshError::Unreachable`] names the nearest possible count where the outline needs more edges than asked for.
+/// [`MeshError::Unreachable`] names the least count found possible where the outline needs more edges than asked for.
 pub fn generate(outline: &Outline, fibers: usize) -> Result<Mesh, MeshError> {
+    build(outline, &Request::fibers(fibers)).map(|meshed| meshed.mesh)
+}
+
+/// The mesh that is asked for. See [`generate()`].
+///
+/// # Errors
+/// As [`generate()`]; a size in mm that is too coarse for the outline gives the coarsest mesh there is instead.
+pub fn build(outline: &Outline, request: &Request) -> Result<Meshed, MeshError> {
     check(outline)?;
+    if !request.tracks.iter().flatten().flatten().all(|v| v.is_finite()) {
+        return Err(MeshError::BadTrack);
+    }
+    match request.size {
+        Size::Fibers(fibers) => with_fibers(outline, request, fibers),
+        Size::EdgeMm(length) => {
+            let fibers = fibers_of_length(outline, length);
+            match with_fibers(outline, request, fibers) {
+                Err(MeshError::Unreachable { asked, nearest }) if asked < nearest => {
+                    with_fibers(outline, request, nearest)
+                }
+                other => other,
+            }
+        }
+    }
+}
+
+/// About how many edges a mesh with edges of this length has.
+fn fibers_of_length(outline: &Outline, length: f64) -> usize {
+    let triangles = outline.area() / (0.25 * 3.0_f64.sqrt() * length * length);
+    let count = 0.5 * (3.0 * triangles + outline.perimeter() / length);
+    if count.is_finite() { (count.round() as usize).clamp(3, MAX_FIBERS) } else { MAX_FIBERS + 1 }
+}
+
+fn with_fibers(outline: &Outline, request: &Request, fibers: usize) -> Result<Meshed, MeshError> {
     if fibers > MAX_FIBERS {
         return Err(MeshError::Unreachable { asked: fibers, nearest: MAX_FIBERS });
     }
-    let curves: Vec<Curve> = outline.polygons().map(Curve::new).collect();
-    if let Some(mesh) = with_count(outline, &curves, fibers) {
-        return Ok(mesh);
-    }
-    Err(MeshError::Unreachable { asked: fibers, nearest: nearest(outline, &curves, fibers) })
-}
-
-/// The best mesh found with `fibers` edges.
-fn with_count(outline: &Outline, curves: &[Curve], fibers: usize) -> Option<Mesh> {
     let even = even_spacing(outline, fibers);
-    let (low, high) = outline.bounding_box();
-    let height = high[1] - low[1];
-    let mut found = Vec::new();
-    for (stray, area) in STRAYS.into_iter().zip(AREAS) {
-        let close = Closeness { stray: stray * height, area };
-        let body = Body { outline, curves, forced: &[], close, fibers };
-        if body.search(even, &mut found) {
-            break;
+    if request.mirror && request.tracks.is_empty() {
+        let mirrored = symmetry::axis(outline).and_then(|(axis, off)| mirrored(outline, axis, off, even, fibers));
+        if let Some(meshed) = mirrored.filter(|m| m.quality.below_20_deg == 0) {
+            return Ok(meshed);
         }
     }
-    best(found, fibers)
-}
-
-struct Body<'a> {
-    outline: &'a Outline,
-    curves: &'a [Curve<'a>],
-    forced: &'a [usize],
-    close: Closeness,
-    fibers: usize,
-}
-
-impl Body<'_> {
-    /// Tries boundary spacings about the even one, and coarser ones where the boundary's own features ask for many nodes;
-    /// whether a mesh without poor triangles was among them.
-    fn search(&self, even: f64, found: &mut Vec<Candidate>) -> bool {
-        let spacings: &[f64] = if self.fibers < LARGE { &SPACINGS } else { &SPACINGS_LARGE };
-        let good = |found: &[Candidate]| found.iter().any(|c| c.quality.below_20_deg == 0);
-        for coarsest in COARSEST {
-            let before = found.len();
-            for factor in spacings {
-                let candidate = self.attempt(factor * even, coarsest);
-                if candidate.is_none() && found.is_empty() {
-                    // Not even at the spacing meant for it: there is no need to look closely.
-                    break;
-                }
-                found.extend(candidate);
-                if found.last().is_some_and(|c| c.is_fine(self.fibers)) {
-                    found.drain(..found.len() - 1);
-                    return true;
-                }
-            }
-            if found.len() == before || spacings.len() == 1 || !good(found) {
-                break;
-            }
-        }
-        for k in 1..=COARSER {
-            if good(found) {
-                return true;
-            }
-            found.extend(self.attempt(even * COARSENING.powi(k), COARSEST[0]));
-        }
-        good(found)
+    let pool = Pool::of(outline);
+    let subject = Subject::whole(outline, &pool, &request.tracks);
+    if let Some((mesh, quality)) = subject.mesh(even, fibers) {
+        return Ok(Meshed { mesh, quality, axis: None });
     }
-
-    /// A mesh at boundary spacing `h`, if there is one with the asked count, or nearly.
-    fn attempt(&self, h: f64, coarsest: f64) -> Option<Candidate> {
-        let mut near: Option<Refiner> = None;
-        let most = most_nodes(self.outline, self.fibers)?;
-        for extra in 0..6 {
-            let boundary = sample(self.outline, self.curves, self.forced, h, extra, self.close, most)?;
-            let mut refiner = Refiner::new(&boundary, self.curves, h, coarsest)?;
-            if refiner.run(self.fibers).is_none() {
-                if near.is_none() {
-                    return None;
-                }
-                continue;
-            }
-            if refiner.tri.edges() == self.fibers {
-                return finish(refiner);
-            }
-            near = near.or(Some(refiner));
-        }
-        near.filter(|r| within(r.tri.edges(), self.fibers)).and_then(finish)
-    }
+    Err(MeshError::Unreachable { asked: fibers, nearest: nearest(&subject, fibers) })
 }
 
-/// Boundary nodes of a mesh with `edges` edges: those without an interior node. `None` where the rings cannot have so few.
-fn most_nodes(outline: &Outline, edges: usize) -> Option<usize> {
-    let rings = outline.holes.len() + 1;
-    let most = (edges + 3).checked_sub(3 * outline.holes.len())? / 2;
-    (most >= 3 * rings).then_some(most)
-}
-
-/// Whether a count is as good as the asked one.
-fn within(count: usize, asked: usize) -> bool {
-    count.abs_diff(asked) as f64 <= COUNT_FRACTION * asked as f64
-}
-
-/// Smooths, and checks what came out.
-fn finish(refiner: Refiner) -> Option<Candidate> {
-    let Refiner { mut tri, places, .. } = refiner;
-    let free: Vec<usize> = (0..places.len()).filter(|&n| places[n] == Place::Inside).collect();
-    smooth::smooth(&mut tri, &free);
-    let mut triangles = tri.corners;
-    for t in &mut triangles {
-        let smallest = (0..3).min_by_key(|&k| t[k]).unwrap_or(0);
-        t.rotate_left(smallest);
-    }
-    triangles.sort_unstable();
-    let mesh = Mesh { nodes: tri.points, triangles };
-    let quality = Quality::of(&mesh);
-    (quality.below_5_deg == 0 && mesh.validate().is_ok()).then_some(Candidate { mesh, quality })
+/// A mesh of the outline made of one half and its image.
+fn mirrored(outline: &Outline, axis: Axis, off: f64, even: f64, fibers: usize) -> Option<Meshed> {
+    let half = symmetry::half(outline, axis)?;
+    let pool = Pool::of(&half.outline);
+    let subject = Subject::half(outline, &half, &pool, axis, off);
+    let (mesh, quality) = subject.mesh(even, fibers)?;
+    Some(Meshed { mesh, quality, axis: Some(axis) })
 }
 
 fn check(outline: &Outline) -> Result<(), MeshError> {
@@ -173,64 +124,30 @@ fn check(outline: &Outline) -> Result<(), MeshError> {
     if finite && sound && outline.area() > 0.0 { Ok(()) } else { Err(MeshError::BadOutline) }
 }
 
-/// The edge length at which equilateral triangles fill the area and the boundary with `fibers` edges in all:
-/// `2 E = 3 T + B` with `T = A / (sqrt(3)/4 h^2)` and `B = P / h`, solved for `h`.
-fn even_spacing(outline: &Outline, fibers: usize) -> f64 {
-    let a = 4.0 * 3.0_f64.sqrt() * outline.area();
-    let p = outline.perimeter();
-    let e2 = 2.0 * fibers.max(1) as f64;
-    (p + (p * p + 4.0 * a * e2).sqrt()) / (2.0 * e2)
-}
-
-struct Candidate {
-    mesh: Mesh,
-    quality: Quality,
-}
-
-impl Candidate {
-    /// Whether no better one need be sought.
-    fn is_fine(&self, fibers: usize) -> bool {
-        let q = &self.quality;
-        q.edges == fibers && q.bridges == 0 && q.min_angle_deg > FINE_DEG
-    }
-}
-
-/// The candidate with the fewest poor triangles, and among those the one with the least of what else is unwanted: an
-/// inner edge across a limb weighs as much as ten degrees of the least angle, or edges that differ by a factor of two
-/// more.
-fn best(candidates: Vec<Candidate>, fibers: usize) -> Option<Mesh> {
-    let unwanted = |q: &Quality| q.bridges as f64 - 0.1 * q.min_angle_deg + 0.5 * q.max_edge / q.min_edge;
-    let order =
-        |a: &Quality, b: &Quality| a.below_20_deg.cmp(&b.below_20_deg).then((a.edges != fibers).cmp(&(b.edges != fibers))).then(unwanted(a).total_cmp(&unwanted(b)));
-    candidates.into_iter().min_by(|a, b| order(&a.quality, &b.quality)).map(|c| c.mesh)
-}
-
-/// The least count above `asked` that was found to give a mesh.
-fn nearest(outline: &Outline, curves: &[Curve], asked: usize) -> usize {
-    let (low, high) = outline.bounding_box();
-    let height = high[1] - low[1];
-    let mut least = (NEAREST_MOST * asked.max(100)).min(MAX_FIBERS);
-    for (stray, area) in STRAYS.into_iter().zip(AREAS) {
-        let close = Closeness { stray: stray * height, area };
-        for k in 0..8 {
-            let h = even_spacing(outline, asked) * 1.5_f64.powi(k);
-            let Some(most) = most_nodes(outline, least) else { break };
-            let Some(boundary) = sample(outline, curves, &[], h, 0, close, most) else { continue };
-            let Some(mut refiner) = Refiner::new(&boundary, curves, h, COARSEST[0]) else { continue };
-            if refiner.run_angles(least).is_some() {
-                least = least.min(refiner.tri.edges());
-            }
-        }
-    }
-    // Smoothing and the count's parity may ask for a little more.
-    let mut count = least.max(asked + 1);
+/// The least count above `asked` that was found to give a mesh; [`MAX_FIBERS`] if none was found.
+fn nearest(subject: &Subject, asked: usize) -> usize {
+    let most = (NEAREST_MOST * asked.max(100)).min(MAX_FIBERS);
+    let least = subject.least_edges(asked, most).or_else(|| subject.least_edges(most, MAX_FIBERS));
+    let mut count = least.unwrap_or(MAX_FIBERS).max(asked + 1);
     for _ in 0..NEAREST_STEPS {
-        if with_count(outline, curves, count).is_some() {
-            return count;
+        if count >= MAX_FIBERS {
+            break;
+        }
+        if let Some((_, quality)) = subject.mesh(subject.even(count), count) {
+            return quality.edges.max(count);
         }
         count += (count / 12).max(1);
     }
     MAX_FIBERS
+}
+
+/// Puts triangles in the order of their nodes, each with its smallest first.
+pub(super) fn order(triangles: &mut [[usize; 3]]) {
+    for t in triangles.iter_mut() {
+        let smallest = (0..3).min_by_key(|&k| t[k]).unwrap_or(0);
+        t.rotate_left(smallest);
+    }
+    triangles.sort_unstable();
 }
 
 #[cfg(test)]

@@ -11,11 +11,15 @@ mod locate;
 pub mod quality;
 mod refine;
 mod sample;
+mod search;
 mod smooth;
+mod symmetry;
+mod tracks;
 mod tri;
 mod triangulate;
 
-pub use generate::{MAX_FIBERS, generate};
+pub use generate::{MAX_FIBERS, Meshed, Request, Size, build, generate};
+pub use symmetry::{Axis, axis};
 
 use crate::outline::Point;
 use serde::{Deserialize, Serialize};
@@ -41,7 +45,9 @@ pub struct BodyPoint {
 pub enum MeshError {
     #[error("the outline is not a simple polygon with an area")]
     BadOutline,
-    #[error("no mesh of this outline has {asked} muscle fibres; the nearest possible count is {nearest}")]
+    #[error("a tendon track is not finite")]
+    BadTrack,
+    #[error("no mesh of this outline has {asked} muscle fibres; the smallest count found for it is {nearest}")]
     Unreachable { asked: usize, nearest: usize },
     #[error("the mesh has no triangles")]
     Empty,

@@ -9,6 +9,7 @@
 use super::curve::Curve;
 use super::quality::min_angle;
 use super::sample::Boundary;
+use super::tracks::Sampled;
 use super::tri::{NONE, Side, Tri, Way};
 use super::triangulate::doubled_area;
 use crate::outline::{Point, polygon};
@@ -55,6 +56,9 @@ pub(super) struct Refiner<'a> {
     sizes: Vec<f64>,
     h: f64,
     coarsest: f64,
+    mirror: bool,
+    /// Edges on the axis of a half.
+    axis: usize,
     queue: BinaryHeap<Entry>,
     star: Vec<usize>,
 }
@@ -99,13 +103,32 @@ impl PartialEq for Entry {
 impl Eq for Entry {}
 
 impl<'a> Refiner<'a> {
-    /// The triangulation of a boundary sampled at spacing `h`, to be refined to edges of at most `coarsest` times that.
-    pub fn new(boundary: &Boundary, curves: &'a [Curve<'a>], h: f64, coarsest: f64) -> Option<Self> {
-        let tri = Tri::new(boundary.nodes.clone(), &boundary.segments, &[])?;
+    /// The triangulation of a boundary sampled at spacing `h`, to be refined to edges of at most `coarsest` times that. A half
+    /// (`mirror`) has its axis at y = 0.
+    pub fn new(
+        boundary: &Boundary,
+        tracks: &Sampled,
+        curves: &'a [Curve<'a>],
+        mirror: bool,
+        h: f64,
+        coarsest: f64,
+    ) -> Option<Self> {
+        let rim = boundary.nodes.len();
+        let points = [boundary.nodes.as_slice(), &tracks.nodes].concat();
+        let segments: Vec<[usize; 2]> = tracks.segments.iter().map(|s| s.map(|n| n + rim)).collect();
+        let mut places: Vec<Place> = boundary.places.iter().map(|&(ring, s)| Place::Rim(ring, s)).collect();
+        places.resize(points.len(), Place::Track);
+        let mut sizes = rim_sizes(boundary, h);
+        sizes.resize(points.len(), h);
+        let on_axis = |n: usize| boundary.nodes[n][1] == 0.0;
+        let axis = boundary.segments.iter().filter(|&&[a, b]| mirror && on_axis(a) && on_axis(b)).count();
+        let tri = Tri::new(points, &boundary.segments, &segments)?;
         let mut refiner = Self {
-            places: boundary.places.iter().map(|&(ring, s)| Place::Rim(ring, s)).collect(),
-            sizes: rim_sizes(boundary, h),
+            places,
+            sizes,
             tri,
+            mirror,
+            axis,
             curves,
             h,
             coarsest,
@@ -118,29 +141,42 @@ impl<'a> Refiner<'a> {
         Some(refiner)
     }
 
-    /// Adds nodes until there are `edges` edges, or up to two fewer. `None` where good angles alone need more than that, or so
+    /// Number of edges of the mesh, of both halves where only one is meshed.
+    pub fn edges(&self) -> usize {
+        if self.mirror { 2 * self.tri.edges() - self.axis } else { self.tri.edges() }
+    }
+
+    /// Whether a fixed edge lies on the axis.
+    fn is_axis(&self, side: Side) -> bool {
+        self.mirror
+            && self.tri.across[side.0][side.1] == NONE
+            && self.tri.ends(side).into_iter().all(|n| self.tri.points[n][1] == 0.0)
+    }
+
+    /// Adds nodes until there are `edges` edges, or up to two fewer (five of a mirrored one). `None` where good angles alone need more than that, or so
     /// many find no room.
     pub fn run(&mut self, edges: usize) -> Option<()> {
+        let step = if self.mirror { 6 } else { 3 };
         while let Some(entry) = self.queue.pop() {
             if self.tri.corners[entry.triangle] != entry.corners {
                 continue;
             }
-            if self.tri.edges() > edges {
+            if self.edges() > edges {
                 return None;
             }
             match entry.why {
                 Why::Edge | Why::Angle => self.improve(entry.triangle),
-                Why::Large | Why::Size if self.tri.edges() + 3 > edges => return Some(()),
+                Why::Large | Why::Size if self.edges() + step > edges => return Some(()),
                 Why::Large | Why::Size => self.fill(entry.triangle),
             }
         }
-        (self.tri.edges() <= edges && self.tri.edges() + 3 > edges).then_some(())
+        (self.edges() <= edges && self.edges() + step > edges).then_some(())
     }
 
     /// Adds nodes until the angles are good; `None` beyond `most` edges.
     pub fn run_angles(&mut self, most: usize) -> Option<()> {
         while let Some(entry) = self.queue.pop() {
-            if self.tri.edges() > most {
+            if self.edges() > most {
                 return None;
             }
             if self.tri.corners[entry.triangle] == entry.corners {
@@ -178,7 +214,9 @@ impl<'a> Refiner<'a> {
     /// Circumradius in wanted edge lengths.
     fn ratio(&self, t: usize) -> f64 {
         let (_, radius) = circumcircle(self.tri.places(t));
-        let limb = self.tri.corners[t].iter().all(|&n| matches!(self.places[n], Place::Rim(..)));
+        let limb = self.tri.corners[t]
+            .iter()
+            .all(|&n| matches!(self.places[n], Place::Rim(..)) && !(self.mirror && self.tri.points[n][1] == 0.0));
         let factor = if limb { LIMB_FIRST } else { 1.0 };
         factor * radius / self.wanted(t, radius)
     }
@@ -290,7 +328,7 @@ impl<'a> Refiner<'a> {
     /// Splits a fixed edge, on the outline where it belongs to it and the triangles allow; whether that was possible.
     fn split(&mut self, side: Side) -> bool {
         let [a, b] = self.tri.ends(side);
-        let share = self.share(side);
+        let (share, axis) = (self.share(side), self.is_axis(side));
         let (pa, pb) = (self.tri.points[a], self.tri.points[b]);
         let on_chord = polygon::lerp(pa, pb, share);
         let (place, goal) = match (self.places[a], self.places[b]) {
@@ -309,6 +347,7 @@ impl<'a> Refiner<'a> {
             if sound || p == on_chord { self.tri.split(side, p) } else { None }
         });
         let Some(node) = node else { return false };
+        self.axis += usize::from(axis);
         let p = self.tri.points[node];
         self.places.push(place);
         self.sizes.push((0.5 * polygon::length(pa, pb)).min(self.h));

@@ -35,18 +35,26 @@ pub(super) struct Closeness {
     pub area: f64,
 }
 
-/// Samples all polygons of the outline at spacing `h`, with `extra` nodes beyond what the spacing asks for; `forced`
-/// vertices of the outer polygon are nodes. `None` where no choice of at most `most` nodes gives a boundary free of
-/// crossings.
-pub(super) fn sample(
-    outline: &Outline,
-    curves: &[Curve],
-    forced: &[usize],
-    h: f64,
-    extra: usize,
-    close: Closeness,
-    most: usize,
-) -> Option<Boundary> {
+/// The boundary to sample.
+pub(super) struct Rim<'a> {
+    pub outline: &'a Outline,
+    /// One for each polygon.
+    pub curves: &'a [Curve<'a>],
+    /// Vertices of the outer polygon that must be nodes: there the body meets the axis of its mirror symmetry.
+    pub on_axis: &'a [usize],
+}
+
+/// Nodes beyond what the spacing asks for, on the outer polygon and on the axis.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Extra {
+    pub rim: usize,
+    pub axis: usize,
+}
+
+/// Samples all polygons of the outline at spacing `h`. `None` where no choice of at most `most` nodes gives a boundary
+/// free of crossings.
+pub(super) fn sample(rim: &Rim, h: f64, extra: Extra, close: Closeness, most: usize) -> Option<Boundary> {
+    let Rim { outline, curves, on_axis } = *rim;
     let area = outline.area();
     let stray = (STRAY * h).min(close.stray);
     let lost = |rings: &[Vec<f64>]| {
@@ -56,8 +64,9 @@ pub(super) fn sample(
     let mut rings = Vec::new();
     for weight in CURVATURE_WEIGHTS {
         // The outer polygon takes the extra nodes.
-        let ring = |(k, c): (usize, &Curve)| {
-            if k == 0 { along(c, forced, h, weight, stray, extra) } else { along(c, &[], h, weight, stray, 0) }
+        let ring = |(k, c): (usize, &Curve)| match k {
+            0 => along(c, on_axis, h, weight, stray, extra),
+            _ => along(c, &[], h, weight, stray, Extra::default()),
         };
         rings = curves.iter().enumerate().map(ring).collect();
         if lost(&rings).abs() < close.area {
@@ -127,8 +136,8 @@ fn join(curves: &[Curve], rings: &[Vec<f64>]) -> Boundary {
 }
 
 /// Ascending arc lengths of a ring's nodes.
-fn along(curve: &Curve, forced: &[usize], h: f64, weight: f64, stray: f64, extra: usize) -> Vec<f64> {
-    let corners = curve.corners(h, forced);
+fn along(curve: &Curve, on_axis: &[usize], h: f64, weight: f64, stray: f64, extra: Extra) -> Vec<f64> {
+    let corners = curve.corners(h, on_axis);
     let starts = if corners.is_empty() { vec![0.0] } else { corners };
     // A ring without corners still needs a few nodes to be round.
     let least = if starts.len() == 1 { 5 } else { 1 };
@@ -148,10 +157,17 @@ fn along(curve: &Curve, forced: &[usize], h: f64, weight: f64, stray: f64, extra
             (section, total, (total.round() as usize).max(least))
         })
         .collect();
-    for _ in 0..extra {
-        let wanting = |k: &usize| sections[*k].1 - sections[*k].2 as f64;
-        if let Some(k) = (0..sections.len()).max_by(|a, b| wanting(a).total_cmp(&wanting(b)).then(b.cmp(a))) {
-            sections[k].2 += 1;
+    let is_axis = |k: usize| {
+        let (from, to) = curve.arc(&starts, k);
+        !on_axis.is_empty() && curve.at(from)[1] == 0.0 && curve.at(0.5 * (from + to))[1] == 0.0
+    };
+    for (axis, extra) in [(false, extra.rim), (true, extra.axis)] {
+        for _ in 0..extra {
+            let wanting = |k: &usize| sections[*k].1 - sections[*k].2 as f64;
+            let allowed = (0..sections.len()).filter(|&k| is_axis(k) == axis);
+            if let Some(k) = allowed.max_by(|a, b| wanting(a).total_cmp(&wanting(b)).then(b.cmp(a))) {
+                sections[k].2 += 1;
+            }
         }
     }
     let mut nodes = Vec::new();
