@@ -30,14 +30,21 @@ const SHORTEST: f64 = 0.002;
 const GRADATION: f64 = 0.35;
 /// Nearest that an interior node may come to the boundary, in wanted edge lengths: below, triangles grow flat.
 const BOUNDARY_GAP: f64 = 0.42;
-/// Preference for triangles between boundary nodes alone, as a factor on that ratio: a limb is to be two across before
-/// the trunk is filled evenly.
-const LIMB_FIRST: f64 = 1.35;
 /// Smallest ratio of circumradius to wanted edge length that takes a node: an equilateral triangle of the wanted size has
 /// 0.577.
 const LEAST_RATIO: f64 = 0.4;
 /// Triangles above this ratio are split before their angles are looked at.
 const LARGE_RATIO: f64 = 0.85;
+
+/// How the nodes inside are shared out.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fill {
+    /// Longest wanted edge, in boundary spacings.
+    pub coarsest: f64,
+    /// Preference for triangles between boundary nodes alone, as a factor on the ratio of circumradius to wanted edge length:
+    /// a limb is to be two across before the trunk is filled evenly.
+    pub limbs: f64,
+}
 
 /// Where a node lies.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,7 +62,7 @@ pub(super) struct Refiner<'a> {
     curves: &'a [Curve<'a>],
     sizes: Vec<f64>,
     h: f64,
-    coarsest: f64,
+    fill: Fill,
     mirror: bool,
     /// Edges on the axis of a half.
     axis: usize,
@@ -103,7 +110,7 @@ impl PartialEq for Entry {
 impl Eq for Entry {}
 
 impl<'a> Refiner<'a> {
-    /// The triangulation of a boundary sampled at spacing `h`, to be refined to edges of at most `coarsest` times that. A half
+    /// The triangulation of a boundary sampled at spacing `h`, to be refined. A half
     /// (`mirror`) has its axis at y = 0.
     pub fn new(
         boundary: &Boundary,
@@ -111,7 +118,7 @@ impl<'a> Refiner<'a> {
         curves: &'a [Curve<'a>],
         mirror: bool,
         h: f64,
-        coarsest: f64,
+        fill: Fill,
     ) -> Option<Self> {
         let rim = boundary.nodes.len();
         let points = [boundary.nodes.as_slice(), &tracks.nodes].concat();
@@ -131,7 +138,7 @@ impl<'a> Refiner<'a> {
             axis,
             curves,
             h,
-            coarsest,
+            fill,
             queue: BinaryHeap::new(),
             star: Vec::new(),
         };
@@ -167,7 +174,7 @@ impl<'a> Refiner<'a> {
             match entry.why {
                 Why::Edge | Why::Angle => self.improve(entry.triangle),
                 Why::Large | Why::Size if self.edges() + step > edges => return Some(()),
-                Why::Large | Why::Size => self.fill(entry.triangle),
+                Why::Large | Why::Size => self.enlarge(entry.triangle),
             }
         }
         (self.edges() <= edges && self.edges() + step > edges).then_some(())
@@ -182,7 +189,7 @@ impl<'a> Refiner<'a> {
             if self.tri.corners[entry.triangle] == entry.corners {
                 match entry.why {
                     Why::Edge | Why::Angle => self.improve(entry.triangle),
-                    Why::Large => self.fill(entry.triangle),
+                    Why::Large => self.enlarge(entry.triangle),
                     Why::Size => {}
                 }
             }
@@ -211,19 +218,45 @@ impl<'a> Refiner<'a> {
         }
     }
 
-    /// Circumradius in wanted edge lengths.
+    /// Circumradius in wanted edge lengths. An edge across a limb counts as that of an equilateral triangle does.
     fn ratio(&self, t: usize) -> f64 {
         let (_, radius) = circumcircle(self.tri.places(t));
-        let limb = self.tri.corners[t]
-            .iter()
-            .all(|&n| matches!(self.places[n], Place::Rim(..)) && !(self.mirror && self.tri.points[n][1] == 0.0));
-        let factor = if limb { LIMB_FIRST } else { 1.0 };
-        factor * radius / self.wanted(t, radius)
+        let limb = self.tri.corners[t].iter().all(|&n| self.is_skin(n));
+        let factor = if limb { self.fill.limbs } else { 1.0 };
+        let across = self.bridge(t).map_or(0.0, |(_, length)| {
+            let radius = length / 3.0_f64.sqrt();
+            self.fill.limbs * radius / self.wanted(t, radius)
+        });
+        across.max(factor * radius / self.wanted(t, radius))
+    }
+
+    /// The longest free edge of a triangle that crosses a limb from boundary to boundary.
+    fn bridge(&self, t: usize) -> Option<(Side, f64)> {
+        let is_ear = |t: usize| self.tri.fixed[t].iter().filter(|&&fixed| fixed).count() >= 2;
+        if is_ear(t) {
+            return None;
+        }
+        let length = |side: Side| {
+            let [a, b] = self.tri.ends(side).map(|n| self.tri.points[n]);
+            polygon::length(a, b)
+        };
+        let across = |&(t, k): &Side| {
+            !self.tri.fixed[t][k]
+                && self.tri.ends((t, k)).into_iter().all(|n| self.is_skin(n))
+                && !is_ear(self.tri.across[t][k])
+        };
+        let sides = (0..3).map(|k| (t, k)).filter(across).map(|side| (side, length(side)));
+        sides.max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// Whether a node lies on the boundary of the body.
+    fn is_skin(&self, n: usize) -> bool {
+        matches!(self.places[n], Place::Rim(..)) && !(self.mirror && self.tri.points[n][1] == 0.0)
     }
 
     fn wanted(&self, t: usize, radius: f64) -> f64 {
         let grown = self.tri.corners[t].iter().map(|&n| self.sizes[n] + GRADATION * radius);
-        grown.fold(self.coarsest * self.h, f64::min)
+        grown.fold(self.fill.coarsest * self.h, f64::min)
     }
 
     /// Whether a fixed edge is seen from the triangle's apex under so large an angle that it must be split.
@@ -283,8 +316,19 @@ impl<'a> Refiner<'a> {
         }
     }
 
-    /// A node for size: in the middle of the circumcircle, if that is inside and not near a fixed edge.
-    fn fill(&mut self, t: usize) {
+    /// A node for size: in the middle of a limb, or of the circumcircle; not near a fixed edge.
+    fn enlarge(&mut self, t: usize) {
+        if let Some((side, length)) = self.bridge(t) {
+            let [a, b] = self.tri.ends(side).map(|n| self.tri.points[n]);
+            let middle = polygon::lerp(a, b, 0.5);
+            let size = self.wanted(t, length / 3.0_f64.sqrt());
+            if self.fixed_distance(t, middle) > BOUNDARY_GAP * size
+                && let Some(node) = self.tri.split(side, middle)
+            {
+                self.register(node, size);
+                return;
+            }
+        }
         let (centre, radius) = circumcircle(self.tri.places(t));
         let size = self.wanted(t, radius);
         let Way::Inside(home) = self.tri.walk(t, centre) else { return };
@@ -319,10 +363,14 @@ impl<'a> Refiner<'a> {
 
     fn add(&mut self, home: usize, p: Point, size: f64) {
         if let Some(node) = self.tri.insert(home, p) {
-            self.places.push(Place::Inside);
-            self.sizes.push(size);
-            self.enqueue_star(node);
+            self.register(node, size);
         }
+    }
+
+    fn register(&mut self, node: usize, size: f64) {
+        self.places.push(Place::Inside);
+        self.sizes.push(size);
+        self.enqueue_star(node);
     }
 
     /// Splits a fixed edge, on the outline where it belongs to it and the triangles allow; whether that was possible.

@@ -8,7 +8,7 @@
 
 use super::curve::Curve;
 use super::quality::Quality;
-use super::refine::{Place, Refiner};
+use super::refine::{Fill, Place, Refiner};
 use super::sample::{Closeness, Extra, Rim, sample};
 use super::symmetry::{Axis, Half, unfold};
 use super::{Mesh, generate, smooth, tracks};
@@ -16,11 +16,12 @@ use crate::outline::{Outline, Point};
 
 /// Boundary spacings tried, relative to the evenly dense one, for small meshes and for large ones, where the boundary is
 /// few of the nodes and the even spacing is good.
-const SPACINGS: [f64; 7] = [1.0, 1.08, 0.94, 1.16, 1.24, 1.34, 1.5];
+const SPACINGS: [f64; 11] = [1.0, 1.08, 0.94, 1.16, 1.24, 1.04, 1.12, 1.2, 1.3, 1.37, 1.5];
 const SPACINGS_LARGE: [f64; 1] = [1.0];
-/// Longest wanted edges inside, in boundary spacings, tried in turn while the body is one triangle across somewhere: a
-/// coarser trunk leaves more nodes for the limbs.
-const COARSEST: [f64; 3] = [1.25, 1.5, 1.8];
+/// How the nodes inside are shared out, tried in turn while the body is one triangle across somewhere: a coarser trunk leaves
+/// more nodes for the limbs.
+const FILLS: [Fill; 3] =
+    [Fill { coarsest: 1.25, limbs: 1.35 }, Fill { coarsest: 1.6, limbs: 1.8 }, Fill { coarsest: 2.0, limbs: 2.4 }];
 /// Fibres from which a mesh is large.
 const LARGE: usize = 3000;
 /// A mesh without bridges and with no angle below this is taken at once, degrees.
@@ -28,6 +29,8 @@ const FINE_DEG: f64 = 30.5;
 /// Farthest that a chord may stray from the outline, as fractions of its height, tried in turn: with few fibres fine features
 /// are rounded off rather than refused.
 const STRAYS: [f64; 4] = [0.0047, 0.008, 0.016, 0.03];
+/// Fibres from which following the outline goes before limbs that are two triangles across.
+const CLOSE_FROM: usize = 400;
 /// Area that the mesh may lose or win at each of those, as a fraction.
 const AREAS: [f64; 4] = [0.0095, 0.0095, 0.0095, 0.03];
 /// How far the number of edges may be from the asked one where no mesh has it exactly.
@@ -91,7 +94,8 @@ impl<'a> Subject<'a> {
         let mut found = Vec::new();
         for (stray, area) in STRAYS.into_iter().zip(AREAS) {
             let close = Closeness { stray: (stray * self.height - self.off).max(0.5 * stray * self.height), area };
-            if self.search(even, fibers, close, &mut found) {
+            let good = self.search(even, fibers, close, &mut found);
+            if good && (fibers >= CLOSE_FROM || found.iter().any(|c| c.quality.bridges == 0)) {
                 break;
             }
         }
@@ -108,7 +112,7 @@ impl<'a> Subject<'a> {
                 let limit = least.unwrap_or(most);
                 let Some(nodes) = most_nodes(self.rim.outline, limit) else { return least };
                 let Some(boundary) = sample(&self.rim, h, Extra::default(), close, nodes) else { continue };
-                let Some(mut refiner) = self.refiner(&boundary, h, COARSEST[0]) else { continue };
+                let Some(mut refiner) = self.refiner(&boundary, h, FILLS[0]) else { continue };
                 if refiner.run_angles(limit).is_some() {
                     least = Some(refiner.edges());
                 }
@@ -122,10 +126,10 @@ impl<'a> Subject<'a> {
     fn search(&self, even: f64, fibers: usize, close: Closeness, found: &mut Vec<Candidate>) -> bool {
         let spacings: &[f64] = if fibers < LARGE { &SPACINGS } else { &SPACINGS_LARGE };
         let good = |found: &[Candidate]| found.iter().any(|c| c.quality.below_20_deg == 0);
-        for coarsest in COARSEST {
+        for fill in FILLS {
             let before = found.len();
             for factor in spacings {
-                let candidate = self.attempt(factor * even, coarsest, fibers, close);
+                let candidate = self.attempt(factor * even, fill, fibers, close);
                 if candidate.is_none() && found.is_empty() {
                     // Not even at the spacing meant for it: there is no need to look closely.
                     break;
@@ -144,20 +148,20 @@ impl<'a> Subject<'a> {
             if good(found) {
                 return true;
             }
-            found.extend(self.attempt(even * COARSENING.powi(k), COARSEST[0], fibers, close));
+            found.extend(self.attempt(even * COARSENING.powi(k), FILLS[0], fibers, close));
         }
         good(found)
     }
 
     /// A mesh at boundary spacing `h`, if there is one with the asked count, or nearly.
-    fn attempt(&self, h: f64, coarsest: f64, fibers: usize, close: Closeness) -> Option<Candidate> {
+    fn attempt(&self, h: f64, fill: Fill, fibers: usize, close: Closeness) -> Option<Candidate> {
         let mut near: Option<Refiner> = None;
         let own = if self.axis.is_some() { fibers / 2 + fibers / 4 } else { fibers };
         let most = most_nodes(self.rim.outline, own)?;
         let extras = (0..6).map(|k| if self.axis.is_some() { Extra { rim: k / 2, axis: k % 2 } } else { Extra { rim: k, axis: 0 } });
         for extra in extras {
             let boundary = sample(&self.rim, h, extra, close, most)?;
-            let mut refiner = self.refiner(&boundary, h, coarsest)?;
+            let mut refiner = self.refiner(&boundary, h, fill)?;
             if refiner.run(fibers).is_none() {
                 if near.is_none() {
                     return None;
@@ -172,9 +176,9 @@ impl<'a> Subject<'a> {
         near.filter(|r| within(r.edges(), fibers)).and_then(|r| self.finish(r))
     }
 
-    fn refiner(&self, boundary: &super::sample::Boundary, h: f64, coarsest: f64) -> Option<Refiner<'a>> {
+    fn refiner(&self, boundary: &super::sample::Boundary, h: f64, fill: Fill) -> Option<Refiner<'a>> {
         let tracks = tracks::sample(self.tracks, self.whole, h);
-        Refiner::new(boundary, &tracks, self.rim.curves, self.axis.is_some(), h, coarsest)
+        Refiner::new(boundary, &tracks, self.rim.curves, self.axis.is_some(), h, fill)
     }
 
     /// Smooths, and checks what came out.
