@@ -4,8 +4,8 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-const COMMANDS: [&str; 11] =
-    ["demo", "new", "pose", "rig", "key", "check", "export", "render", "solve", "discover", "bench"];
+const COMMANDS: [&str; 13] =
+    ["demo", "new", "mesh", "remesh", "pose", "rig", "key", "check", "export", "render", "solve", "discover", "bench"];
 
 /// A bar that is wide enough for a few dozen fibres.
 const OUTLINE: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" width="120mm" height="40mm" viewBox="0 0 120 40">

@@ -37,6 +37,11 @@ impl<'a> Curve<'a> {
         self.s[self.ring.len()]
     }
 
+    /// Arc length of a vertex.
+    pub fn vertex(&self, i: usize) -> f64 {
+        self.s[i]
+    }
+
     /// Half the window in which turning is measured at spacing `h`.
     pub fn window(&self, h: f64) -> f64 {
         (WINDOW * h).min(self.length() / 8.0)

@@ -13,13 +13,15 @@ mod refine;
 mod sample;
 mod search;
 mod smooth;
+mod subdivide;
 mod symmetry;
 mod tracks;
 mod tri;
 mod triangulate;
 
 pub use generate::{MAX_FIBERS, Meshed, Request, Size, build, generate};
-pub use symmetry::{Axis, axis};
+pub use subdivide::subdivided;
+pub use symmetry::{Axis, axis, is_mirrored};
 
 use crate::outline::Point;
 use serde::{Deserialize, Serialize};

@@ -18,10 +18,10 @@ use std::collections::BinaryHeap;
 
 /// Triangles with a smaller angle are split, degrees: the refinement ends well for a little more than 20, smoothing then
 /// adds some ten.
-const POOR_DEG: f64 = 24.0;
+const POOR_DEG: f64 = 23.0;
 /// A fixed edge is split where it is seen under more than this angle, degrees: 90 is Ruppert's circle, 180 none at all. More
-/// spares nodes, up to what the smallest angle wanted allows (180 - 2 * 24).
-const SEEN_DEG: f64 = 120.0;
+/// spares nodes, up to what the smallest angle wanted allows (180 - 2 * 23).
+const SEEN_DEG: f64 = 125.0;
 /// Corners of the rim sharper than this get nodes at equal distances on both legs, degrees.
 const SHARP_DEG: f64 = 60.0;
 /// Edges shorter than this are not split for the angles' sake, as a fraction of the spacing.

@@ -9,10 +9,12 @@ use super::curve::Curve;
 use crate::outline::{Outline, Point, polygon};
 
 /// Weights `a` of curvature in the density, tried in turn until the area is kept.
-const CURVATURE_WEIGHTS: [f64; 4] = [0.4, 0.7, 1.0, 1.4];
+const CURVATURE_WEIGHTS: [f64; 10] = [0.3, 0.4, 0.5, 0.6, 0.7, 0.85, 1.0, 1.2, 1.5, 1.9];
 /// Farthest that a chord may stray from the outline, in spacings: features finer than `h` stay.
 const STRAY: f64 = 0.12;
 
+/// A feature this close to a node, as a fraction of the arc, moves the node rather than adding one.
+const NEAR: f64 = 0.3;
 /// Most change of the spacing along the boundary per length of way: neighbouring edges differ by a third.
 const GRADATION: f64 = 0.35;
 
@@ -190,7 +192,8 @@ fn along(curve: &Curve, on_axis: &[usize], h: f64, weight: f64, stray: f64, extr
     }
     nodes.sort_by(f64::total_cmp);
     nodes.dedup();
-    keep_features(curve, nodes, stray)
+    let fixed: Vec<f64> = on_axis.iter().map(|&i| curve.vertex(i)).collect();
+    keep_features(curve, nodes, &fixed, stray)
 }
 
 /// A short stretch of a ring and the spacing wanted there.
@@ -232,14 +235,29 @@ fn grade(steps: &mut [Step]) {
     }
 }
 
-/// Adds the farthest vertex of every arc that strays from its chord by more than `stray`, again and again.
-fn keep_features(curve: &Curve, mut ring: Vec<f64>, stray: f64) -> Vec<f64> {
+/// Adds the farthest vertex of every arc that strays from its chord by more than `stray`, again and again. A node close by
+/// (none of the `fixed`) is moved there instead if both its arcs are then close enough.
+fn keep_features(curve: &Curve, mut ring: Vec<f64>, fixed: &[f64], stray: f64) -> Vec<f64> {
     let mut i = 0;
     while i < ring.len() {
         let (from, to) = curve.arc(&ring, i);
-        match curve.stray(from, to) {
-            Some((s, away)) if away > stray => insert(&mut ring, s.rem_euclid(curve.length()), &mut i),
-            _ => i += 1,
+        let Some((s, _)) = curve.stray(from, to).filter(|&(_, away)| away > stray) else {
+            i += 1;
+            continue;
+        };
+        let n = ring.len();
+        let near = |k: usize, away: f64| away < NEAR * (to - from) && n > 4 && !fixed.contains(&ring[k]);
+        let strays = |a: f64, b: f64| curve.stray(a, b).is_some_and(|(_, away)| away > stray);
+        let moved = if near(i, s - from) && i > 0 && !strays(ring[i - 1], s) && !strays(s, to) {
+            Some(i)
+        } else if i + 1 < n && near(i + 1, to - s) && !strays(from, s) && !strays(s, curve.arc(&ring, i + 1).1) {
+            Some(i + 1)
+        } else {
+            None
+        };
+        match moved.filter(|_| s < curve.length()) {
+            Some(k) => ring[k] = s,
+            None => insert(&mut ring, s.rem_euclid(curve.length()), &mut i),
         }
     }
     ring

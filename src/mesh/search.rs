@@ -8,20 +8,21 @@
 
 use super::curve::Curve;
 use super::quality::Quality;
-use super::refine::{Fill, Place, Refiner};
+use super::refine::{Fill, Refiner};
 use super::sample::{Closeness, Extra, Rim, sample};
+use super::smooth::Sliding;
 use super::symmetry::{Axis, Half, unfold};
 use super::{Mesh, generate, smooth, tracks};
 use crate::outline::{Outline, Point};
 
 /// Boundary spacings tried, relative to the evenly dense one, for small meshes and for large ones, where the boundary is
 /// few of the nodes and the even spacing is good.
-const SPACINGS: [f64; 11] = [1.0, 1.08, 0.94, 1.16, 1.24, 1.04, 1.12, 1.2, 1.3, 1.37, 1.5];
+const SPACINGS: [f64; 18] =
+    [1.0, 1.08, 0.94, 1.16, 1.24, 1.04, 1.12, 1.2, 0.97, 1.02, 1.06, 1.1, 1.14, 1.18, 0.91, 1.3, 1.37, 1.5];
 const SPACINGS_LARGE: [f64; 1] = [1.0];
 /// How the nodes inside are shared out, tried in turn while the body is one triangle across somewhere: a coarser trunk leaves
 /// more nodes for the limbs.
-const FILLS: [Fill; 3] =
-    [Fill { coarsest: 1.25, limbs: 1.35 }, Fill { coarsest: 1.6, limbs: 1.8 }, Fill { coarsest: 2.0, limbs: 2.4 }];
+const FILLS: [Fill; 2] = [Fill { coarsest: 1.25, limbs: 1.35 }, Fill { coarsest: 1.6, limbs: 1.8 }];
 /// Fibres from which a mesh is large.
 const LARGE: usize = 3000;
 /// A mesh without bridges and with no angle below this is taken at once, degrees.
@@ -33,6 +34,8 @@ const STRAYS: [f64; 4] = [0.0047, 0.008, 0.016, 0.03];
 const CLOSE_FROM: usize = 400;
 /// Area that the mesh may lose or win at each of those, as a fraction.
 const AREAS: [f64; 4] = [0.0095, 0.0095, 0.0095, 0.03];
+/// How much of that nodes sliding along the boundary may add.
+const AREA_SLACK: f64 = 1.04;
 /// How far the number of edges may be from the asked one where no mesh has it exactly.
 const COUNT_FRACTION: f64 = 0.03;
 /// Number of spacings tried where the boundary alone has too many edges at those, and the factor from one to the next.
@@ -107,7 +110,8 @@ impl<'a> Subject<'a> {
         let mut least = None;
         for (stray, area) in STRAYS.into_iter().zip(AREAS) {
             let close = Closeness { stray: stray * self.height, area };
-            for k in 0..8 {
+            // From the even spacing of many times the count to one that is far too coarse for it.
+            for k in -7..4 {
                 let h = self.even(asked) * 1.5_f64.powi(k);
                 let limit = least.unwrap_or(most);
                 let Some(nodes) = most_nodes(self.rim.outline, limit) else { return least };
@@ -169,11 +173,11 @@ impl<'a> Subject<'a> {
                 continue;
             }
             if refiner.edges() == fibers {
-                return self.finish(refiner);
+                return self.finish(refiner, close);
             }
             near = near.or(Some(refiner));
         }
-        near.filter(|r| within(r.edges(), fibers)).and_then(|r| self.finish(r))
+        near.filter(|r| within(r.edges(), fibers)).and_then(|r| self.finish(r, close))
     }
 
     fn refiner(&self, boundary: &super::sample::Boundary, h: f64, fill: Fill) -> Option<Refiner<'a>> {
@@ -182,10 +186,11 @@ impl<'a> Subject<'a> {
     }
 
     /// Smooths, and checks what came out.
-    fn finish(&self, refiner: Refiner) -> Option<Candidate> {
+    fn finish(&self, refiner: Refiner, close: Closeness) -> Option<Candidate> {
         let Refiner { mut tri, places, .. } = refiner;
-        let free: Vec<usize> = (0..places.len()).filter(|&n| places[n] == Place::Inside).collect();
-        smooth::smooth(&mut tri, &free);
+        let mirror = self.axis.is_some();
+        let mut rim = Sliding { places, curves: self.rim.curves, stray: close.stray, mirror };
+        smooth::smooth(&mut tri, &mut rim);
         let mut mesh = Mesh { nodes: tri.points, triangles: tri.corners };
         generate::order(&mut mesh.triangles);
         if let Some(axis) = self.axis {
@@ -193,7 +198,9 @@ impl<'a> Subject<'a> {
             mesh = unfold(&mesh, axis, (high[0] - low[0]).max(high[1] - low[1]));
         }
         let quality = Quality::of(&mesh);
-        (quality.below_5_deg == 0 && mesh.validate().is_ok()).then_some(Candidate { mesh, quality })
+        let lost = (mesh.area() / self.whole.area() - 1.0).abs();
+        let sound = quality.below_5_deg == 0 && lost < AREA_SLACK * close.area && mesh.validate().is_ok();
+        sound.then_some(Candidate { mesh, quality })
     }
 }
 
@@ -224,10 +231,14 @@ pub(super) fn even_spacing(outline: &Outline, fibers: usize) -> f64 {
 }
 
 /// The candidate with the fewest poor triangles, then of the asked count, and among those the one with the least of what
-/// else is unwanted: an inner edge across a limb weighs as much as ten degrees of the least angle, or edges that differ
-/// by a factor of two more.
+/// else is unwanted: an inner edge across a limb weighs as much as four degrees that the least angle is below a fine one,
+/// as ten degrees above, or as edges that differ by a factor of two more.
 fn best(candidates: Vec<Candidate>, fibers: usize) -> Option<(Mesh, Quality)> {
-    let unwanted = |q: &Quality| q.bridges as f64 - 0.1 * q.min_angle_deg + 0.5 * q.max_edge / q.min_edge;
+    let unwanted = |q: &Quality| {
+        let angle = 0.1 * q.min_angle_deg - 0.25 * (FINE_DEG - q.min_angle_deg).max(0.0);
+        q.bridges as f64 - angle + 0.5 * q.max_edge / q.min_edge
+    };
+    if std::env::var("DBG").is_ok() { for c in &candidates { eprintln!("{} {} b20 {} bridges {} ratio {} edges", c.quality.edges, c.quality.min_angle_deg, c.quality.below_20_deg, c.quality.bridges, c.quality.max_edge/c.quality.min_edge); } }
     let order = |a: &Quality, b: &Quality| {
         let other = |q: &Quality| q.edges != fibers;
         a.below_20_deg.cmp(&b.below_20_deg).then(other(a).cmp(&other(b))).then(unwanted(a).total_cmp(&unwanted(b)))

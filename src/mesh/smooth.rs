@@ -1,7 +1,9 @@
-//! Moves interior nodes so that triangles come close to equilateral.
+//! Moves nodes so that triangles come close to equilateral: those inside freely, those of the boundary along it.
 
+use super::curve::Curve;
 use super::quality::min_tangent;
-use super::tri::Tri;
+use super::refine::Place;
+use super::tri::{NONE, Tri};
 use super::triangulate::doubled_area;
 use crate::outline::Point;
 
@@ -12,15 +14,29 @@ const CLIMBS: usize = 6;
 /// Triangles with a smaller least angle than this have their interior nodes climbed, degrees.
 const CLIMB_BELOW_DEG: f64 = 36.0;
 
-/// Smooths the nodes that are `free`.
+/// Turning at a node of the boundary that makes it a corner, which stays, rad (20 degrees).
+const CORNER_TURN: f64 = 0.35;
+
+/// The boundary that nodes may slide along.
+pub(super) struct Sliding<'a> {
+    pub places: Vec<Place>,
+    pub curves: &'a [Curve<'a>],
+    /// Farthest that a chord may stray from its arc, mm.
+    pub stray: f64,
+    /// Whether nodes at y = 0 are on the axis of a half, and stay there.
+    pub mirror: bool,
+}
+
+/// Smooths the triangulation.
 ///
 /// Rounds of the optimal Delaunay triangulation (Chen and Holst, *Efficient mesh optimization schemes based on optimal
-/// Delaunay triangulations*, 2011): each node goes to the mean of the circumcentres of its triangles, weighted by area.
-/// Then nodes at poor triangles climb to where the least angle around them is largest.
-pub(super) fn smooth(tri: &mut Tri, free: &[usize]) {
+/// Delaunay triangulations*, 2011): each inner node goes to the mean of the circumcentres of its triangles, weighted by
+/// area. Then nodes at poor triangles climb to where the least angle around them is largest.
+pub(super) fn smooth(tri: &mut Tri, rim: &mut Sliding) {
+    let free: Vec<usize> = (0..rim.places.len()).filter(|&n| rim.places[n] == Place::Inside).collect();
     let mut star = Vec::new();
     for _ in 0..ROUNDS {
-        for &node in free {
+        for &node in &free {
             tri.star(node, &mut star);
             let Some(goal) = circumcentre_mean(&tri.points, &tri.corners, &star) else { continue };
             step(&mut tri.points, &tri.corners, &star, node, goal);
@@ -28,11 +44,79 @@ pub(super) fn smooth(tri: &mut Tri, free: &[usize]) {
         tri.legalise_all();
     }
     for _ in 0..CLIMBS {
-        if !climb(tri, free) {
+        let climbed = climb(tri, &free);
+        if !slide(tri, rim) && !climbed {
             break;
         }
         tri.legalise_all();
     }
+}
+
+/// One pass of sliding nodes of the boundary that are at poor triangles; whether any moved.
+fn slide(tri: &mut Tri, rim: &mut Sliding) -> bool {
+    let mut star = Vec::new();
+    let mut moved = false;
+    for node in 0..rim.places.len() {
+        let Place::Rim(ring, own) = rim.places[node] else { continue };
+        tri.star(node, &mut star);
+        let mut best = worst(tri, &star);
+        if best >= CLIMB_BELOW_DEG.to_radians().tan() {
+            continue;
+        }
+        let curve = &rim.curves[ring];
+        let tiny = 1e-6 * curve.length();
+        if curve.turning(own - tiny, own + tiny).abs() > CORNER_TURN || curve.length() <= 0.0 {
+            continue;
+        }
+        let Some((before, after)) = neighbours(tri, &star, node) else { continue };
+        let (Place::Rim(r1, from), Place::Rim(r2, to)) = (rim.places[before], rim.places[after]) else { continue };
+        let on_axis = |n: usize| rim.mirror && tri.points[n][1] == 0.0;
+        if r1 != ring || r2 != ring || (on_axis(node) && !(on_axis(before) && on_axis(after))) {
+            continue;
+        }
+        // Unrolled about the node, so that from < own < to.
+        let from = if from < own { from } else { from - curve.length() };
+        let to = if to > own { to } else { to + curve.length() };
+        let mut own = own;
+        let mut reach = 0.2 * (own - from).min(to - own);
+        let fits = |a: f64, b: f64| curve.stray(a, b).is_none_or(|(_, away)| away <= rim.stray);
+        for _ in 0..5 {
+            let mut improved = false;
+            for s in [own - reach, own + reach] {
+                if s - from < reach || to - s < reach {
+                    continue;
+                }
+                let here = tri.points[node];
+                tri.points[node] = curve.at(s);
+                let value = worst(tri, &star);
+                if value > best + 1e-3 && fits(from, s) && fits(s, to) {
+                    (best, own, improved) = (value, s, true);
+                } else {
+                    tri.points[node] = here;
+                }
+            }
+            moved |= improved;
+            if !improved {
+                reach *= 0.5;
+            }
+        }
+        rim.places[node] = Place::Rim(ring, own.rem_euclid(curve.length()));
+    }
+    moved
+}
+
+/// The nodes before and after one of the boundary.
+fn neighbours(tri: &Tri, star: &[usize], node: usize) -> Option<(usize, usize)> {
+    let corner = |t: usize| (0..3).find(|&k| tri.corners[t][k] == node);
+    let (first, last) = (*star.first()?, *star.last()?);
+    let (k, j) = (corner(first)?, corner(last)?);
+    let rim = tri.across[first][k] == NONE && tri.across[last][(j + 2) % 3] == NONE;
+    rim.then(|| (tri.corners[last][(j + 2) % 3], tri.corners[first][(k + 1) % 3]))
+}
+
+/// Tangent of the least angle of some triangles.
+fn worst(tri: &Tri, star: &[usize]) -> f64 {
+    star.iter().map(|&t| min_tangent(tri.places(t))).fold(f64::INFINITY, f64::min)
 }
 
 fn circumcentre_mean(nodes: &[Point], triangles: &[[usize; 3]], star: &[usize]) -> Option<Point> {
@@ -75,7 +159,6 @@ fn step(nodes: &mut [Point], triangles: &[[usize; 3]], star: &[usize], node: usi
 
 /// One pass of climbing over the nodes at poor triangles; whether any moved.
 fn climb(tri: &mut Tri, free: &[usize]) -> bool {
-    let worst = |tri: &Tri, star: &[usize]| star.iter().map(|&t| min_tangent(tri.places(t))).fold(f64::INFINITY, f64::min);
     let mut star = Vec::new();
     let mut poor: Vec<(f64, usize)> = Vec::new();
     for &node in free {

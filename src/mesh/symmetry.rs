@@ -15,6 +15,8 @@ const TOLERANCE: f64 = 1e-3;
 const SMALLEST_MOMENT: f64 = 0.01;
 /// Highest moment looked at: tells the axes of regular shapes with up to this many corners.
 const MOMENTS: usize = 8;
+/// Vertices this near to the axis are on it, as a fraction of the size.
+const SNAP: f64 = 1e-9;
 /// Fraction of the size to which coordinates across the axis are rounded.
 const ROUNDING: f64 = 1.0 / (1_u64 << 41) as f64;
 
@@ -86,6 +88,31 @@ pub fn axis(outline: &Outline) -> Option<(Axis, f64)> {
     })
 }
 
+/// Whether a mesh is its own mirror image about an axis: every node has one, and every triangle.
+pub fn is_mirrored(mesh: &Mesh, axis: Axis) -> bool {
+    let near = 1e-9 * mesh.body_length();
+    // By the coordinates of a grid wide enough that a node and its image differ by one cell at most.
+    let cell = |v: f64| (v / (4.0 * near)).floor() as i64;
+    let mut at = std::collections::BTreeMap::new();
+    for (i, p) in mesh.nodes.iter().enumerate() {
+        at.insert([cell(p[0]), cell(p[1])], i);
+    }
+    let image = |p: &Point| {
+        let q = axis.mirror(*p);
+        let [x, y] = q.map(cell);
+        (x - 1..=x + 1).flat_map(|i| (y - 1..=y + 1).map(move |j| [i, j])).find_map(|key| {
+            at.get(&key).copied().filter(|&n| polygon::length(mesh.nodes[n], q) <= near)
+        })
+    };
+    let Some(images) = mesh.nodes.iter().map(image).collect::<Option<Vec<usize>>>() else { return false };
+    let mut mirrored: Vec<[usize; 3]> =
+        mesh.triangles.iter().map(|&[a, b, c]| [images[a], images[c], images[b]]).collect();
+    let mut own = mesh.triangles.clone();
+    super::generate::order(&mut mirrored);
+    super::generate::order(&mut own);
+    mirrored == own
+}
+
 /// A power of two far below anything that matters at this size.
 fn rounding(size: f64) -> f64 {
     (size.log2().ceil().exp2() * ROUNDING).max(f64::MIN_POSITIVE)
@@ -144,10 +171,14 @@ pub(super) struct Half {
 
 /// Cuts an outline along an axis. `None` where the left part is not one piece.
 pub(super) fn half(outline: &Outline, axis: Axis) -> Option<Half> {
+    let (low, high) = outline.bounding_box();
+    let snap = SNAP * (high[0] - low[0]).max(high[1] - low[1]);
     let mut chains: Vec<Vec<Point>> = Vec::new();
     let mut holes: Vec<Vec<Point>> = Vec::new();
     for ring in outline.polygons() {
-        let points: Vec<Point> = ring.iter().map(|&p| axis.to_frame(p)).collect();
+        // What is on the axis but for rounding must be exactly there, or a crossing would have two places.
+        let snapped = |[u, v]: Point| if v.abs() < snap { [u, 0.0] } else { [u, v] };
+        let points: Vec<Point> = ring.iter().map(|&p| snapped(axis.to_frame(p))).collect();
         // The first vertex that the ring enters the left side by.
         let n = points.len();
         let enters = |i: usize| points[i][1] <= 0.0 && points[(i + 1) % n][1] > 0.0;

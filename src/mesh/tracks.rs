@@ -24,6 +24,10 @@ pub(super) fn sample(tracks: &[Vec<Point>], outline: &Outline, h: f64) -> Sample
     }
     let rim = Grid::new(outline.polygons().flat_map(polygon::sides).collect());
     let pieces: Vec<(Point, Point)> = tracks.iter().flat_map(|t| t.windows(2).map(|w| (w[0], w[1]))).collect();
+    // Corners first, so that what falls together with them goes there.
+    for &p in tracks.iter().flatten().filter(|&&p| outline.contains(p) && rim.distance(p) > CLEARANCE * h) {
+        place(&mut sampled.nodes, p, MERGE * h);
+    }
     for track in tracks {
         let mut before: Option<usize> = None;
         for (k, w) in track.windows(2).enumerate() {
