@@ -37,7 +37,8 @@ fn nasty_outlines_give_good_meshes_or_name_the_count_they_need() {
                         assert!(asked == fibers && nearest > fibers, "{name}");
                         assert!(fibers == 414, "{name} needs {nearest} fibres");
                         refused += 1;
-                        let mesh = mesh::generate(&outline, nearest).unwrap_or_else(|e| panic!("{name}, {nearest}: {e}"));
+                        let mesh =
+                            mesh::generate(&outline, nearest).unwrap_or_else(|e| panic!("{name}, {nearest}: {e}"));
                         (nearest, mesh)
                     }
                     Err(other) => panic!("{name}: {other}"),

@@ -61,8 +61,8 @@ impl MeshCommand {
         if let Some(path) = &self.output {
             let [left, right] = quality::scenes(mesh, Theme::Light);
             let background = Palette::of(Theme::Light).background;
-            let bytes = raster::png(&left, &right, self.size, background)
-                .map_err(|e| CommandError::Failed(e.to_string()))?;
+            let bytes =
+                raster::png(&left, &right, self.size, background).map_err(|e| CommandError::Failed(e.to_string()))?;
             write_file(path, &bytes, cancel)?;
         }
         if self.json { say_json(out, &figures) } else { print(&figures, out) }
@@ -80,13 +80,23 @@ fn print(figures: &Figures, out: &mut dyn Write) -> Result<(), CommandError> {
     for (name, value) in [
         ("fibers", format!("{fibers}")),
         ("nodes, edges, triangles", format!("{}, {}, {}", q.nodes, q.edges, q.triangles)),
-        ("smallest angle", format!("{:.1} degrees; mean over the triangles {:.1}", q.min_angle_deg, q.mean_min_angle_deg)),
+        (
+            "smallest angle",
+            format!("{:.1} degrees; mean over the triangles {:.1}", q.min_angle_deg, q.mean_min_angle_deg),
+        ),
         ("below 20 degrees", format!("{} triangles ({:.2} %)", q.below_20_deg, percent(q.below_20_deg))),
         ("edges", format!("{:.2} to {:.2} mm, mean {:.2}", q.min_edge, q.max_edge, q.mean_edge)),
         ("triangles", format!("{:.2} to {:.2} mm^2", q.min_area, q.max_area)),
         ("one triangle across", format!("{} places", q.bridges)),
         ("area", format!("{:+.2} % of the outline's", 100.0 * fit.area_error)),
-        ("boundary", format!("within {:.2} mm of the outline, {:.2} % of its height", fit.boundary_mm, 100.0 * fit.boundary_fraction)),
+        (
+            "boundary",
+            format!(
+                "within {:.2} mm of the outline, {:.2} % of its height",
+                fit.boundary_mm,
+                100.0 * fit.boundary_fraction
+            ),
+        ),
         ("symmetry", symmetry.to_owned()),
     ] {
         say(out, &format!("{name:<24} {value}"))?;

@@ -91,7 +91,10 @@ impl Remesh {
             say(out, &format!("via points: {} fell together, {} put in", report.merged, report.added))?;
         }
         for [network, tendon] in &report.lost_tendons {
-            say(out, &format!("networks[{network}].tendons[{tendon}] is too short for this mesh; it has one edge now"))?;
+            say(
+                out,
+                &format!("networks[{network}].tendons[{tendon}] is too short for this mesh; it has one edge now"),
+            )?;
         }
         Ok(())
     }

@@ -68,7 +68,10 @@ pub fn body(outline: &Outline, request: &Request, finer: usize) -> Result<(Mesh,
     }
     let parts = finer * finer;
     if coarse.edges().len().saturating_mul(parts) > mesh::MAX_FIBERS {
-        return Err(MeshError::Unreachable { asked: coarse.edges().len().saturating_mul(parts), nearest: mesh::MAX_FIBERS });
+        return Err(MeshError::Unreachable {
+            asked: coarse.edges().len().saturating_mul(parts),
+            nearest: mesh::MAX_FIBERS,
+        });
     }
     let fibers = FiberSet::Routings(coarse.edges().into_iter().map(Vec::from).collect());
     Ok((mesh::subdivided(&coarse, finer), fibers))
@@ -284,7 +287,10 @@ mod tests {
                 let edge = new.mesh.area().sqrt() * 2.0 / (new.mesh.nodes.len() as f64).sqrt();
                 assert!(report.farthest_mm() < edge, "{what}: {} {edge}", report.farthest_mm());
                 for (a, b) in new.pins.iter().zip(&design.pins) {
-                    let apart = polygon::length(new.mesh.position(&a.at, &new.mesh.nodes), design.mesh.position(&b.at, &design.mesh.nodes));
+                    let apart = polygon::length(
+                        new.mesh.position(&a.at, &new.mesh.nodes),
+                        design.mesh.position(&b.at, &design.mesh.nodes),
+                    );
                     assert!(apart < 0.01 * new.body_length_mm(), "{what}: a pin moved {apart} mm");
                 }
                 assert_eq!(history.undo().as_deref(), Some("Remesh"));
@@ -297,7 +303,14 @@ mod tests {
     fn a_tendon_does_not_jump_a_gap() {
         // A horseshoe: two limbs with a gap of 4 mm between them.
         let outer = vec![
-            [0.0, 0.0], [64.0, 0.0], [64.0, 100.0], [34.0, 100.0], [34.0, 30.0], [30.0, 30.0], [30.0, 100.0], [0.0, 100.0],
+            [0.0, 0.0],
+            [64.0, 0.0],
+            [64.0, 100.0],
+            [34.0, 100.0],
+            [34.0, 30.0],
+            [30.0, 30.0],
+            [30.0, 100.0],
+            [0.0, 100.0],
         ];
         let outline = Outline { outer, holes: Vec::new() };
         let fine = mesh::generate(&outline, 1200).unwrap();

@@ -106,7 +106,8 @@ mod tests {
         let grid = Grid::new(segments.clone());
         for k in 0..500 {
             let p = point(f64::from(k) + 0.25).map(|v| 1.7 * v);
-            let slow = segments.iter().map(|&(a, b)| polygon::distance_to_segment(a, b, p)).fold(f64::INFINITY, f64::min);
+            let slow =
+                segments.iter().map(|&(a, b)| polygon::distance_to_segment(a, b, p)).fold(f64::INFINITY, f64::min);
             assert_eq!(grid.distance(p), slow, "{p:?}");
         }
         assert_eq!(Grid::new(Vec::new()).distance([1.0, 2.0]), f64::INFINITY);

@@ -117,11 +117,14 @@ impl Fit {
         let rim: Vec<(Point, Point)> = mesh
             .boundary()
             .iter()
-            .flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)).map(|(&a, &b)| (mesh.nodes[a], mesh.nodes[b])))
+            .flat_map(|ring| {
+                ring.iter().zip(ring.iter().cycle().skip(1)).map(|(&a, &b)| (mesh.nodes[a], mesh.nodes[b]))
+            })
             .collect();
         let drawn = Grid::new(outline.polygons().flat_map(polygon::sides).collect());
         const ALONG: usize = 4;
-        let places = rim.iter().flat_map(|&(a, b)| (0..ALONG).map(move |k| polygon::lerp(a, b, k as f64 / ALONG as f64)));
+        let places =
+            rim.iter().flat_map(|&(a, b)| (0..ALONG).map(move |k| polygon::lerp(a, b, k as f64 / ALONG as f64)));
         let outward = places.map(|p| drawn.distance(p)).fold(0.0, f64::max);
         let meshed = Grid::new(rim.clone());
         let inward = outline.polygons().flatten().map(|&p| meshed.distance(p)).fold(0.0, f64::max);

@@ -19,6 +19,8 @@ use std::collections::BinaryHeap;
 /// Triangles with a smaller angle are split, degrees: the refinement ends well for a little more than 20, smoothing then
 /// adds some ten.
 const POOR_DEG: f64 = 23.0;
+/// Triangles with a smaller angle may be preferred when nodes are shared out, degrees.
+const NARROW_DEG: f64 = 30.0;
 /// A fixed edge is split where it is seen under more than this angle, degrees: 90 is Ruppert's circle, 180 none at all. More
 /// spares nodes, up to what the smallest angle wanted allows (180 - 2 * 23).
 const SEEN_DEG: f64 = 125.0;
@@ -44,6 +46,8 @@ pub(super) struct Fill {
     /// Preference for triangles between boundary nodes alone, as a factor on the ratio of circumradius to wanted edge length:
     /// a limb is to be two across before the trunk is filled evenly.
     pub limbs: f64,
+    /// The same for triangles with an angle below [`NARROW_DEG`].
+    pub narrow: f64,
 }
 
 /// Where a node lies.
@@ -130,18 +134,8 @@ impl<'a> Refiner<'a> {
         let on_axis = |n: usize| boundary.nodes[n][1] == 0.0;
         let axis = boundary.segments.iter().filter(|&&[a, b]| mirror && on_axis(a) && on_axis(b)).count();
         let tri = Tri::new(points, &boundary.segments, &segments)?;
-        let mut refiner = Self {
-            places,
-            sizes,
-            tri,
-            mirror,
-            axis,
-            curves,
-            h,
-            fill,
-            queue: BinaryHeap::new(),
-            star: Vec::new(),
-        };
+        let mut refiner =
+            Self { places, sizes, tri, mirror, axis, curves, h, fill, queue: BinaryHeap::new(), star: Vec::new() };
         for t in 0..refiner.tri.corners.len() {
             refiner.enqueue(t);
         }
@@ -222,7 +216,8 @@ impl<'a> Refiner<'a> {
     fn ratio(&self, t: usize) -> f64 {
         let (_, radius) = circumcircle(self.tri.places(t));
         let limb = self.tri.corners[t].iter().all(|&n| self.is_skin(n));
-        let factor = if limb { self.fill.limbs } else { 1.0 };
+        let narrow = self.fill.narrow > 1.0 && min_angle(self.tri.places(t)) < NARROW_DEG && !self.is_given(t);
+        let factor = if limb { self.fill.limbs } else { 1.0 } * if narrow { self.fill.narrow } else { 1.0 };
         let across = self.bridge(t).map_or(0.0, |(_, length)| {
             let radius = length / 3.0_f64.sqrt();
             self.fill.limbs * radius / self.wanted(t, radius)

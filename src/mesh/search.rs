@@ -22,7 +22,11 @@ const SPACINGS: [f64; 18] =
 const SPACINGS_LARGE: [f64; 1] = [1.0];
 /// How the nodes inside are shared out, tried in turn while the body is one triangle across somewhere: a coarser trunk leaves
 /// more nodes for the limbs.
-const FILLS: [Fill; 2] = [Fill { coarsest: 1.25, limbs: 1.35 }, Fill { coarsest: 1.6, limbs: 1.8 }];
+const FILLS: [Fill; 3] = [
+    Fill { coarsest: 1.25, limbs: 1.35, narrow: 1.0 },
+    Fill { coarsest: 1.25, limbs: 1.35, narrow: 1.5 },
+    Fill { coarsest: 1.6, limbs: 1.8, narrow: 1.25 },
+];
 /// Fibres from which a mesh is large.
 const LARGE: usize = 3000;
 /// A mesh without bridges and with no angle below this is taken at once, degrees.
@@ -130,22 +134,22 @@ impl<'a> Subject<'a> {
     fn search(&self, even: f64, fibers: usize, close: Closeness, found: &mut Vec<Candidate>) -> bool {
         let spacings: &[f64] = if fibers < LARGE { &SPACINGS } else { &SPACINGS_LARGE };
         let good = |found: &[Candidate]| found.iter().any(|c| c.quality.below_20_deg == 0);
-        for fill in FILLS {
-            let before = found.len();
-            for factor in spacings {
+        let before = found.len();
+        'tried: for factor in spacings {
+            for fill in FILLS {
                 let candidate = self.attempt(factor * even, fill, fibers, close);
-                if candidate.is_none() && found.is_empty() {
+                if candidate.is_none() && found.len() == before {
                     // Not even at the spacing meant for it: there is no need to look closely.
-                    break;
+                    break 'tried;
                 }
                 found.extend(candidate);
                 if found.last().is_some_and(|c| c.is_fine(fibers)) {
                     found.drain(..found.len() - 1);
                     return true;
                 }
-            }
-            if found.len() == before || spacings.len() == 1 || !good(found) {
-                break;
+                if spacings.len() == 1 && good(found) {
+                    return true;
+                }
             }
         }
         for k in 1..=COARSER {
@@ -162,7 +166,8 @@ impl<'a> Subject<'a> {
         let mut near: Option<Refiner> = None;
         let own = if self.axis.is_some() { fibers / 2 + fibers / 4 } else { fibers };
         let most = most_nodes(self.rim.outline, own)?;
-        let extras = (0..6).map(|k| if self.axis.is_some() { Extra { rim: k / 2, axis: k % 2 } } else { Extra { rim: k, axis: 0 } });
+        let extras = (0..6)
+            .map(|k| if self.axis.is_some() { Extra { rim: k / 2, axis: k % 2 } } else { Extra { rim: k, axis: 0 } });
         for extra in extras {
             let boundary = sample(&self.rim, h, extra, close, most)?;
             let mut refiner = self.refiner(&boundary, h, fill)?;
@@ -238,7 +243,6 @@ fn best(candidates: Vec<Candidate>, fibers: usize) -> Option<(Mesh, Quality)> {
         let angle = 0.1 * q.min_angle_deg - 0.25 * (FINE_DEG - q.min_angle_deg).max(0.0);
         q.bridges as f64 - angle + 0.5 * q.max_edge / q.min_edge
     };
-    if std::env::var("DBG").is_ok() { for c in &candidates { eprintln!("{} {} b20 {} bridges {} ratio {} edges", c.quality.edges, c.quality.min_angle_deg, c.quality.below_20_deg, c.quality.bridges, c.quality.max_edge/c.quality.min_edge); } }
     let order = |a: &Quality, b: &Quality| {
         let other = |q: &Quality| q.edges != fibers;
         a.below_20_deg.cmp(&b.below_20_deg).then(other(a).cmp(&other(b))).then(unwanted(a).total_cmp(&unwanted(b)))

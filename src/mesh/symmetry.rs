@@ -64,7 +64,8 @@ pub fn axis(outline: &Outline) -> Option<(Axis, f64)> {
     let center = centroid(outline);
     // The middle of the box has fewer roundings behind it.
     let middle = [0, 1].map(|k| 0.5 * (low[k] + high[k]));
-    let upright = [0, 1].map(|k| round(if (middle[k] - center[k]).abs() < TOLERANCE * longer { middle[k] } else { center[k] }));
+    let upright =
+        [0, 1].map(|k| round(if (middle[k] - center[k]).abs() < TOLERANCE * longer { middle[k] } else { center[k] }));
     let mut candidates = vec![
         Axis { origin: [upright[0], 0.0], along: [0.0, 1.0] },
         Axis { origin: [0.0, upright[1]], along: [1.0, 0.0] },
@@ -100,9 +101,9 @@ pub fn is_mirrored(mesh: &Mesh, axis: Axis) -> bool {
     let image = |p: &Point| {
         let q = axis.mirror(*p);
         let [x, y] = q.map(cell);
-        (x - 1..=x + 1).flat_map(|i| (y - 1..=y + 1).map(move |j| [i, j])).find_map(|key| {
-            at.get(&key).copied().filter(|&n| polygon::length(mesh.nodes[n], q) <= near)
-        })
+        (x - 1..=x + 1)
+            .flat_map(|i| (y - 1..=y + 1).map(move |j| [i, j]))
+            .find_map(|key| at.get(&key).copied().filter(|&n| polygon::length(mesh.nodes[n], q) <= near))
     };
     let Some(images) = mesh.nodes.iter().map(image).collect::<Option<Vec<usize>>>() else { return false };
     let mut mirrored: Vec<[usize; 3]> =
@@ -289,7 +290,16 @@ mod tests {
         let mut outer = turned(&ARROW, 0.0);
         outer[3][0] += 2.0;
         assert_eq!(axis(&Outline { outer, holes: Vec::new() }), None);
-        let s = [[0.0, 0.0], [20.0, 0.0], [20.0, 30.0], [30.0, 30.0], [30.0, 40.0], [10.0, 40.0], [10.0, 10.0], [0.0, 10.0]];
+        let s = [
+            [0.0, 0.0],
+            [20.0, 0.0],
+            [20.0, 30.0],
+            [30.0, 30.0],
+            [30.0, 40.0],
+            [10.0, 40.0],
+            [10.0, 10.0],
+            [0.0, 10.0],
+        ];
         assert_eq!(axis(&Outline { outer: s.to_vec(), holes: Vec::new() }), None, "a rotation is no mirror image");
     }
 

@@ -178,9 +178,7 @@ impl Tri {
     pub fn split(&mut self, side: Side, p: Point) -> Option<usize> {
         let [a, b] = self.ends(side);
         let twin = self.twin(side);
-        for (x, y, apex) in
-            std::iter::once((a, b, self.apex(side))).chain(twin.map(|twin| (b, a, self.apex(twin))))
-        {
+        for (x, y, apex) in std::iter::once((a, b, self.apex(side))).chain(twin.map(|twin| (b, a, self.apex(twin)))) {
             let [x, y, apex] = [x, y, apex].map(|n| self.points[n]);
             if doubled_area(x, p, apex) <= 0.0 || doubled_area(p, y, apex) <= 0.0 {
                 return None;

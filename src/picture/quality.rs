@@ -29,9 +29,14 @@ pub fn scenes(mesh: &Mesh, theme: Theme) -> [Scene; 2] {
     let extent = (high - low).max(f64::MIN_POSITIVE);
     let by_angle = |t: usize| {
         let [poor, fair, good] = ANGLES_DEG;
-        if angles[t] < fair { 0.5 * (angles[t] - poor) / (fair - poor) } else { 0.5 + 0.5 * (angles[t] - fair) / (good - fair) }
+        if angles[t] < fair {
+            0.5 * (angles[t] - poor) / (fair - poor)
+        } else {
+            0.5 + 0.5 * (angles[t] - fair) / (good - fair)
+        }
     };
-    let angle_color = |s: f64| if s < 0.5 { mix(POOR, FAIR, 2.0 * s as f32) } else { mix(FAIR, GOOD, 2.0 * s as f32 - 1.0) };
+    let angle_color =
+        |s: f64| if s < 0.5 { mix(POOR, FAIR, 2.0 * s as f32) } else { mix(FAIR, GOOD, 2.0 * s as f32 - 1.0) };
     let by_size = |t: usize| (sizes[t] - low) / extent;
     [scene(mesh, theme, &by_angle, &angle_color), scene(mesh, theme, &by_size, &|s| mix(SMALL, LARGE, s as f32))]
 }
@@ -79,7 +84,10 @@ mod tests {
             assert_eq!(painted.sum::<usize>(), 2);
         }
         let [by_angle, _] = scenes(&mesh, Theme::Light);
-        let red = by_angle.items.iter().any(|i| matches!(i, Item::Mesh { color, triangles, .. } if *color == POOR && *triangles == [[0, 3, 1]]));
+        let red = by_angle
+            .items
+            .iter()
+            .any(|i| matches!(i, Item::Mesh { color, triangles, .. } if *color == POOR && *triangles == [[0, 3, 1]]));
         assert!(red);
     }
 }

@@ -60,7 +60,12 @@ pub fn nasty(k: usize, seed: u64) -> (String, Outline) {
             let mut outer = vec![[0.0, 0.0], [250.0, 0.0]];
             for i in (0..teeth).rev() {
                 let x = pitch * i as f64;
-                outer.extend([[x + pitch, 200.0], [x + gap * pitch, 200.0], [x + gap * pitch, 200.0 - depth], [x, 200.0 - depth]]);
+                outer.extend([
+                    [x + pitch, 200.0],
+                    [x + gap * pitch, 200.0],
+                    [x + gap * pitch, 200.0 - depth],
+                    [x, 200.0 - depth],
+                ]);
             }
             // The last gap is open to the left.
             ("comb", outer, vec![])
@@ -106,14 +111,22 @@ pub fn nasty(k: usize, seed: u64) -> (String, Outline) {
         6 => {
             let waves: Vec<(f64, f64, f64)> =
                 (2..40).map(|m| (f64::from(m), 0.5 * r.unit() / f64::from(m), TAU * r.unit())).collect();
-            let radius = |a: f64| 110.0 * (1.0 + waves.iter().map(|(m, d, p)| d * (m * a + p).sin()).sum::<f64>()).max(0.2);
+            let radius =
+                |a: f64| 110.0 * (1.0 + waves.iter().map(|(m, d, p)| d * (m * a + p).sin()).sum::<f64>()).max(0.2);
             ("noise", ring([0.0; 2], 900, radius), vec![])
         }
         7 => {
             let gap = r.between(1.0, 8.0);
             let x = 100.0 + gap;
             let outer = vec![
-                [0.0, 0.0], [200.0 + gap, 0.0], [200.0 + gap, 220.0], [x, 220.0], [x, 60.0], [100.0, 60.0], [100.0, 220.0], [0.0, 220.0],
+                [0.0, 0.0],
+                [200.0 + gap, 0.0],
+                [200.0 + gap, 220.0],
+                [x, 220.0],
+                [x, 60.0],
+                [100.0, 60.0],
+                [100.0, 220.0],
+                [0.0, 220.0],
             ];
             ("near-touching limbs", outer, vec![])
         }
