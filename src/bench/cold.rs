@@ -1,5 +1,6 @@
 //! `bench cold`: from rest at once to targets 40 % of the body length away. How much of the achievable decrease of `O` is missing
-//! after so many factorisations, and how many it takes to come within 1 %.
+//! in the answer that so many factorisations give, and how many it takes to come within 1 %. All that an answer needs is
+//! counted: the iterations, and settling what they reached.
 
 use super::drags::{places, points, positions, towards};
 use super::plot::{Plot, Series};
@@ -7,15 +8,18 @@ use super::posing::{at_rest, free_fibers, optimum};
 use super::random::Random;
 use super::shapes::{Field, Subject, original};
 use super::statistics::Summary;
-use super::{BenchError, Cell, Quality, Report, Session, Table, Tracker};
+use super::{BenchError, Cell, Report, Session, Table};
 use crate::physics::Model;
-use crate::soft_ik::{Budget, Posture, Question};
+use crate::soft_ik::tension::AllAtOnce;
+use crate::soft_ik::{Budget, Method, Posture, Question};
 
 /// How far the targets are, in body lengths.
 const FAR: f64 = 0.4;
-/// Factorisations after which the missing part is read off, and the most that are spent on a drag.
+/// Factorisations after which the missing part is read off.
 const MARKS: [usize; 4] = [10, 20, 40, 80];
+/// Longest run, iterations. Each is begun anew for an answer, so the longer ones are spaced by a part of their length.
 const MOST: usize = 200;
+const SPACING: usize = 20;
 /// The part that counts as good.
 const GOOD: f64 = 0.01;
 /// Random postures from which the best known optimum is sought, besides rest and the answer itself.
@@ -30,10 +34,9 @@ pub struct Cold {
     pub targets: Vec<usize>,
     /// Drags of each shape and number of targets.
     pub draws: usize,
-    pub quality: Quality,
 }
 
-/// `O` of the settled posture after so many factorisations.
+/// `O` of the answers, each after so many factorisations.
 type Course = Vec<(usize, f64)>;
 
 impl Cold {
@@ -59,7 +62,7 @@ impl Cold {
                     session.next(&format!("{shape}, {count} targets, draw {}", draw + 1))?;
                     let (rest, best, course) = self.drag(&mut subject, count, draw as u64, session)?;
                     let missing: Course = course.iter().map(|(k, o)| (*k, (o - best) / (rest - best))).collect();
-                    let after = |k: usize| missing.iter().take_while(|c| c.0 <= k).last().map_or(1.0, |c| c.1);
+                    let after = |k: usize| missing_after(&missing, k);
                     // From there on it stays good.
                     let enough = missing.iter().rev().take_while(|c| c.1 <= GOOD).last().map(|c| c.0);
                     let mut row: Vec<Cell> =
@@ -93,10 +96,7 @@ impl Cold {
             log_y: true,
             series: curves,
         };
-        let title = format!(
-            "Cold drags of {FAR} body lengths at {} fibres, quality {:?} frame by frame, seed {}",
-            self.fibers, self.quality, session.seed
-        );
+        let title = format!("Cold drags of {FAR} body lengths at {} fibres, seed {}", self.fibers, session.seed);
         Ok(Report { title, tables: vec![table], remarks, plots: vec![plot] })
     }
 
@@ -139,24 +139,28 @@ impl Cold {
         Ok((rest.objective, best, course))
     }
 
-    /// Frame by frame from rest, each posture settled outside the count.
+    /// The answers of ever longer runs from rest, by the factorisations that each took.
     fn course(&self, question: &mut Question, rest: &Posture, stop: &dyn Fn() -> bool) -> (Course, Posture) {
-        let mut tracker = Tracker::new(question, rest);
         let mut course = Vec::new();
-        let mut spent = 0;
         let mut last = rest.clone();
-        while spent < MOST && !stop() {
-            let frame = tracker.frame(question, self.quality, stop);
-            spent += frame.factorizations.max(1);
-            let posture = tracker.posture().clone();
-            last = question.settle(&posture.beta, &posture.x, stop).0;
-            course.push((spent, last.objective));
-            if frame.converged {
+        let mut iterations = 1;
+        while iterations <= MOST && !stop() {
+            let answer = AllAtOnce::default().solve(question, rest, &Budget { iterations, stop });
+            last = answer.posture;
+            course.push((answer.factorizations, last.objective));
+            if answer.converged {
                 break;
             }
+            iterations += 1 + iterations / SPACING;
         }
+        course.sort_by_key(|c| c.0);
         (course, last)
     }
+}
+
+/// What is missing in the answer of at most `k` factorisations.
+fn missing_after(course: &[(usize, f64)], k: usize) -> f64 {
+    course.iter().take_while(|c| c.0 <= k).last().map_or(1.0, |c| c.1)
 }
 
 /// Random smooth activations.
@@ -183,7 +187,7 @@ fn median_course(courses: &[Course]) -> Vec<(f64, f64)> {
     counts
         .into_iter()
         .map(|k| {
-            let now = courses.iter().map(|c| c.iter().take_while(|c| c.0 <= k).last().map_or(1.0, |c| c.1));
+            let now = courses.iter().map(|course| missing_after(course, k));
             (k as f64, Summary::of(now).median)
         })
         .collect()

@@ -7,6 +7,8 @@
 //! | [`trade`] | what does accuracy cost, and which settings are never worth it? ([`locking`] of the triangles) |
 //! | [`resolution`] | how far do poses, activations and networks agree over mesh resolutions? |
 //! | [`scene`] | what does each optional part of a scene cost? |
+//! | [`extremes`] | what do the solvers survive, and with how many digits? |
+//! | [`properties`] | what holds for every problem and design, whatever is in it? |
 //! | [`linear`] | which sparse factorisation is the fastest for our Hessians? |
 //!
 //! A study draws all its random numbers from the session's seed ([`random`]), so that the same seed gives the same
@@ -17,11 +19,13 @@ pub mod baseline;
 pub mod cold;
 pub mod drag;
 pub mod drags;
+pub mod extremes;
 pub mod linear;
 pub mod locking;
 pub mod ordering;
 pub mod plot;
 pub mod posing;
+pub mod properties;
 pub mod random;
 pub mod report;
 pub mod resolution;

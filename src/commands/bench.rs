@@ -4,7 +4,7 @@ use super::error::{CommandError, check_cancel};
 use super::output::{Staged, say, say_json};
 use super::solve::Effort;
 use crate::bench::drags::{Path as DragPath, SWEEP_FRAMES};
-use crate::bench::{BenchError, Quality, Report, Session, cold, drag, linear, resolution, scene, shapes, trade};
+use crate::bench::{BenchError, Quality, Report, Session, cold, drag, extremes, linear, properties, resolution, scene, shapes, trade};
 use clap::{Args, Subcommand, ValueEnum};
 use std::cell::Cell;
 use std::io::{IsTerminal, Write};
@@ -75,9 +75,6 @@ enum Study {
         /// Drags of each shape and number of targets
         #[arg(long, default_value_t = 1)]
         draws: usize,
-        /// Work of the frames that make up the drag; small frames show its course in small steps
-        #[arg(long, value_enum, default_value_t = Effort::Draft)]
-        quality: Effort,
         #[command(flatten)]
         common: Common,
     },
@@ -114,6 +111,34 @@ enum Study {
         #[command(flatten)]
         common: Common,
     },
+    /// Extreme scenes, every one swept over its range: what happened, digits lost, and whether it passes
+    Extremes {
+        /// Only the ends and the middle of every sweep, and no large body
+        #[arg(long)]
+        short: bool,
+        /// Only rows whose name or group holds this text
+        #[arg(long, value_name = "TEXT")]
+        only: Option<String>,
+        /// Write the problem file of every case into this folder, and solve nothing
+        #[arg(long, value_name = "DIR")]
+        scenes: Option<PathBuf>,
+        #[command(flatten)]
+        common: Common,
+    },
+    /// Random problems and random edits: what must hold for all of them
+    Properties {
+        /// Number of problems; there is one sequence of edits for every hundred
+        #[arg(long, default_value_t = 10_000)]
+        problems: usize,
+        /// Number of the first problem, to look at one again
+        #[arg(long, default_value_t = 0, value_name = "NUMBER")]
+        first: usize,
+        /// Print the problem file of the first one, and do nothing else
+        #[arg(long)]
+        show: bool,
+        #[command(flatten)]
+        common: Common,
+    },
     /// The same Hessians through every variant of the sparse factorisation
     Linear {
         /// Numbers of muscle fibres
@@ -138,12 +163,28 @@ impl Study {
             | Self::Trade { common, .. }
             | Self::Resolution { common, .. }
             | Self::Scene { common, .. }
+            | Self::Extremes { common, .. }
+            | Self::Properties { common, .. }
             | Self::Linear { common, .. } => common,
         }
     }
 
-    fn run(&self, session: &Session) -> Result<Report, BenchError> {
+    /// The report, and what in it fails a bar that was set before.
+    fn run(&self, session: &Session) -> Result<(Report, Option<String>), BenchError> {
         match self {
+            Self::Extremes { short, only, .. } => {
+                extremes::Extremes { short: *short, only: only.clone() }.run(session)
+            }
+            Self::Properties { problems, first, .. } => {
+                properties::Properties { problems: *problems, first: *first }.run(session)
+            }
+            _ => self.measure(session).map(|report| (report, None)),
+        }
+    }
+
+    fn measure(&self, session: &Session) -> Result<Report, BenchError> {
+        match self {
+            Self::Extremes { .. } | Self::Properties { .. } => self.run(session).map(|(report, _)| report),
             Self::Drag { fibers, targets, frames, quality, path, baseline, common } => drag::Drag {
                 shapes: common.shapes(&["pig"]),
                 fibers: fibers.clone(),
@@ -158,14 +199,10 @@ impl Study {
                 baseline_up_to: *baseline,
             }
             .run(session),
-            Self::Cold { fibers, targets, draws, quality, common } => cold::Cold {
-                shapes: common.shapes(&["all"]),
-                fibers: *fibers,
-                targets: targets.clone(),
-                draws: *draws,
-                quality: quality_of(*quality),
+            Self::Cold { fibers, targets, draws, common } => {
+                cold::Cold { shapes: common.shapes(&["all"]), fibers: *fibers, targets: targets.clone(), draws: *draws }
+                    .run(session)
             }
-            .run(session),
             Self::Trade { fibers, reference, common } => {
                 let shapes = common.shapes(&["pig"]);
                 trade::Trade { shapes, fibers: fibers.clone(), reference: *reference }.run(session)
@@ -201,16 +238,25 @@ impl Common {
 impl Bench {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
         let common = self.study.common();
+        if let Study::Properties { first, show: true, .. } = &self.study {
+            let text = properties::problem_text(common.seed, *first);
+            return say(out, &text.ok_or_else(|| CommandError::Failed("the problem cannot be written".into()))?);
+        }
+        if let Study::Extremes { short, only, scenes: Some(folder), .. } = &self.study {
+            let files = extremes::Extremes { short: *short, only: only.clone() }.files();
+            return write_files(&files, folder, cancel);
+        }
         let progress = Progress::default();
         let stop = || cancel.load(Ordering::SeqCst);
         let session = Session { seed: common.seed, stop: &stop, cancel, progress: &|what| progress.show(what) };
         let report = self.study.run(&session);
         progress.clear();
-        let report = report.map_err(|error| failure(error, cancel))?;
+        let (report, failed) = report.map_err(|error| failure(error, cancel))?;
         if let Some(folder) = &common.out {
             write(&report, folder, cancel)?;
         }
-        if common.json { say_json(out, &report.json()) } else { say(out, &report.text()) }
+        if common.json { say_json(out, &report.json())? } else { say(out, &report.text())? }
+        failed.map_or(Ok(()), |what| Err(CommandError::Failed(what)))
     }
 }
 
@@ -236,6 +282,16 @@ fn write(report: &Report, path: &Path, cancel: &AtomicBool) -> Result<(), Comman
         put(format!("{}.svg", plot.name), plot.svg().map_err(|e| failure(e, cancel))?)?;
     }
     put("report.txt".into(), report.text() + "\n")?;
+    staged.commit(cancel)
+}
+
+/// Texts in a folder that appears whole or not at all.
+fn write_files(files: &[(String, String)], path: &Path, cancel: &AtomicBool) -> Result<(), CommandError> {
+    check_cancel(cancel)?;
+    let staged = Staged::beside(path)?;
+    for (name, text) in files {
+        std::fs::write(staged.folder().join(name), text).map_err(|e| CommandError::write(path, e))?;
+    }
     staged.commit(cancel)
 }
 

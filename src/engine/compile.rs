@@ -1,9 +1,9 @@
 //! A design becomes a physics model: the idealized plushie (networks and fibres) or the realizable one (networks alone).
 
+use super::patch;
 use crate::defaults;
 use crate::design::Target;
 use crate::design::{Design, Material, Network};
-use crate::mesh::BodyPoint;
 use crate::physics::material;
 use crate::physics::{
     Body, Contractile, Element, Energy, Gravity, Model, ModelError, NeoHookean, Pin, Pins, StVenantKirchhoff,
@@ -62,7 +62,7 @@ pub fn compile(design: &Design, view: View) -> Result<Plushie, ModelError> {
     }
     let fiber_elements = tendons.end..elements.len();
     let pins = design.pins.iter().map(|pin| {
-        let (nodes, weights) = stencil(design, &pin.at);
+        let (nodes, weights) = patch::point(mesh, &pin.at);
         let anchor = pin.position.unwrap_or_else(|| mesh.position(&pin.at, &mesh.nodes));
         Pin { nodes, weights, anchor, stiffness: pin.stiffness }
     });
@@ -113,7 +113,7 @@ pub fn objective(design: &Design, plushie: &Plushie, targets: &[Target]) -> Obje
         targets: targets
             .iter()
             .map(|t| {
-                let (nodes, weights) = stencil(design, &t.at);
+                let (nodes, weights) = patch::patch(&design.mesh, &t.at);
                 PointTarget { nodes, weights, goal: t.to, weight: t.weight }
             })
             .collect(),
@@ -122,12 +122,6 @@ pub fn objective(design: &Design, plushie: &Plushie, targets: &[Target]) -> Obje
         contraction_weight: 0.0,
         tension_weight: defaults::TENSION_WEIGHT / (mu * mu),
     }
-}
-
-/// The nodes that carry a body point, and their weights; nodes of weight zero are left out.
-pub fn stencil(design: &Design, at: &BodyPoint) -> (Vec<usize>, Vec<f64>) {
-    let nodes = design.mesh.triangles[at.triangle];
-    nodes.iter().zip(at.weights).filter(|(_, w)| *w != 0.0).map(|(n, w)| (*n, w)).unzip()
 }
 
 fn distance(p: [f64; 2], q: [f64; 2]) -> f64 {

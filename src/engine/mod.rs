@@ -4,6 +4,7 @@
 //! add what is missing (section 3, design loop).
 
 pub mod compile;
+pub mod patch;
 pub mod propose;
 pub mod response;
 pub mod rig;

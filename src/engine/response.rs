@@ -7,7 +7,8 @@
 //! tree that leave the root by different branches) are added greedily so that the targets' residual, at its best `beta` in each
 //! pose, falls most. What this proposes is then simulated like every other candidate.
 
-use super::compile::{View, compile, stencil};
+use super::compile::{View, compile};
+use super::patch;
 use super::propose::Known;
 use crate::design::Design;
 use crate::soft_ik::Actuation;
@@ -107,7 +108,7 @@ fn responses(design: &Design, tree: &Tree, poses: &[Known]) -> Option<Vec<Respon
         let mut motion = DMatrix::zeros(2 * pose.targets.len(), dofs.len());
         let mut wanted = DVector::zeros(2 * pose.targets.len());
         for (t, target) in pose.targets.iter().enumerate() {
-            let (nodes, weights) = stencil(design, &target.at);
+            let (nodes, weights) = patch::patch(&design.mesh, &target.at);
             let scale = target.weight.sqrt();
             for axis in 0..2 {
                 let at = |x: &[f64]| -> f64 { nodes.iter().zip(&weights).map(|(m, w)| w * x[2 * m + axis]).sum() };

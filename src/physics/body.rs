@@ -4,7 +4,8 @@
 //! factor `s_e`. With the shape function gradients `b_a` (rows of `D^-1`, and minus their sum for node 0):
 //! `F = sum_a x_a b_a^T`, `dE/dx_a = A P b_a`.
 
-use super::energy::{Energy, HessianForm};
+use super::double::Double;
+use super::energy::{Energy, HessianForm, ROUNDING};
 use super::material::{Material, cofactor, project};
 use super::pattern::Scatter;
 use nalgebra::{Matrix2, Vector2};
@@ -81,16 +82,34 @@ impl Body {
     /// `F` of triangle `k` at coordinates `x`.
     #[inline]
     pub fn deformation_gradient(&self, k: usize, x: &[f64]) -> Matrix2<f64> {
-        let b = &self.gradients[k];
-        let mut f = Matrix2::zeros();
-        for (a, &n) in self.triangles[k].iter().enumerate() {
-            let (px, py) = (x[2 * n], x[2 * n + 1]);
-            f[(0, 0)] += px * b[a][0];
-            f[(1, 0)] += py * b[a][0];
-            f[(0, 1)] += px * b[a][1];
-            f[(1, 1)] += py * b[a][1];
+        // From differences: far from the origin, sums of whole coordinates would lose what tells the corners apart.
+        let [_, b, c] = &self.gradients[k];
+        let [i, j, l] = self.triangles[k];
+        let (px, py) = (x[2 * j] - x[2 * i], x[2 * j + 1] - x[2 * i + 1]);
+        let (qx, qy) = (x[2 * l] - x[2 * i], x[2 * l + 1] - x[2 * i + 1]);
+        Matrix2::new(
+            px * b[0] + qx * c[0],
+            px * b[1] + qx * c[1],
+            py * b[0] + qy * c[0],
+            py * b[1] + qy * c[1],
+        )
+    }
+
+    /// The gradient at coordinates of two words, for [`super::refine`].
+    pub(super) fn add_precise_gradient(&self, x: &[Double], gradient: &mut [f64]) {
+        for (k, t) in self.triangles.iter().enumerate() {
+            let [i, j, l] = *t;
+            let [_, b, c] = &self.gradients[k];
+            let [p, q] = [j, l].map(|n| [0, 1].map(|axis| x[2 * n + axis] - x[2 * i + axis]));
+            let entry = |row: usize, column: usize| p[row] * Double::from(b[column]) + q[row] * Double::from(c[column]);
+            let f = [entry(0, 0), entry(1, 0), entry(0, 1), entry(1, 1)];
+            let stress = self.material.precise_stress(&f) * self.weights[k];
+            for (a, &n) in t.iter().enumerate() {
+                let force = stress * self.gradients[k][a];
+                gradient[2 * n] += force[0];
+                gradient[2 * n + 1] += force[1];
+            }
         }
-        f
     }
 
     /// The smallest `det F`; positive for an uninverted state, NaN never.
@@ -131,11 +150,11 @@ impl Energy for Body {
 
     fn add_hessian(&self, x: &[f64], form: HessianForm, out: &mut Scatter) {
         for k in 0..self.triangles.len() {
-            let mut c = self.material.tangent(&self.deformation_gradient(k, x));
-            if form == HessianForm::Projected {
-                c = project(c);
-            }
-            c *= self.weights[k];
+            let f = self.deformation_gradient(k, x);
+            let c = match form {
+                HessianForm::Exact => self.material.tangent(&f),
+                HessianForm::Projected => project(self.material.descent_tangent(&f)),
+            } * self.weights[k];
             // Columns of `C h`, the change of stress per displacement of each node along x and y.
             let g = &self.gradients[k];
             let by_node = g.map(|h| {
@@ -176,6 +195,21 @@ impl Energy for Body {
                 let rounding = floor * self.weights[k] * self.gradients[k][a].norm();
                 scale[2 * n] += force[0].abs() + rounding;
                 scale[2 * n + 1] += force[1].abs() + rounding;
+            }
+        }
+    }
+
+    /// `F` changes with the coordinates, and the stress by the largest modulus with it.
+    fn add_rounding(&self, x: &[f64], scale: &mut [f64]) {
+        let modulus = ROUNDING * self.material.largest_modulus();
+        for (k, t) in self.triangles.iter().enumerate() {
+            let size = t.iter().fold(0.0, |m: f64, n| m.max(x[2 * n].abs()).max(x[2 * n + 1].abs()));
+            let steepest = self.gradients[k].iter().map(|g| g.norm()).fold(0.0, f64::max);
+            let stress = modulus * size * steepest * self.weights[k];
+            for (a, &n) in t.iter().enumerate() {
+                let force = stress * self.gradients[k][a].norm();
+                scale[2 * n] += force;
+                scale[2 * n + 1] += force;
             }
         }
     }

@@ -12,15 +12,18 @@
 //! An element may instead carry a prescribed tension `tau`, with the energy `tau l`: the unknown of the fast posing method.
 //! Segments are convex in `x` and `tau >= 0`, so the Hessian `U'' G^T G + tau d2l` is always positive semi-definite.
 
-use super::energy::{Energy, HessianForm};
+use super::energy::{Energy, HessianForm, ROUNDING};
 use super::pattern::Scatter;
 
-/// A segment shorter than this fraction of the element's initial rest length has no direction: its force is taken as
-/// zero. Far below anything a mesh can resolve.
-const ZERO_SEGMENT: f64 = 1e-12;
+/// Width of a point, as a fraction of the element's initial rest length: a segment of coordinate difference `d` counts as
+/// `sqrt(d^2 + w^2)` long. Where its ends meet, it has no direction and the plain length has a kink, at which no Newton method
+/// comes to rest; this one is smooth. From `1e-8` of the rest length on, the two differ by less than rounding.
+const POINT: f64 = 1e-9;
 
-/// Part of `U'' l` that counts as force at work: rounding of the coordinates leaves 1e-16 of it.
-const ROUNDING: f64 = 1e-6;
+/// A step may take at most this part of the way on which a taut segment would turn over.
+const TURNING_MARGIN: f64 = 0.9;
+/// Segments up to this many points wide may turn over: there the length is smooth.
+const ROUND: f64 = 10.0;
 
 /// What never changes about an element.
 #[derive(Clone, Debug, PartialEq)]
@@ -92,40 +95,44 @@ impl Element {
 
     /// Length of the element at coordinates `x`.
     pub fn length(&self, x: &[f64]) -> f64 {
-        self.routing.windows(2).map(|s| segment(x, s).2).sum()
+        let point = self.point();
+        self.routing.windows(2).map(|s| segment(x, s, point).2).sum()
+    }
+
+    /// Width below which two points are one, length.
+    pub(super) fn point(&self) -> f64 {
+        POINT * self.alpha0
     }
 
     /// Adds `factor * dl/dx` to `out`.
     pub fn add_length_gradient(&self, x: &[f64], factor: f64, out: &mut [f64]) {
+        let point = self.point();
         for s in self.routing.windows(2) {
-            let (dx, dy, length) = segment(x, s);
-            if length > ZERO_SEGMENT * self.alpha0 {
-                let (fx, fy) = (factor * dx / length, factor * dy / length);
-                out[2 * s[0]] -= fx;
-                out[2 * s[0] + 1] -= fy;
-                out[2 * s[1]] += fx;
-                out[2 * s[1] + 1] += fy;
-            }
+            let (dx, dy, length) = segment(x, s, point);
+            let (fx, fy) = (factor * dx / length, factor * dy / length);
+            out[2 * s[0]] -= fx;
+            out[2 * s[0] + 1] -= fy;
+            out[2 * s[1]] += fx;
+            out[2 * s[1] + 1] += fy;
         }
     }
 
     /// `dl/dx . v`.
     pub fn length_rate(&self, x: &[f64], v: &[f64]) -> f64 {
-        let mut rate = 0.0;
+        let (mut rate, point) = (0.0, self.point());
         for s in self.routing.windows(2) {
-            let (dx, dy, length) = segment(x, s);
-            if length > ZERO_SEGMENT * self.alpha0 {
-                let (vx, vy) = (v[2 * s[1]] - v[2 * s[0]], v[2 * s[1] + 1] - v[2 * s[0] + 1]);
-                rate += (dx * vx + dy * vy) / length;
-            }
+            let (dx, dy, length) = segment(x, s, point);
+            let (vx, vy) = (v[2 * s[1]] - v[2 * s[0]], v[2 * s[1] + 1] - v[2 * s[0] + 1]);
+            rate += (dx * vx + dy * vy) / length;
         }
         rate
     }
 }
 
-fn segment(x: &[f64], s: &[usize]) -> (f64, f64, f64) {
+/// Coordinate differences of a segment, and its length between points of this width.
+fn segment(x: &[f64], s: &[usize], point: f64) -> (f64, f64, f64) {
     let (dx, dy) = (x[2 * s[1]] - x[2 * s[0]], x[2 * s[1] + 1] - x[2 * s[0] + 1]);
-    (dx, dy, dx.hypot(dy))
+    (dx, dy, (dx * dx + dy * dy + point * point).sqrt())
 }
 
 /// All elements of a model and their present laws.
@@ -224,7 +231,7 @@ impl Energy for Contractile {
     }
 
     fn add_hessian(&self, x: &[f64], _form: HessianForm, out: &mut Scatter) {
-        let mut stack = [[0.0; 2]; ON_STACK];
+        let mut stack = [[0.0; 3]; ON_STACK];
         let mut heap = Vec::new();
         for (k, (e, law)) in self.elements.iter().zip(&self.laws).enumerate() {
             let (tau, tangent) = law.tension_and_tangent(e, e.length(x));
@@ -239,7 +246,7 @@ impl Energy for Contractile {
                 let scratch = if 2 * count <= ON_STACK {
                     &mut stack[..2 * count]
                 } else {
-                    heap.resize(2 * count, [0.0; 2]);
+                    heap.resize(2 * count, [0.0; 3]);
                     &mut heap[..]
                 };
                 add_routed(k, e, positions, x, tau, tangent, scratch, out);
@@ -247,33 +254,71 @@ impl Energy for Contractile {
         }
     }
 
-    /// The tension, and what rounding of the coordinates makes of a stiff spring.
+    /// A taut segment on its way to nothing would be thrown back and forth across its end, where the length has its kink: it may
+    /// come nearer to it by a factor of ten a step.
+    fn step_limit(&self, x: &[f64], dx: &[f64]) -> f64 {
+        let mut limit = 1.0_f64;
+        for (e, law) in self.elements.iter().zip(&self.laws) {
+            if law.tension_and_tangent(e, e.length(x)).0 <= 0.0 {
+                continue;
+            }
+            let point = e.point();
+            for s in e.routing.windows(2) {
+                let (px, py, length) = segment(x, s, point);
+                let (vx, vy) = (dx[2 * s[1]] - dx[2 * s[0]], dx[2 * s[1] + 1] - dx[2 * s[0] + 1]);
+                let along = px * vx + py * vy;
+                if length > ROUND * point && along < 0.0 {
+                    limit = limit.min(TURNING_MARGIN * (px * px + py * py) / -along);
+                }
+            }
+        }
+        limit
+    }
+
     fn add_force_scale(&self, x: &[f64], scale: &mut [f64]) {
+        for (e, law) in self.elements.iter().zip(&self.laws) {
+            let tau = law.tension_and_tangent(e, e.length(x)).0;
+            for &n in &e.routing {
+                scale[2 * n] += tau;
+                scale[2 * n + 1] += tau;
+            }
+        }
+    }
+
+    fn add_rounding(&self, x: &[f64], scale: &mut [f64]) {
         for (e, law) in self.elements.iter().zip(&self.laws) {
             let length = e.length(x);
             let (tau, tangent) = law.tension_and_tangent(e, length);
-            let force = tau + ROUNDING * tangent * length;
-            for &n in &e.routing {
-                scale[2 * n] += force;
-                scale[2 * n + 1] += force;
+            if tau == 0.0 && tangent == 0.0 {
+                continue;
+            }
+            // The tension changes with the length, and the direction of a segment the more, the shorter it is.
+            let along = tangent * length;
+            for s in e.routing.windows(2) {
+                let size = s.iter().fold(0.0, |m: f64, n| m.max(x[2 * n].abs()).max(x[2 * n + 1].abs()));
+                let force = ROUNDING * (along + tau / segment(x, s, e.point()).2 * size);
+                for &n in s {
+                    scale[2 * n] += force;
+                    scale[2 * n + 1] += force;
+                }
             }
         }
     }
 }
 
-/// Entries of scratch memory that need no allocation: 16 KiB, enough for a tendon through 512 nodes.
+/// Entries of scratch memory that need no allocation: 24 KiB, enough for a tendon through 512 nodes.
 const ON_STACK: usize = 1024;
 
-/// The Hessian of an element of one segment: `U'' u u^T + tau/l n n^T` between its ends, `n` normal to `u`.
+/// The Hessian of an element of one segment: `U'' u u^T + tau/l (I - u u^T)` between its ends, `u = d/l`. Away from `d = 0` the
+/// bracket is `n n^T`, `n` normal to `u`.
 fn add_straight(k: usize, e: &Element, x: &[f64], tau: f64, tangent: f64, out: &mut Scatter) {
-    let (dx, dy, length) = segment(x, &e.routing);
-    if length <= ZERO_SEGMENT * e.alpha0 {
-        return;
-    }
-    let (ux, uy) = (dx / length, dy / length);
+    let point = e.point();
+    let (dx, dy, length) = segment(x, &e.routing, point);
+    let (ux, uy, uw) = (dx / length, dy / length, point / length);
     let bend = tau / length;
     let off = (tangent - bend) * ux * uy;
-    let block = [tangent * ux * ux + bend * uy * uy, off, off, tangent * uy * uy + bend * ux * ux];
+    let (xx, yy, ww) = (ux * ux, uy * uy, uw * uw);
+    let block = [tangent * xx + bend * (yy + ww), off, off, tangent * yy + bend * (xx + ww)];
     let opposite = block.map(|v| -v);
     out.add(k, |a, b| if a == b { block } else { opposite });
 }
@@ -287,25 +332,23 @@ fn add_routed(
     x: &[f64],
     tau: f64,
     tangent: f64,
-    scratch: &mut [[f64; 2]],
+    scratch: &mut [[f64; 3]],
     out: &mut Scatter,
 ) {
     let half = scratch.len() / 2;
+    let point = e.point();
     let (g, units) = scratch.split_at_mut(half);
-    g.fill([0.0; 2]);
+    g.fill([0.0; 3]);
     for ((s, p), unit) in e.routing.windows(2).zip(positions.windows(2)).zip(units.iter_mut()) {
-        let (dx, dy, length) = segment(x, s);
-        *unit = [0.0; 2];
-        if length > ZERO_SEGMENT * e.alpha0 {
-            let (ux, uy) = (dx / length, dy / length);
-            g[p[0]][0] -= ux;
-            g[p[0]][1] -= uy;
-            g[p[1]][0] += ux;
-            g[p[1]][1] += uy;
-            // The normal times the root of tau/l: d2 of a distance is n n^T / l.
-            let root = (tau / length).sqrt();
-            *unit = [-uy * root, ux * root];
-        }
+        let (dx, dy, length) = segment(x, s, point);
+        let (ux, uy) = (dx / length, dy / length);
+        g[p[0]][0] -= ux;
+        g[p[0]][1] -= uy;
+        g[p[1]][0] += ux;
+        g[p[1]][1] += uy;
+        // d2 of a length is (I - u u^T) / l = (n n^T + (w/l)^2 I) / l: the normal and the width, times the root of tau/l.
+        let root = (tau / length).sqrt();
+        *unit = [-uy * root, ux * root, point / length * root];
     }
     out.add(k, |a, b| {
         let (ga, gb) = (g[a], g[b]);
@@ -315,10 +358,11 @@ fn add_routed(
             let sign = ((a == p[0]) as i32 - (a == p[1]) as i32) * ((b == p[0]) as i32 - (b == p[1]) as i32);
             if sign != 0 {
                 let s = sign as f64;
-                block[0] += s * n[0] * n[0];
+                let ww = n[2] * n[2];
+                block[0] += s * (n[0] * n[0] + ww);
                 block[1] += s * n[0] * n[1];
                 block[2] += s * n[1] * n[0];
-                block[3] += s * n[1] * n[1];
+                block[3] += s * (n[1] * n[1] + ww);
             }
         }
         block

@@ -12,6 +12,9 @@ pub enum HessianForm {
     Projected,
 }
 
+/// Relative change of coordinates by which sensitivity to rounding is measured: ten orders above rounding itself.
+pub const ROUNDING: f64 = 1e-6;
+
 /// A term of the total energy. Local stencils are node lists that never change while a model lives, so that the
 /// sparsity pattern is fixed.
 pub trait Energy: Send + Sync {
@@ -38,4 +41,9 @@ pub trait Energy: Send + Sync {
 
     /// Adds the magnitudes of this term's nodal forces, entry by entry: the scale against which a residual is small.
     fn add_force_scale(&self, x: &[f64], scale: &mut [f64]);
+
+    /// Adds, entry by entry, what a change of the coordinates by [`ROUNDING`] of their size does to the forces of stiff springs.
+    fn add_rounding(&self, x: &[f64], scale: &mut [f64]) {
+        let _ = (x, scale);
+    }
 }

@@ -1,5 +1,6 @@
 //! Materials: energy densities of the deformation gradient.
 
+use super::double::Double;
 use nalgebra::{Matrix2, Matrix4};
 
 /// An isotropic, hyperelastic energy density per unit rest area.
@@ -13,8 +14,19 @@ pub trait Material: Send + Sync {
     fn stress(&self, f: &Matrix2<f64>) -> Matrix2<f64>;
     /// `d2psi/dF2`.
     fn tangent(&self, f: &Matrix2<f64>) -> Matrix4<f64>;
+    /// The tangent for descent steps, before it is projected: a material may leave out stiffness that goes as soon as a step is
+    /// taken.
+    fn descent_tangent(&self, f: &Matrix2<f64>) -> Matrix4<f64> {
+        self.tangent(f)
+    }
+    /// `P` of an `F` known to twice the digits (column by column), where the difference of large terms needs them.
+    fn precise_stress(&self, f: &[Double; 4]) -> Matrix2<f64> {
+        self.stress(&Matrix2::from_column_slice(&f.map(Double::value)))
+    }
     /// The shear modulus at rest: the unit of stress of this material.
     fn shear_modulus(&self) -> f64;
+    /// How much stress a change of `F` makes at most, at rest: what rounding of `F` is multiplied by.
+    fn largest_modulus(&self) -> f64;
 }
 
 /// The nearest positive semi-definite matrix: negative eigenvalues set to zero.

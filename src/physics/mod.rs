@@ -17,23 +17,29 @@
 
 pub mod body;
 pub mod cholesky;
+mod continuation;
 pub mod contractile;
+pub mod double;
 pub mod energy;
 pub mod gravity;
 pub mod material;
 pub mod model;
 pub mod neo_hookean;
+mod patience;
 pub mod pattern;
 pub mod pins;
+pub mod refine;
+mod ridge;
 pub mod st_venant_kirchhoff;
 pub mod statics;
 
 pub use body::Body;
 pub use contractile::{Contractile, Element, Law};
+pub use double::Double;
 pub use energy::{Energy, HessianForm};
 pub use gravity::Gravity;
 pub use material::Material;
-pub use model::{Model, ModelError};
+pub use model::{Loose, Model, ModelError};
 pub use neo_hookean::NeoHookean;
 pub use pins::{Pin, Pins};
 pub use st_venant_kirchhoff::StVenantKirchhoff;

@@ -12,6 +12,12 @@ const RIGID_SHIFT: f64 = 1e-8;
 /// Stiffness that holds a mechanism (everything slack) where even the projected Hessian is singular, as a fraction of the shear
 /// modulus. Only the step feels it: larger would slow Newton down, smaller drowns in rounding.
 const MECHANISM_SHIFT: f64 = 1e-6;
+/// Where it does not suffice, it grows by this factor, so many times: up to `1e9` shear moduli.
+const SHIFT_GROWTH: f64 = 1e3;
+const SHIFTS: usize = 6;
+
+/// A free part whose forces add up to this fraction of their magnitudes is pulled away: far above rounding.
+const PULLED_AWAY: f64 = 1e-9;
 
 /// Why no model can be built.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -37,7 +43,19 @@ pub struct Model {
     cholesky: Cholesky,
     /// Diagonal shift of every node that a free rigid motion can move; zero elsewhere.
     shift: Vec<f64>,
-    free_pieces: usize,
+    pieces: usize,
+    loose: Vec<Loose>,
+    /// Nodes of every part of the plushie (pieces that elements tie together count as one) that no pin holds.
+    unpinned: Vec<Vec<usize>>,
+}
+
+/// A piece of the body that no pins hold fully.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Loose {
+    /// Its smallest node.
+    pub node: usize,
+    /// Distinct pinned points: 0, or 1 about which it can turn.
+    pub pinned: usize,
 }
 
 impl Model {
@@ -59,8 +77,22 @@ impl Model {
         };
         let cholesky = Cholesky::new(&pattern).ok_or(ModelError::Memory)?;
         let values = vec![0.0; pattern.nonzeros()];
-        let (shift, free_pieces) = rigid_shift(nodes, &body, &pins);
-        Ok(Self { body, contractile, pins, terms, rest, pattern, slots, values, cholesky, shift, free_pieces })
+        let Freedom { shift, pieces, loose, unpinned } = Freedom::of(nodes, &body, &contractile, &pins);
+        Ok(Self {
+            body,
+            contractile,
+            pins,
+            terms,
+            rest,
+            pattern,
+            slots,
+            values,
+            cholesky,
+            shift,
+            pieces,
+            loose,
+            unpinned,
+        })
     }
 
     pub fn dimension(&self) -> usize {
@@ -78,7 +110,28 @@ impl Model {
 
     /// Number of pieces of the body that no pins hold fully (a rotation about one pin counts as free).
     pub fn free_pieces(&self) -> usize {
-        self.free_pieces
+        self.loose.len()
+    }
+
+    /// The same pieces, by their smallest nodes.
+    pub fn loose(&self) -> &[Loose] {
+        &self.loose
+    }
+
+    /// Number of pieces that the triangles make up. A node that neither triangles nor elements use counts for nothing.
+    pub fn pieces(&self) -> usize {
+        self.pieces
+    }
+
+    /// Whether a part of the plushie that no pin holds is pulled away as a whole: its forces add up to more than rounding
+    /// leaves of them, and no deformation can balance that. `gradient` and `scale` are those of the state.
+    pub fn is_pulled_away(&self, gradient: &[f64], scale: &[f64]) -> bool {
+        self.unpinned.iter().any(|nodes| {
+            (0..2).any(|axis| {
+                let sum = |v: &[f64]| nodes.iter().map(|n| v[2 * n + axis]).sum::<f64>();
+                sum(gradient).abs() > PULLED_AWAY * sum(scale)
+            })
+        })
     }
 
     fn all(&self) -> impl Iterator<Item = &dyn Energy> {
@@ -98,7 +151,8 @@ impl Model {
         }
     }
 
-    /// The forces at work: the largest sum of magnitudes of the single forces that meet in a node's component.
+    /// The forces at work: the largest sum of magnitudes of the single forces that meet in a node's component, with what a
+    /// change of the coordinates in the sixth digit does to stiff springs.
     pub fn force_scale(&self, x: &[f64]) -> f64 {
         self.force_scale_into(x, &mut vec![0.0; x.len()])
     }
@@ -108,8 +162,22 @@ impl Model {
         scale.fill(0.0);
         for term in self.all() {
             term.add_force_scale(x, scale);
+            term.add_rounding(x, scale);
         }
         scale.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// The forces at work alone, with their sums left in `scale`.
+    pub fn forces_at_work_into(&self, x: &[f64], scale: &mut [f64]) -> f64 {
+        scale.fill(0.0);
+        self.all().for_each(|term| term.add_force_scale(x, scale));
+        scale.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// What a change of the coordinates in the sixth digit does to stiff springs, entry by entry.
+    pub fn rounding_into(&self, x: &[f64], scale: &mut [f64]) {
+        scale.fill(0.0);
+        self.all().for_each(|term| term.add_rounding(x, scale));
     }
 
     /// Largest step along `dx` that keeps every term inside its domain.
@@ -119,6 +187,25 @@ impl Model {
 
     /// Assembles `H(x)` and factorises it.
     pub fn factorize(&mut self, x: &[f64], form: HessianForm) -> Result<(), NotPositiveDefinite> {
+        self.assemble(x, form);
+        self.cholesky.factorize(&self.pattern, &self.values)
+    }
+
+    /// The same with `shift` on the whole diagonal.
+    pub(super) fn factorize_shifted(
+        &mut self,
+        x: &[f64],
+        form: HessianForm,
+        shift: f64,
+    ) -> Result<(), NotPositiveDefinite> {
+        self.assemble(x, form);
+        for d in 0..self.pattern.dimension() {
+            self.values[self.pattern.diagonal(d)] += shift;
+        }
+        self.cholesky.factorize(&self.pattern, &self.values)
+    }
+
+    fn assemble(&mut self, x: &[f64], form: HessianForm) {
         self.values.fill(0.0);
         for (term, slots) in all_terms(&self.body, &self.contractile, &self.pins, &self.terms).zip(&self.slots) {
             term.add_hessian(x, form, &mut Scatter::new(slots, &mut self.values));
@@ -128,7 +215,6 @@ impl Model {
                 self.values[self.pattern.diagonal(d)] += shift;
             }
         }
-        self.cholesky.factorize(&self.pattern, &self.values)
     }
 
     /// The exact Hessian where it is positive definite, else the projected one. Says which it was; an error means that
@@ -140,12 +226,20 @@ impl Model {
         if self.factorize(x, HessianForm::Projected).is_ok() {
             return Ok(HessianForm::Projected);
         }
-        // A mechanism without stiffness (slack everywhere): hold it by a small part of the shear modulus.
-        let shift = MECHANISM_SHIFT * self.body.material().shear_modulus();
-        for d in 0..self.pattern.dimension() {
-            self.values[self.pattern.diagonal(d)] += shift;
+        // A mechanism without stiffness (slack everywhere): hold it by a small part of the shear modulus, or by more where
+        // rounding of far stiffer parts drowns that.
+        let mut shift = MECHANISM_SHIFT * self.body.material().shear_modulus();
+        let mut shifted = 0.0;
+        for _ in 0..SHIFTS {
+            for d in 0..self.pattern.dimension() {
+                self.values[self.pattern.diagonal(d)] += shift - shifted;
+            }
+            if self.cholesky.factorize(&self.pattern, &self.values).is_ok() {
+                return Ok(HessianForm::Projected);
+            }
+            (shifted, shift) = (shift, SHIFT_GROWTH * shift);
         }
-        self.cholesky.factorize(&self.pattern, &self.values).map(|()| HessianForm::Projected)
+        Err(NotPositiveDefinite)
     }
 
     /// Solves with the factor of the last assembled Hessian, in place.
@@ -168,44 +262,99 @@ fn all_terms<'a>(
     [body as &dyn Energy, contractile, pins].into_iter().chain(terms.iter().map(|t| t.as_ref()))
 }
 
-/// Finds the pieces of the body that fewer than two distinct pinned points hold, and shifts their nodes.
-fn rigid_shift(nodes: &[[f64; 2]], body: &Body, pins: &Pins) -> (Vec<f64>, usize) {
-    let mut piece: Vec<usize> = (0..nodes.len()).collect();
-    fn find(piece: &mut [usize], mut i: usize) -> usize {
-        while piece[i] != i {
-            piece[i] = piece[piece[i]];
-            i = piece[i];
+/// What holds the pieces of a plushie, and what does not.
+struct Freedom {
+    shift: Vec<f64>,
+    pieces: usize,
+    loose: Vec<Loose>,
+    unpinned: Vec<Vec<usize>>,
+}
+
+impl Freedom {
+    /// A piece needs pins at two distinct points; else its nodes are shifted.
+    fn of(nodes: &[[f64; 2]], body: &Body, contractile: &Contractile, pins: &Pins) -> Self {
+        let mut pieces = Groups::new(nodes.len());
+        for t in body.triangles() {
+            pieces.join(t[0], t[1]);
+            pieces.join(t[0], t[2]);
+        }
+        let mut held: Vec<Vec<[f64; 2]>> = vec![Vec::new(); nodes.len()];
+        let pinning = || pins.pins.iter().filter(|p| p.stiffness > 0.0);
+        for pin in pinning() {
+            let mut at = [0.0; 2];
+            for (&n, w) in pin.nodes.iter().zip(&pin.weights) {
+                at[0] += w * nodes[n][0];
+                at[1] += w * nodes[n][1];
+            }
+            let root = pieces.root(pin.nodes[0]);
+            if !held[root].contains(&at) {
+                held[root].push(at);
+            }
+        }
+        let (mut in_body, mut used) = (vec![false; nodes.len()], vec![false; nodes.len()]);
+        body.triangles().iter().flatten().for_each(|&n| in_body[n] = true);
+        let routed = (0..contractile.stencils()).flat_map(|k| contractile.stencil(k));
+        body.triangles().iter().flatten().chain(routed).for_each(|&n| used[n] = true);
+        let shift_by = RIGID_SHIFT * body.material().shear_modulus();
+        let mut shift = vec![0.0; 2 * nodes.len()];
+        let (mut count, mut loose) = (0, Vec::new());
+        for i in 0..nodes.len() {
+            let root = pieces.root(i);
+            count += (root == i && used[i]) as usize;
+            let pinned = held[root].len();
+            // A single point cannot turn.
+            let needed = if in_body[i] { 2 } else { 1 };
+            if pinned < needed {
+                shift[2 * i] = shift_by;
+                shift[2 * i + 1] = shift_by;
+                if root == i && used[i] {
+                    loose.push(Loose { node: i, pinned });
+                }
+            }
+        }
+        // Elements tie pieces together: a part is all that hangs together somehow.
+        let mut parts = pieces.clone();
+        for k in 0..contractile.stencils() {
+            let stencil = contractile.stencil(k);
+            stencil.iter().for_each(|&n| parts.join(stencil[0], n));
+        }
+        let mut is_pinned = vec![false; nodes.len()];
+        for pin in pinning() {
+            is_pinned[parts.root(pin.nodes[0])] = true;
+        }
+        let mut members: Vec<Vec<usize>> = vec![Vec::new(); nodes.len()];
+        for i in 0..nodes.len() {
+            let root = parts.root(i);
+            if !is_pinned[root] {
+                members[root].push(i);
+            }
+        }
+        members.retain(|m| !m.is_empty());
+        Self { shift, pieces: count, loose, unpinned: members }
+    }
+}
+
+/// Disjoint sets of nodes, each known by its smallest.
+#[derive(Clone)]
+struct Groups {
+    parent: Vec<usize>,
+}
+
+impl Groups {
+    fn new(count: usize) -> Self {
+        Self { parent: (0..count).collect() }
+    }
+
+    fn root(&mut self, mut i: usize) -> usize {
+        while self.parent[i] != i {
+            self.parent[i] = self.parent[self.parent[i]];
+            i = self.parent[i];
         }
         i
     }
-    for t in body.triangles() {
-        for &n in &t[1..] {
-            let (a, b) = (find(&mut piece, t[0]), find(&mut piece, n));
-            piece[a.max(b)] = a.min(b);
-        }
+
+    fn join(&mut self, i: usize, j: usize) {
+        let (a, b) = (self.root(i), self.root(j));
+        self.parent[a.max(b)] = a.min(b);
     }
-    let mut held: Vec<Vec<[f64; 2]>> = vec![Vec::new(); nodes.len()];
-    for pin in pins.pins.iter().filter(|p| p.stiffness > 0.0) {
-        let mut at = [0.0; 2];
-        for (&n, w) in pin.nodes.iter().zip(&pin.weights) {
-            at[0] += w * nodes[n][0];
-            at[1] += w * nodes[n][1];
-        }
-        let root = find(&mut piece, pin.nodes[0]);
-        if !held[root].contains(&at) {
-            held[root].push(at);
-        }
-    }
-    let shift = RIGID_SHIFT * body.material().shear_modulus();
-    let mut out = vec![0.0; 2 * nodes.len()];
-    let mut free = 0;
-    for i in 0..nodes.len() {
-        let root = find(&mut piece, i);
-        if held[root].len() < 2 {
-            out[2 * i] = shift;
-            out[2 * i + 1] = shift;
-            free += (root == i) as usize;
-        }
-    }
-    (out, free)
 }

@@ -2,11 +2,8 @@
 //!
 //! `E = sum K/2 |S x - p|^2`, `S x` the pinned point. A pin holds a node or any point of a triangle.
 
-use super::energy::{Energy, HessianForm};
+use super::energy::{Energy, HessianForm, ROUNDING};
 use super::pattern::Scatter;
-
-/// Part of `K |p|` that counts as force at work: rounding leaves 1e-16 of it.
-const ROUNDING: f64 = 1e-6;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pin {
@@ -69,13 +66,23 @@ impl Energy for Pins {
         }
     }
 
-    /// The force, and what rounding of the coordinates makes of a stiff spring.
     fn add_force_scale(&self, x: &[f64], scale: &mut [f64]) {
         for pin in &self.pins {
             let force = pin.force(x);
             for &n in &pin.nodes {
                 for axis in 0..2 {
-                    scale[2 * n + axis] += force[axis].abs() + ROUNDING * pin.stiffness * pin.anchor[axis].abs();
+                    scale[2 * n + axis] += force[axis].abs();
+                }
+            }
+        }
+    }
+
+    fn add_rounding(&self, x: &[f64], scale: &mut [f64]) {
+        for pin in &self.pins {
+            for &n in &pin.nodes {
+                for axis in 0..2 {
+                    let size = pin.anchor[axis].abs().max(x[2 * n + axis].abs());
+                    scale[2 * n + axis] += ROUNDING * pin.stiffness * size;
                 }
             }
         }

@@ -55,4 +55,8 @@ impl Material for StVenantKirchhoff {
     fn shear_modulus(&self) -> f64 {
         self.mu
     }
+
+    fn largest_modulus(&self) -> f64 {
+        2.0 * self.mu + self.lambda
+    }
 }

@@ -3,8 +3,11 @@
 //! The exact Hessian is factorised; only where that fails the projected one takes its place. A step is first capped so that
 //! no triangle comes near inversion, then halved until the energy falls enough (Armijo).
 
+use super::continuation;
 use super::energy::HessianForm;
 use super::model::Model;
+use super::patience::Patience;
+use super::ridge;
 
 /// Settings of [`solve`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,14 +27,23 @@ impl Default for StaticsSettings {
     }
 }
 
+/// Newton steps after which a search counts as slow, and more is done in each ([`Patience`]).
+const PATIENCE: usize = 15;
 /// Armijo: the part of the predicted decrease that must be met.
 const SUFFICIENT_DECREASE: f64 = 1e-4;
 /// Halvings before a step counts as failed: a factor of about 1e-12.
 const MAX_HALVINGS: usize = 40;
 /// A step capped below this leads nowhere: triangles have collapsed against the edge of the material's domain.
 const SMALLEST_STEP: f64 = 1e-12;
+/// A triangle of less than this part of its area is flat. A Neo-Hookean one would take a hundred times its shear modulus.
+const FLAT: f64 = 1e-6;
 /// Relative rounding of an energy sum: differences below it say nothing.
 const ENERGY_ROUNDING: f64 = 1e-13;
+/// There a step must leave at most this part of the residual, or rounding is all that is left of it.
+const STILL_FALLING: f64 = 0.7;
+/// A residual below this part of what a change in the sixth digit of the coordinates does is rounding: five units in the last
+/// place.
+const RESOLVED: f64 = 1e-9;
 
 /// A converged state.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,8 +76,10 @@ pub enum Cause {
     Stalled,
     #[error("not in equilibrium after the allowed number of Newton steps")]
     Iterations,
-    #[error("the body is free to move and is pulled away: add a pin")]
+    #[error("the body is free to move: add a pin")]
     FreeToMove,
+    #[error("a triangle is pressed flat and its material does not resist: use a Neo-Hookean one, or pull less")]
+    Collapsed,
     #[error("cancelled")]
     Cancelled,
 }
@@ -93,13 +107,14 @@ pub struct Workspace {
     trial: Vec<f64>,
     trial_gradient: Vec<f64>,
     forces: Vec<f64>,
+    rounding: Vec<f64>,
 }
 
 impl Workspace {
     /// Ready for models of this dimension; an empty one grows where it is first used.
     pub fn new(dimension: usize) -> Self {
         let zero = || vec![0.0; dimension];
-        Self { gradient: zero(), step: zero(), trial: zero(), trial_gradient: zero(), forces: zero() }
+        Self { gradient: zero(), step: zero(), trial: zero(), trial_gradient: zero(), forces: zero(), rounding: zero() }
     }
 }
 
@@ -130,6 +145,9 @@ pub fn solve(
 }
 
 /// The same in place: `x` becomes the equilibrium, or the best state reached.
+///
+/// Where springs far stiffer than the body are far from their balance, they are first taken as softer ones and stiffened step by
+/// step ([`super::continuation`]); the way there is left again if it ends above the energy of the start.
 pub fn settle(
     model: &mut Model,
     x: &mut [f64],
@@ -137,9 +155,43 @@ pub fn settle(
     cancel: &dyn Fn() -> bool,
     work: &mut Workspace,
 ) -> Progress {
+    let mut spent = [0; 3];
+    if valid_energy(model, x).is_finite() && continuation::is_wanted(model, x) {
+        let start = x.to_vec();
+        let before = model.energy(&start);
+        for stage in continuation::stages(model) {
+            let kept = continuation::enter(model, stage);
+            let done = newton(model, x, &continuation::SETTINGS, cancel, work);
+            continuation::leave(model, kept);
+            for (sum, more) in spent.iter_mut().zip([done.iterations, done.factorizations, done.projections]) {
+                *sum += more;
+            }
+        }
+        if model.energy(x) > before {
+            x.copy_from_slice(&start);
+        }
+    }
+    let done = newton(model, x, settings, cancel, work);
+    let [iterations, factorizations, projections] = spent;
+    Progress {
+        iterations: done.iterations + iterations,
+        factorizations: done.factorizations + factorizations,
+        projections: done.projections + projections,
+        ..done
+    }
+}
+
+/// Newton's method on the model as it is.
+fn newton(
+    model: &mut Model,
+    x: &mut [f64],
+    settings: &StaticsSettings,
+    cancel: &dyn Fn() -> bool,
+    work: &mut Workspace,
+) -> Progress {
     let n = model.dimension();
-    let Workspace { gradient, step, trial, trial_gradient, forces } = work;
-    for buffer in [&mut *gradient, step, trial, trial_gradient, forces] {
+    let Workspace { gradient, step, trial, trial_gradient, forces, rounding } = work;
+    for buffer in [&mut *gradient, step, trial, trial_gradient, forces, rounding] {
         buffer.resize(n, 0.0);
     }
     let mut energy = valid_energy(model, x);
@@ -160,31 +212,37 @@ pub fn settle(
     if !energy.is_finite() {
         return Progress { cause: Some(Cause::InvalidStart), ..state };
     }
+    let mut patience = Patience::new(model);
     loop {
         state.energy = energy;
         state.residual = norm(gradient);
-        state.force_scale = model.force_scale_into(x, forces);
+        let at_work = model.forces_at_work_into(x, forces);
+        if model.is_pulled_away(gradient, forces) {
+            return Progress { cause: Some(Cause::FreeToMove), ..state };
+        }
+        model.rounding_into(x, rounding);
+        let most = settings.tolerance * at_work;
+        let balanced = gradient.iter().zip(rounding.iter()).all(|(g, r)| g.abs() <= most + RESOLVED * r);
+        state.force_scale = forces.iter().zip(rounding.iter()).map(|(f, r)| f + r).fold(0.0, f64::max);
         let settled = state.residual <= settings.stagnation_tolerance * state.force_scale;
         let unsettled = |cause: Cause| if settled { None } else { Some(cause) };
-        if state.residual <= settings.tolerance * state.force_scale || state.residual == 0.0 {
+        if balanced {
             return state;
         }
         if state.iterations >= settings.max_iterations {
-            return Progress { cause: unsettled(unconverged(model, Cause::Iterations)), ..state };
+            return Progress { cause: unsettled(Cause::Iterations), ..state };
         }
         if cancel() {
             return Progress { cause: Some(Cause::Cancelled), ..state };
         }
         state.iterations += 1;
-        state.factorizations += 1;
-        match model.factorize_for_descent(x) {
-            Ok(HessianForm::Exact) => {}
-            Ok(HessianForm::Projected) => {
-                state.factorizations += 1;
-                state.projections += 1;
-            }
-            Err(_) => return Progress { cause: Some(Cause::Factorization), ..state },
-        }
+        let slow = state.iterations > PATIENCE;
+        let factors = if slow { patience.factorize(model, x) } else { factorize(model, x) };
+        let Some((form, factors)) = factors else {
+            return Progress { cause: Some(Cause::Factorization), ..state };
+        };
+        state.factorizations += factors;
+        state.projections += (form == HessianForm::Projected) as usize;
         for (s, g) in step.iter_mut().zip(gradient.iter()) {
             *s = -g;
         }
@@ -197,13 +255,19 @@ pub fn settle(
             for ((p, x), s) in trial.iter_mut().zip(x.iter()).zip(step.iter()) {
                 *p = x + t * s;
             }
-            let trial_energy = model.energy(trial);
+            let mut trial_energy = model.energy(trial);
+            if slow {
+                if cancel() {
+                    return Progress { cause: Some(Cause::Cancelled), ..state };
+                }
+                trial_energy = patience.correct(model, gradient, t, trial, trial_energy);
+            }
             if trial_energy <= energy + SUFFICIENT_DECREASE * t * slope && slope < 0.0 {
                 accepted = true;
             } else if trial_energy.is_finite() && (t * slope).abs() <= ENERGY_ROUNDING * energy_scale(model, energy) {
                 // Energies no longer tell states apart; forces still do.
                 model.gradient(trial, trial_gradient);
-                if norm(trial_gradient) < state.residual {
+                if norm(trial_gradient) <= STILL_FALLING * state.residual {
                     accepted = true;
                 } else {
                     break;
@@ -216,11 +280,58 @@ pub fn settle(
             t *= 0.5;
         }
         if !accepted {
-            return Progress { cause: unsettled(unconverged(model, Cause::Stalled)), ..state };
+            return Progress { cause: unsettled(stalled(model, x)), ..state };
         }
+        patience.learn(t);
         x.copy_from_slice(trial);
         model.gradient(x, gradient);
     }
+}
+
+/// The same as [`solve`], and on from an equilibrium that is not stable: by symmetry Newton's method may end on a ridge of the
+/// energy (a bar that is pressed and does not buckle). From there it goes down to either side.
+pub fn minimum(
+    model: &mut Model,
+    start: &[f64],
+    settings: &StaticsSettings,
+    cancel: &dyn Fn() -> bool,
+) -> Result<Equilibrium, Box<StaticsError>> {
+    let mut state = solve(model, start, settings, cancel)?;
+    for _ in 0..RIDGES {
+        if cancel() {
+            break;
+        }
+        state.factorizations += 1;
+        if model.factorize(&state.x, HessianForm::Exact).is_ok() {
+            break;
+        }
+        let Some(aside) = ridge::step_aside(model, &state.x) else { break };
+        let next = solve(model, &aside, settings, cancel);
+        let (next, failed) = match next {
+            Ok(next) => (next, None),
+            Err(error) => (error.best, Some(error.cause)),
+        };
+        let counted = Equilibrium {
+            iterations: state.iterations + next.iterations,
+            factorizations: state.factorizations + next.factorizations,
+            projections: state.projections + next.projections,
+            ..next
+        };
+        match failed {
+            None => state = counted,
+            Some(cause) => return Err(Box::new(StaticsError { cause, best: counted })),
+        }
+    }
+    Ok(state)
+}
+
+/// Ridges that are left at most.
+const RIDGES: usize = 6;
+
+/// The exact Hessian or the projected one, and the number of factorisations that took.
+fn factorize(model: &mut Model, x: &[f64]) -> Option<(HessianForm, usize)> {
+    let form = model.factorize_for_descent(x).ok()?;
+    Some((form, 1 + (form == HessianForm::Projected) as usize))
 }
 
 /// `max |v|`, infinite for NaN.
@@ -238,6 +349,8 @@ fn energy_scale(model: &Model, energy: f64) -> f64 {
     energy.abs().max(model.body.material().shear_modulus() * model.body.area())
 }
 
-fn unconverged(model: &Model, cause: Cause) -> Cause {
-    if model.free_pieces() > 0 { Cause::FreeToMove } else { cause }
+/// Why no step leads on. A material without a barrier (St. Venant-Kirchhoff) lets triangles be pressed flat: there the energy
+/// ends, and not its slope.
+fn stalled(model: &Model, x: &[f64]) -> Cause {
+    if model.body.smallest_determinant(x) < FLAT { Cause::Collapsed } else { Cause::Stalled }
 }

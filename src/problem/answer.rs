@@ -1,9 +1,11 @@
 //! Answering a problem: statics, derivatives, Soft IK, drag.
 
-use super::file::{Problem, ProblemError};
+use super::equilibrium::{Statics, settle};
+use super::failure::{Failure, Part};
+use super::file::{DragData, Problem, ProblemError};
+use super::frame::Frame;
 use crate::physics::{
-    Body, Cause, Contractile, Element, Energy, Gravity, Model, ModelError, NeoHookean, Pin, Pins, StaticsSettings,
-    statics,
+    Body, Cause, Contractile, Element, Energy, Gravity, Model, ModelError, NeoHookean, Pin, Pins,
 };
 use crate::soft_ik::{
     self, Actuation, Budget, Objective, PointTarget, Quality, Question, Tracker, Winch, default_method, sensitivity,
@@ -34,35 +36,87 @@ impl Default for Options {
 pub struct Answered {
     pub document: Value,
     pub converged: bool,
+    /// Why not; `error` of the document in typed form.
+    pub failures: Vec<Failure>,
 }
 
 /// Iterations of a Soft IK method on a `soft_ik` question.
 const SOFT_IK_ITERATIONS: usize = 300;
 
-/// Answers everything the problem asks for.
+/// Answers everything the problem asks for. The problem is solved in the frame of its own body and answered in its own units.
 pub fn solve(problem: &Problem, options: &Options) -> Result<Answered, ProblemError> {
     let deadline = Instant::now() + options.budget;
     let stop = || Instant::now() >= deadline;
-    let mut model = model(problem)?;
-    let mut out = Map::new();
-    out.insert("format".into(), "plushwright-answer/1".into());
-    let mut errors: Vec<String> = Vec::new();
+    let frame = Frame::of(problem);
+    let inner = frame.inside(problem);
+    let mut work = Work {
+        problem,
+        inner: &inner,
+        frame: &frame,
+        model: model(&inner)?,
+        options,
+        stop: &stop,
+        out: Map::new(),
+        failures: Vec::new(),
+    };
+    work.out.insert("format".into(), "plushwright-answer/1".into());
     let drag_only = problem.drag.is_some() && !options.all;
     if !drag_only {
-        answer_statics(problem, &mut model, &mut out, &mut errors, &stop)?;
-        if problem.soft_ik.is_some() && problem.objective.is_some() {
-            answer_soft_ik(problem, &mut model, options, &mut out, &mut errors, &stop)?;
+        work.statics()?;
+        if let (Some(_), Some(objective)) = (&inner.soft_ik, objective(&inner)) {
+            work.soft_ik(&objective)?;
         }
     }
-    if problem.drag.is_some() {
-        answer_drag(problem, &mut model, options, &mut out, &mut errors, &stop)?;
+    if let (Some(drag), Some(objective)) = (&inner.drag, objective(&inner)) {
+        work.drag(drag, objective)?;
     }
-    let converged = errors.is_empty();
+    let Work { mut out, mut failures, .. } = work;
+    remove_infinities(&mut out, &mut failures);
+    let converged = failures.is_empty();
     out.insert("converged".into(), converged.into());
     if !converged {
-        out.insert("error".into(), errors.join("; ").into());
+        let texts: Vec<String> = failures.iter().map(Failure::to_string).collect();
+        out.insert("error".into(), texts.join("; ").into());
     }
-    Ok(Answered { document: Value::Object(out), converged })
+    Ok(Answered { document: Value::Object(out), converged, failures })
+}
+
+/// What the parts of an answer share.
+struct Work<'a> {
+    problem: &'a Problem,
+    /// The problem in its frame; `model` is of this one.
+    inner: &'a Problem,
+    frame: &'a Frame,
+    model: Model,
+    options: &'a Options,
+    stop: &'a dyn Fn() -> bool,
+    out: Map<String, Value>,
+    failures: Vec<Failure>,
+}
+
+/// JSON has no infinity: where one would stand (a `null` by now), the part goes, and its failure says so.
+fn remove_infinities(out: &mut Map<String, Value>, failures: &mut Vec<Failure>) {
+    fn holds_null(value: &Value) -> bool {
+        match value {
+            Value::Null => true,
+            Value::Array(items) => items.iter().any(holds_null),
+            Value::Object(map) => map.values().any(holds_null),
+            _ => false,
+        }
+    }
+    let bad: Vec<String> = out.iter().filter(|(_, value)| holds_null(value)).map(|(key, _)| key.clone()).collect();
+    for key in bad {
+        out.remove(&key);
+        let part = match key.as_str() {
+            "soft_ik" => Part::SoftIk,
+            "drag" => Part::After(0),
+            _ => Part::Statics,
+        };
+        let failure = Failure::Overflow { part };
+        if !failures.contains(&failure) {
+            failures.push(failure);
+        }
+    }
 }
 
 /// The physics model of a problem, at its `contractions` (zero if absent).
@@ -130,162 +184,159 @@ fn free_actuation(problem: &Problem) -> Result<Actuation, ProblemError> {
     Ok(actuation(problem, &problem.free_winches()?, fixed))
 }
 
-fn points(x: &[f64]) -> Value {
-    x.chunks_exact(2).map(|p| json!([p[0], p[1]])).collect()
-}
-
-fn answer_statics(
-    problem: &Problem,
-    model: &mut Model,
-    out: &mut Map<String, Value>,
-    errors: &mut Vec<String>,
-    stop: &dyn Fn() -> bool,
-) -> Result<(), ProblemError> {
-    let start: Vec<f64> = problem.start.as_ref().unwrap_or(&problem.mesh.nodes).iter().flatten().copied().collect();
-    let state = match statics::solve(model, &start, &StaticsSettings::default(), stop) {
-        Ok(state) => state,
-        Err(error) => {
-            errors.push(format!("statics: {}", named(error.cause, model)));
-            error.best
+impl Work<'_> {
+    fn statics(&mut self) -> Result<(), ProblemError> {
+        let (state, x) = settle(self.problem, self.inner, self.frame, &mut self.model, self.stop);
+        let Statics { energy, tensions, pin_forces, residual, iterations, .. } = &state;
+        let out = &mut self.out;
+        out.insert("x".into(), json!(state.x));
+        out.insert("energy".into(), json!(energy));
+        out.insert("tensions".into(), json!(tensions));
+        out.insert("pin_forces".into(), json!(pin_forces));
+        out.insert("residual".into(), json!(residual));
+        out.insert("iterations".into(), json!(iterations));
+        let in_equilibrium = state.failure.is_none();
+        self.failures.extend(state.failure);
+        if let Some(objective) = objective(self.inner) {
+            let contractions = contractions(self.inner);
+            let all = actuation(self.inner, &self.inner.all_winches(), contractions.clone());
+            let mut question = Question { model: &mut self.model, actuation: &all, objective: &objective };
+            let value = question.objective_at(&x, &contractions) * self.frame.objective();
+            out.insert("objective".into(), json!(value));
+            if (self.stop)() {
+                if in_equilibrium {
+                    self.failures.push(Failure::TimeBudget { part: Part::Statics });
+                }
+            } else if let Some(gradient) = sensitivity::gradient(&mut question, &x, &contractions) {
+                // dO/dalpha_c: units of O over units of length.
+                let scaled = |list: &[f64]| json!(list.iter().map(|g| g * self.frame.length).collect::<Vec<f64>>());
+                out.insert("grad_alpha_c".into(), scaled(&gradient.by_contraction));
+                out.insert("grad_beta".into(), scaled(&gradient.by_activation));
+            } else {
+                self.failures.push(Failure::Unstable);
+            }
         }
-    };
-    out.insert("x".into(), points(&state.x));
-    out.insert("energy".into(), json!(state.energy));
-    out.insert("tensions".into(), json!(model.contractile.tensions(&state.x)));
-    out.insert("pin_forces".into(), model.pins.pins.iter().map(|p| json!(p.force(&state.x))).collect());
-    out.insert("residual".into(), json!(state.residual));
-    out.insert("iterations".into(), json!(state.iterations));
-    if let Some(objective) = objective(problem) {
-        let contractions = contractions(problem);
-        let all = actuation(problem, &problem.all_winches(), contractions.clone());
-        let mut question = Question { model, actuation: &all, objective: &objective };
-        out.insert("objective".into(), json!(question.objective_at(&state.x, &contractions)));
-        if let Some(gradient) = sensitivity::gradient(&mut question, &state.x, &contractions) {
-            out.insert("grad_alpha_c".into(), json!(gradient.by_contraction));
-            out.insert("grad_beta".into(), json!(gradient.by_activation));
-        } else {
-            errors.push("the equilibrium is not stable: it has no sensitivities".into());
-        }
+        Ok(())
     }
-    Ok(())
-}
 
-fn named(cause: Cause, model: &Model) -> String {
-    if model.free_pieces() > 0 && cause != Cause::FreeToMove {
-        format!("{cause} (the body is free to move: add a pin)")
-    } else {
-        cause.to_string()
-    }
-}
-
-fn answer_soft_ik(
-    problem: &Problem,
-    model: &mut Model,
-    options: &Options,
-    out: &mut Map<String, Value>,
-    errors: &mut Vec<String>,
-    stop: &dyn Fn() -> bool,
-) -> Result<(), ProblemError> {
-    let (Some(objective), Some(data)) = (objective(problem), &problem.soft_ik) else { return Ok(()) };
-    let actuation = free_actuation(problem)?;
-    let beta_start = data.beta_start.clone().unwrap_or_else(|| vec![0.0; actuation.winches.len()]);
-    let method = soft_ik::method(&options.method).ok_or_else(|| ProblemError::Content {
-        key: "--method".into(),
-        what: format!("\"{}\" is unknown, choose one of {}", options.method, soft_ik::METHODS.join(", ")),
-    })?;
-    if options.method == "tension" && !actuation.is_fibers_only() {
-        let what = "tension needs winches of one element each".into();
-        return Err(ProblemError::Content { key: "--method".into(), what });
-    }
-    let clock = Instant::now();
-    let mut question = Question { model, actuation: &actuation, objective: &objective };
-    let budget = Budget { iterations: SOFT_IK_ITERATIONS, stop };
-    let answer = if options.method == "default" {
-        default_method::solve(&mut question, &beta_start, &budget)
-    } else {
-        let mut beta = beta_start;
-        actuation.clamp(&mut beta);
-        let rest = question.model.rest.clone();
-        let (start, factorizations) = question.settle(&beta, &rest, stop);
-        let mut answer = method.solve(&mut question, &start, &budget);
-        answer.factorizations += factorizations;
-        answer
-    };
-    if !answer.posture.in_equilibrium {
-        errors.push("soft_ik: no equilibrium was found".into());
-    } else if stop() && !answer.converged {
-        errors.push("soft_ik: the time budget ended the search".into());
-    }
-    let posture = answer.posture;
-    out.insert(
-        "soft_ik".into(),
-        json!({
-            "beta": posture.beta,
-            "alpha_c": actuation.contractions(&posture.beta),
-            "x": points(&posture.x),
-            "objective": posture.objective,
-            "iterations": answer.iterations,
-            "factorizations": answer.factorizations,
-            "milliseconds": clock.elapsed().as_secs_f64() * 1e3,
-        }),
-    );
-    Ok(())
-}
-
-fn answer_drag(
-    problem: &Problem,
-    model: &mut Model,
-    options: &Options,
-    out: &mut Map<String, Value>,
-    errors: &mut Vec<String>,
-    stop: &dyn Fn() -> bool,
-) -> Result<(), ProblemError> {
-    let (Some(mut objective), Some(drag)) = (objective(problem), &problem.drag) else { return Ok(()) };
-    objective.contraction_weight = 0.0;
-    objective.tension_weight = drag.tension_regulariser;
-    let actuation = free_actuation(problem)?;
-    let mut beta = vec![0.0; actuation.winches.len()];
-    actuation.clamp(&mut beta);
-    let rest = model.rest.clone();
-    let mut question = Question { model, actuation: &actuation, objective: &objective };
-    let (start, _) = question.settle(&beta, &rest, stop);
-    let mut tracker = Tracker::new(&mut question, &start);
-    let (mut milliseconds, mut target_error, mut iterations, mut reported) = (vec![], vec![], vec![], vec![]);
-    for (k, frame) in drag.frames.iter().enumerate() {
-        for (target, goal) in objective.targets.iter_mut().zip(frame) {
-            target.goal = *goal;
+    fn soft_ik(&mut self, objective: &Objective) -> Result<(), ProblemError> {
+        let Some(data) = &self.inner.soft_ik else { return Ok(()) };
+        let (options, stop) = (self.options, self.stop);
+        let actuation = free_actuation(self.inner)?;
+        let beta_start = data.beta_start.clone().unwrap_or_else(|| vec![0.0; actuation.winches.len()]);
+        let method = soft_ik::method(&options.method).ok_or_else(|| ProblemError::Content {
+            key: "--method".into(),
+            what: format!("\"{}\" is unknown, choose one of {}", options.method, soft_ik::METHODS.join(", ")),
+        })?;
+        if options.method == "tension" && !actuation.is_fibers_only() {
+            let what = "tension needs winches of one element each".into();
+            return Err(ProblemError::Content { key: "--method".into(), what });
         }
         let clock = Instant::now();
-        let mut question = Question { model, actuation: &actuation, objective: &objective };
-        let answer = tracker.frame(&mut question, options.quality, stop);
-        milliseconds.push(clock.elapsed().as_secs_f64() * 1e3);
-        let posture = tracker.posture();
-        target_error.push(objective.target_error(&posture.x));
-        iterations.push(answer.iterations);
-        if !posture.in_equilibrium {
-            errors.push(format!("drag: frame {k} is not in equilibrium"));
+        let mut question = Question { model: &mut self.model, actuation: &actuation, objective };
+        let budget = Budget { iterations: SOFT_IK_ITERATIONS, stop };
+        let answer = if options.method == "default" {
+            default_method::solve(&mut question, &beta_start, &budget)
+        } else {
+            let mut beta = beta_start;
+            actuation.clamp(&mut beta);
+            let rest = question.model.rest.clone();
+            let (start, factorizations) = question.settle(&beta, &rest, stop);
+            let mut answer = method.solve(&mut question, &start, &budget);
+            answer.factorizations += factorizations;
+            answer
+        };
+        let posture = answer.posture;
+        let in_time = !stop();
+        if !posture.in_equilibrium || (!in_time && !answer.converged) {
+            self.failures.push(self.unbalanced(Part::SoftIk, &posture.x, in_time));
         }
-        if drag.report.contains(&k) {
-            reported.push(json!({
-                "frame": k,
-                "x": points(&posture.x),
-                "alpha_c": actuation.contractions(&posture.beta),
-                "residual": posture.residual,
-            }));
-        }
-        if stop() {
-            errors.push(format!("drag: the time budget ended after frame {k}"));
-            break;
-        }
+        let (length, frame) = (self.frame.length, self.frame);
+        let lengths = |list: &[f64]| list.iter().map(|v| v * length).collect::<Vec<f64>>();
+        self.out.insert(
+            "soft_ik".into(),
+            json!({
+                "beta": lengths(&posture.beta),
+                "alpha_c": lengths(&actuation.contractions(&posture.beta)),
+                "x": frame.points(&posture.x),
+                "objective": posture.objective * frame.objective(),
+                "iterations": answer.iterations,
+                "factorizations": answer.factorizations,
+                "milliseconds": clock.elapsed().as_secs_f64() * 1e3,
+            }),
+        );
+        Ok(())
     }
-    out.insert(
-        "drag".into(),
-        json!({
-            "milliseconds": milliseconds,
-            "target_error": target_error,
-            "iterations": iterations,
-            "reported": reported,
-        }),
-    );
-    Ok(())
+
+    fn drag(&mut self, drag: &DragData, mut objective: Objective) -> Result<(), ProblemError> {
+        let (options, stop, frame) = (self.options, self.stop, self.frame);
+        objective.contraction_weight = 0.0;
+        objective.tension_weight = drag.tension_regulariser;
+        let actuation = free_actuation(self.inner)?;
+        let mut beta = vec![0.0; actuation.winches.len()];
+        actuation.clamp(&mut beta);
+        let rest = self.model.rest.clone();
+        let mut question = Question { model: &mut self.model, actuation: &actuation, objective: &objective };
+        let (start, _) = question.settle(&beta, &rest, stop);
+        let (mut milliseconds, mut target_error, mut iterations, mut reported) = (vec![], vec![], vec![], vec![]);
+        // Once the time is up, nothing more is begun.
+        let mut tracker = (!stop()).then(|| Tracker::new(&mut question, &start));
+        if tracker.is_none() {
+            self.failures.push(Failure::TimeBudget { part: Part::Frame(0) });
+        }
+        for (k, goals) in drag.frames.iter().enumerate() {
+            let Some(tracker) = &mut tracker else { break };
+            for (target, goal) in objective.targets.iter_mut().zip(goals) {
+                target.goal = *goal;
+            }
+            let clock = Instant::now();
+            let mut question = Question { model: &mut self.model, actuation: &actuation, objective: &objective };
+            let answer = tracker.frame(&mut question, options.quality, stop);
+            milliseconds.push(clock.elapsed().as_secs_f64() * 1e3);
+            let posture = tracker.posture();
+            target_error.push(objective.target_error(&posture.x) * frame.length);
+            iterations.push(answer.iterations);
+            let out_of_time = stop();
+            if !posture.in_equilibrium {
+                self.failures.push(self.unbalanced(Part::Frame(k), &posture.x, !out_of_time));
+            } else if out_of_time && k + 1 < drag.frames.len() {
+                self.failures.push(Failure::TimeBudget { part: Part::After(k) });
+            }
+            if drag.report.contains(&k) {
+                let alpha_c: Vec<f64> =
+                    actuation.contractions(&posture.beta).iter().map(|c| c * frame.length).collect();
+                reported.push(json!({
+                    "frame": k,
+                    "x": frame.points(&posture.x),
+                    "alpha_c": alpha_c,
+                    "residual": posture.residual * frame.force(),
+                }));
+            }
+            if out_of_time {
+                break;
+            }
+        }
+        self.out.insert(
+            "drag".into(),
+            json!({
+                "milliseconds": milliseconds,
+                "target_error": target_error,
+                "iterations": iterations,
+                "reported": reported,
+            }),
+        );
+        Ok(())
+    }
+
+    /// Why a posture at `x` is not in equilibrium.
+    fn unbalanced(&self, part: Part, x: &[f64], in_time: bool) -> Failure {
+        if !in_time {
+            return Failure::TimeBudget { part };
+        }
+        let (mut gradient, mut scale) = (vec![0.0; x.len()], vec![0.0; x.len()]);
+        self.model.gradient(x, &mut gradient);
+        self.model.force_scale_into(x, &mut scale);
+        let away = self.model.is_pulled_away(&gradient, &scale);
+        Failure::of(part, if away { Cause::FreeToMove } else { Cause::Stalled }, &self.model)
+    }
 }

@@ -1,6 +1,7 @@
 //! Reading and checking a `plushwright-problem/1` file.
 
-use serde::Deserialize;
+use super::limits;
+use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
@@ -15,7 +16,7 @@ pub enum ProblemError {
     Content { key: String, what: String },
 }
 
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct Problem {
     pub mesh: MeshData,
     pub material: MaterialData,
@@ -23,28 +24,35 @@ pub struct Problem {
     pub elements: Vec<ElementData>,
     #[serde(default)]
     pub pins: Vec<PinData>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub contractions: Option<Vec<f64>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub objective: Option<ObjectiveData>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub soft_ik: Option<SoftIkData>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub start: Option<Vec<[f64; 2]>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub gravity: Option<[f64; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub surface_density: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub drag: Option<DragData>,
 }
 
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct MeshData {
     pub nodes: Vec<[f64; 2]>,
     pub triangles: Vec<[usize; 3]>,
 }
 
-#[derive(Clone, Copy, Debug, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
 pub struct MaterialData {
     pub mu: f64,
     pub kappa: f64,
 }
 
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct ElementData {
     pub routing: Vec<usize>,
     #[serde(rename = "K")]
@@ -54,7 +62,7 @@ pub struct ElementData {
     pub winch: i64,
 }
 
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct PinData {
     pub node: usize,
     pub target: [f64; 2],
@@ -62,7 +70,7 @@ pub struct PinData {
     pub stiffness: f64,
 }
 
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct ObjectiveData {
     #[serde(default)]
     pub targets: Vec<TargetData>,
@@ -72,7 +80,7 @@ pub struct ObjectiveData {
     pub regulariser: f64,
 }
 
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct TargetData {
     pub node: usize,
     pub xy: [f64; 2],
@@ -84,16 +92,21 @@ fn one() -> f64 {
     1.0
 }
 
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct SoftIkData {
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub winch_ids: Option<Vec<i64>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub beta_upper: Option<Vec<Option<f64>>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub beta_lower: Option<Vec<Option<f64>>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub beta_start: Option<Vec<f64>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub fixed_winches: Option<BTreeMap<String, f64>>,
 }
 
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct DragData {
     pub frames: Vec<Vec<[f64; 2]>>,
     #[serde(default)]
@@ -209,6 +222,25 @@ fn content(key: &str, what: impl Into<String>) -> ProblemError {
 }
 
 impl Problem {
+    /// The problem as a file. Numbers keep every bit.
+    pub fn to_text(&self) -> Result<String, ProblemError> {
+        let mut value = serde_json::to_value(self).map_err(|e| ProblemError::Json(e.to_string()))?;
+        if let Value::Object(map) = &mut value {
+            map.insert("format".into(), FORMAT.into());
+        }
+        serde_json::to_string(&value).map_err(|e| ProblemError::Json(e.to_string()))
+    }
+}
+
+impl MeshData {
+    /// Signed area of a triangle, m^2.
+    pub(super) fn area(&self, t: &[usize; 3]) -> f64 {
+        let [p, q, r] = t.map(|k| self.nodes[k]);
+        0.5 * ((q[0] - p[0]) * (r[1] - p[1]) - (r[0] - p[0]) * (q[1] - p[1]))
+    }
+}
+
+impl Problem {
     /// The ids of all winches, ascending.
     pub fn all_winches(&self) -> Vec<i64> {
         let mut ids: Vec<i64> = self.elements.iter().map(|e| e.winch).collect();
@@ -270,8 +302,13 @@ impl Problem {
             for node in t {
                 in_range(&key, *node, n)?;
             }
-            let [p, q, r] = t.map(|k| self.mesh.nodes[k]);
-            let area = 0.5 * ((q[0] - p[0]) * (r[1] - p[1]) - (r[0] - p[0]) * (q[1] - p[1]));
+        }
+        finite("material.mu", self.material.mu)?;
+        finite("material.kappa", self.material.kappa)?;
+        limits::size(self)?;
+        for (i, t) in self.mesh.triangles.iter().enumerate() {
+            let key = format!("mesh.triangles[{i}]");
+            let area = self.mesh.area(t);
             if area < 0.0 {
                 return Err(content(&key, "is clockwise"));
             }
@@ -280,8 +317,6 @@ impl Problem {
             }
         }
         let m = &self.material;
-        finite("material.mu", m.mu)?;
-        finite("material.kappa", m.kappa)?;
         if m.mu <= 0.0 {
             return Err(content("material.mu", format!("must be positive, is {}", m.mu)));
         }
@@ -323,7 +358,8 @@ impl Problem {
         if let Some(density) = self.surface_density {
             not_negative("surface_density", density)?;
         }
-        self.check_drag()
+        self.check_drag()?;
+        limits::check(self)
     }
 
     fn check_elements(&self, nodes: usize) -> Result<(), ProblemError> {

@@ -4,9 +4,15 @@
 //! script or another solver can put the same question and compare.
 
 pub mod answer;
+pub mod equilibrium;
+pub mod failure;
 pub mod file;
+mod frame;
+mod limits;
 pub mod network;
 
 pub use crate::soft_ik::Quality;
 pub use answer::{Answered, Options, solve};
+pub use equilibrium::{Statics, equilibrium};
+pub use failure::{Failure, Part};
 pub use file::{Problem, ProblemError, read};

@@ -23,9 +23,13 @@
 mod cables;
 mod dual;
 mod fiber;
+mod judgement;
 mod run;
+mod step;
+mod workspace;
 
-pub(super) use run::{Run, Workspace};
+pub(super) use run::Run;
+pub(super) use workspace::Workspace;
 
 use super::{Answer, Budget, Method, Posture, Question};
 

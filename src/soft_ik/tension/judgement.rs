@@ -1,0 +1,147 @@
+//! What a step was worth: `O` at the equilibrium that it leads to, against what its model promised.
+
+use super::fiber::Fiber;
+use super::run::{LARGEST_PROXIMAL, LEAST_PROXIMAL, REJECTION_GROWTH, Run, STANDSTILL};
+use super::step::longest;
+use super::workspace::Workspace;
+use crate::physics::statics;
+use crate::soft_ik::Question;
+
+/// A step is good where `O` fell by at least this part of what its model promised, and poor below that part.
+const GOOD: f64 = 0.6;
+const POOR: f64 = 0.2;
+/// A step is excellent where `O` fell by what its model promised, to this part.
+const EXCELLENT: f64 = 0.2;
+/// Divisors of `nu` after an excellent and a good step, factors after a poor one and after one that made things worse.
+const EXCELLENT_DECAY: f64 = 8.0;
+const PROXIMAL_DECAY: f64 = 2.0;
+const PROXIMAL_GROWTH: f64 = 2.0;
+/// Iterations in a row that end far from equilibrium, after which the run goes back to its best state.
+const PATIENCE: usize = 6;
+/// A state is kept as the best where its Newton step towards equilibrium is at most this part of the body: farther away,
+/// another equilibrium may be nearer than the one expected.
+const VERIFIED: f64 = 8e-3;
+/// `O` at an equilibrium is told from a state whose Newton step towards it is at most this part of the body.
+const WITHIN_SIGHT: f64 = 0.012;
+/// To this it shrinks, by halves, where iterations end far from equilibrium.
+const SHORTEST_STEP: f64 = 0.05;
+/// Residual, as a part of the forces at work, up to which `O` of a state is taken for that of the equilibrium nearby.
+const NEAR_EQUILIBRIUM: f64 = 1e-2;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Verdict {
+    On,
+    /// To the best state, with shorter steps.
+    Back,
+}
+
+/// The state of lowest `O` that a run has seen near equilibrium.
+pub(in crate::soft_ik) struct Best {
+    pub objective: f64,
+    pub x: Vec<f64>,
+    pub(super) fibers: Vec<Fiber>,
+}
+
+impl Run {
+    /// Compares `O` at the equilibrium that the state is on its way to, `x - u`, with what the last step promised. Keeps it if
+    /// it is the best, and lets `nu` follow success.
+    pub(super) fn judge(&mut self, question: &Question, work: &mut Workspace) -> Verdict {
+        let n = self.x.len();
+        let rows = 2 * question.objective.targets.len();
+        let u = &work.solved[(rows + 1) * n..];
+        for ((p, x), u) in work.pulled.iter_mut().zip(&self.x).zip(u) {
+            *p = x - u;
+        }
+        let distance = longest(u) / work.size;
+        let within_sight = distance <= WITHIN_SIGHT;
+        let verified = distance <= VERIFIED;
+        self.unverified = if verified { 0 } else { self.unverified + 1 };
+        let most = LARGEST_PROXIMAL * work.rho;
+        self.now = value(&work.pulled, &self.fibers, question, work.rho);
+        if !within_sight {
+            self.reach = (self.reach * 0.5).max(SHORTEST_STEP);
+            self.adrift += 1;
+            self.nu = (self.nu * PROXIMAL_GROWTH).min(most);
+            return if self.adrift > PATIENCE && self.best.objective.is_finite() { Verdict::Back } else { Verdict::On };
+        }
+        self.adrift = 0;
+        if self.returned {
+            // What it was kept for was foreseen one step ahead; this is what it is.
+            self.returned = false;
+            self.best.objective = f64::INFINITY;
+        }
+        if let Some((before, promised)) = self.before {
+            let ratio = (before - self.now) / promised.max(f64::MIN_POSITIVE);
+            if verified && self.now > self.best.objective * (1.0 + 1e-9) && ratio < 0.0 {
+                self.stagnant += 1;
+                return Verdict::Back;
+            }
+            if ratio >= GOOD {
+                let decay = if (ratio - 1.0).abs() < EXCELLENT { EXCELLENT_DECAY } else { PROXIMAL_DECAY };
+                self.nu = (self.nu / decay).max(LEAST_PROXIMAL * work.rho);
+            } else if ratio < POOR {
+                self.nu = (self.nu * PROXIMAL_GROWTH).min(most);
+            }
+        }
+        if verified {
+            if self.now < (1.0 - STANDSTILL) * self.mark {
+                self.mark = self.now;
+                self.stagnant = 0;
+            } else {
+                self.stagnant += 1;
+            }
+        }
+        if verified && self.now < self.best.objective && question.model.body.smallest_determinant(&work.pulled) > 0.0 {
+            self.best.objective = self.now;
+            self.best.x.copy_from_slice(&work.pulled);
+            self.best.fibers.copy_from_slice(&self.fibers);
+        }
+        Verdict::On
+    }
+
+    pub(super) fn go_back(&mut self, question: &mut Question, work: &mut Workspace) {
+        self.x.copy_from_slice(&self.best.x);
+        self.fibers.copy_from_slice(&self.best.fibers);
+        self.nu = (self.nu * REJECTION_GROWTH).min(LARGEST_PROXIMAL * work.rho);
+        self.adrift = 0;
+        self.returned = true;
+        self.before = None;
+        self.set_laws(question, work.softness);
+        self.gradient_now(question, work);
+    }
+
+    /// Keeps a state that the last step took close to equilibrium, before the next factorisation.
+    pub(super) fn note(&mut self, question: &Question, work: &Workspace) {
+        let forces = self.fibers.iter().fold(work.forces, |m, f| m.max(f.tension));
+        if statics::norm(&self.gradient) <= NEAR_EQUILIBRIUM * forces {
+            let objective = value(&self.x, &self.fibers, question, work.rho);
+            if objective < self.best.objective {
+                self.take_best(objective);
+            }
+        }
+    }
+
+    pub(super) fn take_best(&mut self, objective: f64) {
+        self.best.objective = objective;
+        self.best.x.copy_from_slice(&self.x);
+        self.best.fibers.copy_from_slice(&self.fibers);
+    }
+}
+
+impl Best {
+    /// Activations that hold the tensions at the positions, within the bounds, into `beta`.
+    pub fn activations_into(&self, question: &Question, beta: &mut [f64]) {
+        let elements = &question.model.contractile.elements;
+        for (b, fiber) in beta.iter_mut().zip(&self.fibers) {
+            let element = &elements[fiber.element];
+            *b = fiber.activation(element, element.length(&self.x));
+        }
+        question.actuation.clamp(beta);
+    }
+}
+
+/// `O` of the tension form at `x`.
+pub(super) fn value(x: &[f64], fibers: &[Fiber], question: &Question, rho: f64) -> f64 {
+    let tensions: f64 = fibers.iter().map(|f| f.tension * f.tension).sum();
+    question.objective.position_value(x) + 0.5 * rho * tensions
+}

@@ -1,0 +1,236 @@
+//! One step of the all-at-once method: the linear solves, the choice of tensions, the motion that follows.
+
+use super::dual::Subproblem;
+use super::run::{LARGEST_PROXIMAL, Run};
+use super::workspace::Workspace;
+use crate::physics::{HessianForm, statics};
+use crate::soft_ik::{PointTarget, Question};
+use std::time::Instant;
+
+/// A Newton step is taken without a line search where at most this part of the unbalanced forces is left after it.
+const BALANCING: f64 = 0.5;
+
+impl Run {
+    /// `H [Y, v, u] = [S^T, Q (x - X) + held tensions, g]`, targets scaled by the root of their weight.
+    pub(super) fn solve_sides(&self, question: &mut Question, work: &mut Workspace) {
+        let clock = Instant::now();
+        let n = self.x.len();
+        let objective = question.objective;
+        let rows = 2 * objective.targets.len();
+        work.solved.resize(n * (rows + 2), 0.0);
+        work.solved[..n * rows].fill(0.0);
+        for (t, target) in objective.targets.iter().enumerate() {
+            for axis in 0..2 {
+                add_row(target, axis, &mut work.solved[(2 * t + axis) * n..][..n]);
+            }
+        }
+        let mut solved = std::mem::take(&mut work.solved);
+        let (pull, g) = solved[rows * n..].split_at_mut(n);
+        objective.rest_gradient(&self.x, pull);
+        self.add_tension_of_springs(question, work, pull);
+        g.copy_from_slice(&self.gradient);
+        work.solved = solved;
+        question.model.solve_many(&mut work.solved, rows + 2);
+        work.phases.solves += clock.elapsed().as_secs_f64();
+    }
+
+    /// Adds the derivative by `x` of `rho/2 tau^2` where tension changes with length: `rho tau dtau/dl dl/dx`.
+    fn add_tension_of_springs(&self, question: &Question, work: &Workspace, out: &mut [f64]) {
+        for (k, fiber) in self.fibers.iter().enumerate() {
+            let element = &question.model.contractile.elements[fiber.element];
+            let (tau, tangent) = fiber.law(work.softness).tension_and_tangent(element, work.cables.lengths[k]);
+            let factor = work.rho * tau * tangent;
+            if factor != 0.0 {
+                work.cables.add_gradient(k, factor, out);
+            }
+        }
+    }
+
+    /// `J`, `c`, `r_0` and the limits. Whether a target's pull was limited.
+    pub(super) fn linearise(&self, question: &Question, work: &mut Workspace) -> bool {
+        let clock = Instant::now();
+        let n = self.x.len();
+        let targets = &question.objective.targets;
+        let (rows, columns) = (2 * targets.len(), 2 * targets.len() + 1);
+        work.by_node.resize(n * columns, 0.0);
+        for (c, column) in work.solved.chunks_exact(n).take(columns).enumerate() {
+            for (d, v) in column.iter().enumerate() {
+                work.by_node[d * columns + c] = *v;
+            }
+        }
+        let count = self.fibers.len();
+        work.jacobian.resize(count * rows, 0.0);
+        work.row.resize(columns, 0.0);
+        let elements = &question.model.contractile.elements;
+        for (k, fiber) in self.fibers.iter().enumerate() {
+            work.cables.rates(k, &work.by_node, &mut work.row);
+            for (r, rate) in work.row[..rows].iter().enumerate() {
+                work.jacobian[r * count + k] = *rate;
+            }
+            work.linear[k] = work.row[rows];
+            work.now[k] = fiber.tension;
+            work.limits[k] = fiber.limits(&elements[fiber.element], work.cables.lengths[k]);
+        }
+        work.residual.resize(rows, 0.0);
+        let mut limited = false;
+        for (t, target) in targets.iter().enumerate() {
+            let [dx, dy] = target.offset(&work.pulled);
+            let distance = dx.hypot(dy);
+            let mut factor = target.weight.sqrt();
+            if distance > self.pull {
+                limited = true;
+                factor *= self.pull / distance;
+            }
+            work.residual[2 * t] = factor * dx;
+            work.residual[2 * t + 1] = factor * dy;
+        }
+        work.phases.dual += clock.elapsed().as_secs_f64();
+        limited
+    }
+
+    /// The step in tension, and `dx = -u - H^-1 G^T dtau` that follows; shorter by a larger `nu` where it is too long.
+    pub(super) fn choose(&mut self, question: &mut Question, work: &mut Workspace) {
+        let n = self.x.len();
+        let rows = work.residual.len();
+        let most = self.reach * work.size;
+        self.q.resize(rows, 0.0);
+        let mut q = std::mem::take(&mut self.q);
+        if !std::mem::replace(&mut self.warm, true) {
+            q.copy_from_slice(&work.residual);
+        }
+        for _ in 0..8 {
+            let clock = Instant::now();
+            let problem = Subproblem {
+                residual: &work.residual,
+                jacobian: &work.jacobian,
+                linear: &work.linear,
+                now: &work.now,
+                limits: &work.limits,
+                rho: work.rho,
+                nu: self.nu,
+            };
+            work.dual.solve(&problem, &mut q, &mut work.next);
+            work.phases.dual += clock.elapsed().as_secs_f64();
+            let clock = Instant::now();
+            work.dx.fill(0.0);
+            for k in 0..work.next.len() {
+                let change = work.next[k] - work.now[k];
+                if change != 0.0 {
+                    work.cables.add_gradient(k, -change, &mut work.dx);
+                }
+            }
+            work.unbalanced = self.gradient.iter().zip(&work.dx).fold(0.0, |m, (g, d)| f64::max(m, (g - d).abs()));
+            question.model.solve(&mut work.dx);
+            let u = &work.solved[(rows + 1) * n..];
+            for (d, u) in work.dx.iter_mut().zip(u) {
+                *d -= u;
+            }
+            work.phases.solves += clock.elapsed().as_secs_f64();
+            if longest(&work.dx) <= most || longest(u) > most || self.nu >= LARGEST_PROXIMAL * work.rho {
+                break;
+            }
+            self.nu *= 4.0;
+        }
+        self.q = q;
+    }
+
+    /// The decrease of `O` that the linearised model promises for the chosen tensions.
+    pub(super) fn promise(&self, work: &mut Workspace) -> f64 {
+        let count = work.now.len();
+        let mut promised = 0.0;
+        for k in 0..count {
+            let (now, next) = (work.now[k], work.next[k]);
+            promised -= (work.linear[k] + 0.5 * work.rho * (next + now)) * (next - now);
+        }
+        for (r, row) in work.residual.iter().zip(work.jacobian.chunks_exact(count.max(1))) {
+            let change: f64 = row.iter().zip(&work.next).zip(&work.now).map(|((j, next), now)| j * (next - now)).sum();
+            promised -= change * (r + 0.5 * change);
+        }
+        promised
+    }
+
+    /// Moves `x` along `dx`, capped before inversion, and leaves the forces there in `gradient`. Returns the step taken.
+    ///
+    /// A full Newton step that balances most forces is taken at once: the forces are needed anyway. Else Armijo on
+    /// `E(.; tau)`.
+    fn search(&mut self, question: &Question, form: HessianForm, work: &mut Workspace) -> f64 {
+        let model = &*question.model;
+        let limit = model.step_limit(&self.x, &work.dx);
+        if limit == 1.0 && form == HessianForm::Exact {
+            for ((p, x), d) in work.trial.iter_mut().zip(&self.x).zip(&work.dx) {
+                *p = x + d;
+            }
+            model.gradient(&work.trial, &mut work.forces_there);
+            if statics::norm(&work.forces_there) <= BALANCING * work.unbalanced {
+                std::mem::swap(&mut self.x, &mut work.trial);
+                std::mem::swap(&mut self.gradient, &mut work.forces_there);
+                return 1.0;
+            }
+        }
+        model.gradient(&self.x, &mut work.forces_there);
+        let slope: f64 = work.forces_there.iter().zip(&work.dx).map(|(g, d)| g * d).sum();
+        let energy = model.energy(&self.x);
+        let noise = 1e-12 * (energy.abs() + model.body.material().shear_modulus() * model.body.area());
+        let mut t = limit;
+        for _ in 0..40 {
+            for ((p, x), d) in work.trial.iter_mut().zip(&self.x).zip(&work.dx) {
+                *p = x + t * d;
+            }
+            let value = model.energy(&work.trial);
+            if value <= energy + 1e-4 * t * slope.min(0.0) + noise {
+                std::mem::swap(&mut self.x, &mut work.trial);
+                model.gradient(&self.x, &mut self.gradient);
+                return t;
+            }
+            t *= 0.5;
+        }
+        std::mem::swap(&mut self.gradient, &mut work.forces_there);
+        0.0
+    }
+
+    /// A Newton step of the statics under the tensions as they are.
+    pub(super) fn balance(&self, work: &mut Workspace) {
+        let rows = work.residual.len();
+        for (d, u) in work.dx.iter_mut().zip(&work.solved[(rows + 1) * self.x.len()..]) {
+            *d = -u;
+        }
+        work.next.copy_from_slice(&work.now);
+        work.unbalanced = statics::norm(&self.gradient);
+    }
+
+    /// Gives the elements the chosen tensions and moves the body; elements that reach or leave a bound change their law there.
+    /// Returns the part of `dx` that was taken and whether any law changed.
+    pub(super) fn take(&mut self, question: &mut Question, form: HessianForm, work: &mut Workspace) -> (f64, bool) {
+        let clock = Instant::now();
+        let elements = &question.model.contractile.elements;
+        for (k, fiber) in self.fibers.iter_mut().enumerate() {
+            fiber.take(&elements[fiber.element], work.cables.lengths[k], work.next[k], work.limits[k]);
+        }
+        self.set_laws(question, work.softness);
+        let step = self.search(question, form, work);
+        let mut changed = false;
+        work.cables.update(&self.x, work.scale);
+        let elements = &question.model.contractile.elements;
+        for (k, fiber) in self.fibers.iter_mut().enumerate() {
+            fiber.follow(&elements[fiber.element], work.cables.lengths[k], work.softness);
+            let (before, prescribed) = (fiber.tension, fiber.held.is_none());
+            changed |= fiber.update(&elements[fiber.element], work.cables.lengths[k]);
+            if prescribed && fiber.tension != before {
+                work.cables.add_gradient(k, fiber.tension - before, &mut self.gradient);
+            }
+        }
+        work.phases.line_search += clock.elapsed().as_secs_f64();
+        (step, changed)
+    }
+}
+
+fn add_row(target: &PointTarget, axis: usize, out: &mut [f64]) {
+    for (&n, w) in target.nodes.iter().zip(&target.weights) {
+        out[2 * n + axis] += target.weight.sqrt() * w;
+    }
+}
+
+/// The longest displacement of a node.
+pub(super) fn longest(dx: &[f64]) -> f64 {
+    dx.chunks_exact(2).map(|d| d[0].hypot(d[1])).fold(0.0, f64::max)
+}

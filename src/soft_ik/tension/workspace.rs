@@ -1,0 +1,80 @@
+//! What runs of the all-at-once method work in: kept between frames, so that a warm one allocates nothing.
+
+use super::cables::Cables;
+use super::dual::Dual;
+use crate::soft_ik::{Phases, Question};
+
+/// Taut stiffness, in shear moduli, up to which an element is a spring wherever it is taut. A prescribed tension has no
+/// stiffness of its own and lets the body buckle where the real cable would not, so a stiffer one is given this stiffness.
+const SOFT: f64 = 10.0;
+
+/// What runs work in.
+pub(in crate::soft_ik) struct Workspace {
+    pub(super) cables: Cables,
+    /// Right-hand sides and solutions, column after column.
+    pub(super) solved: Vec<f64>,
+    /// The solutions for the targets and the rest weights, node by node (see [`Cables::rates`]).
+    pub(super) by_node: Vec<f64>,
+    pub(super) jacobian: Vec<f64>,
+    pub(super) row: Vec<f64>,
+    pub(super) linear: Vec<f64>,
+    pub(super) now: Vec<f64>,
+    pub(super) next: Vec<f64>,
+    pub(super) limits: Vec<[f64; 2]>,
+    pub(super) residual: Vec<f64>,
+    pub(super) dx: Vec<f64>,
+    pub(super) pulled: Vec<f64>,
+    pub(super) trial: Vec<f64>,
+    pub(super) forces_there: Vec<f64>,
+    /// The largest unbalanced force before the step, under the tensions that it chose.
+    pub(super) unbalanced: f64,
+    pub(super) dual: Dual,
+    /// `rho`, never zero.
+    pub(super) rho: f64,
+    /// Taut stiffness up to which an element counts as soft.
+    pub(super) softness: f64,
+    /// Body size: the longer side of the rest box.
+    pub size: f64,
+    /// A length of the elements' order.
+    pub(super) scale: f64,
+    /// The forces at work where the run began; tensions since then may be larger.
+    pub forces: f64,
+    pub phases: Phases,
+}
+
+impl Workspace {
+    pub fn new(question: &Question) -> Self {
+        let elements = &question.model.contractile.elements;
+        let members = question.actuation.winches.iter().map(|w| w.members[0].0);
+        let n = question.model.dimension();
+        let count = question.actuation.winches.len();
+        let rows = 2 * question.objective.targets.len();
+        let mu = question.model.body.material().shear_modulus();
+        let weight = question.objective.tension_weight;
+        let scale = members.clone().map(|e| elements[e].alpha0).fold(0.0, f64::max);
+        Self {
+            cables: Cables::new(members.map(|e| &elements[e])),
+            solved: vec![0.0; n * (rows + 2)],
+            by_node: vec![0.0; n * (rows + 1)],
+            jacobian: vec![0.0; count * rows],
+            row: vec![0.0; rows + 1],
+            linear: vec![0.0; count],
+            now: vec![0.0; count],
+            next: vec![0.0; count],
+            limits: vec![[0.0; 2]; count],
+            residual: vec![0.0; rows],
+            dx: vec![0.0; n],
+            pulled: vec![0.0; n],
+            trial: vec![0.0; n],
+            forces_there: vec![0.0; n],
+            unbalanced: 0.0,
+            dual: Dual::default(),
+            rho: if weight > 0.0 { weight } else { crate::defaults::TENSION_WEIGHT / (mu * mu) },
+            softness: SOFT * mu,
+            size: super::extent(&question.model.rest),
+            scale,
+            forces: 0.0,
+            phases: Phases::default(),
+        }
+    }
+}
