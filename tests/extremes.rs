@@ -94,8 +94,9 @@ fn slow(question: &str) -> String {
             1.0 / 120.0
         ));
     }
-    let pins: Vec<String> =
-        (0..=rows).map(|j| format!(r#"{{"node": {}, "target": [0, {}], "K": 1e3}}"#, at(0, j), j as f64 / 120.0)).collect();
+    let pins: Vec<String> = (0..=rows)
+        .map(|j| format!(r#"{{"node": {}, "target": [0, {}], "K": 1e3}}"#, at(0, j), j as f64 / 120.0))
+        .collect();
     let contractions = vec!["0.004"; columns].join(", ");
     format!(
         r#"{{"format": "plushwright-problem/1", "mesh": {{"nodes": [{}], "triangles": [{}]}},

@@ -35,8 +35,22 @@ fn texts(folder: &str, extension: &str, longest: u64) -> Vec<Vec<u8>> {
 
 /// What replaces a number of a file.
 const NUMBERS: [&str; 16] = [
-    "0", "-0.0", "-1", "1e308", "-1e308", "5e-324", "1e-320", "1e999", "NaN", "null", "18446744073709551616", "0.1", "1e9", "[]",
-    "\"\"", "7",
+    "0",
+    "-0.0",
+    "-1",
+    "1e308",
+    "-1e308",
+    "5e-324",
+    "1e-320",
+    "1e999",
+    "NaN",
+    "null",
+    "18446744073709551616",
+    "0.1",
+    "1e9",
+    "[]",
+    "\"\"",
+    "7",
 ];
 
 /// A few changes: a number becomes another, bytes flip, go or come again.

@@ -4,7 +4,9 @@ use super::error::{CommandError, check_cancel};
 use super::output::{Staged, say, say_json};
 use super::solve::Effort;
 use crate::bench::drags::{Path as DragPath, SWEEP_FRAMES};
-use crate::bench::{BenchError, Quality, Report, Session, cold, drag, extremes, linear, properties, resolution, scene, shapes, trade};
+use crate::bench::{
+    BenchError, Quality, Report, Session, cold, drag, extremes, linear, properties, resolution, scene, shapes, trade,
+};
 use clap::{Args, Subcommand, ValueEnum};
 use std::cell::Cell;
 use std::io::{IsTerminal, Write};
@@ -172,9 +174,7 @@ impl Study {
     /// The report, and what in it fails a bar that was set before.
     fn run(&self, session: &Session) -> Result<(Report, Option<String>), BenchError> {
         match self {
-            Self::Extremes { short, only, .. } => {
-                extremes::Extremes { short: *short, only: only.clone() }.run(session)
-            }
+            Self::Extremes { short, only, .. } => extremes::Extremes { short: *short, only: only.clone() }.run(session),
             Self::Properties { problems, first, .. } => {
                 properties::Properties { problems: *problems, first: *first }.run(session)
             }
@@ -255,7 +255,11 @@ impl Bench {
         if let Some(folder) = &common.out {
             write(&report, folder, cancel)?;
         }
-        if common.json { say_json(out, &report.json())? } else { say(out, &report.text())? }
+        if common.json {
+            say_json(out, &report.json())?
+        } else {
+            say(out, &report.text())?
+        }
         failed.map_or(Ok(()), |what| Err(CommandError::Failed(what)))
     }
 }

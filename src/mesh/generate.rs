@@ -97,7 +97,7 @@ fn with_fibers(outline: &Outline, request: &Request, fibers: usize) -> Result<Me
     let even = even_spacing(outline, fibers);
     if request.mirror && request.tracks.is_empty() {
         let mirrored = symmetry::axis(outline).and_then(|(axis, off)| mirrored(outline, axis, off, even, fibers));
-        if let Some(meshed) = mirrored.filter(|m| m.quality.below_20_deg == 0) {
+        if let Some(meshed) = mirrored.filter(|m| m.quality.below_20_deg == m.quality.corners_below_20_deg) {
             return Ok(meshed);
         }
     }

@@ -22,6 +22,8 @@ pub struct Quality {
     pub mean_min_angle_deg: f64,
     /// Triangles with an angle below 20 degrees.
     pub below_20_deg: usize,
+    /// Those of them whose smallest angle is a corner of the boundary.
+    pub corners_below_20_deg: usize,
     /// Triangles with an angle below 5 degrees that is not a corner of the boundary.
     pub below_5_deg: usize,
     /// Triangles by their smallest angle, in steps of [`HISTOGRAM_STEP_DEG`].
@@ -48,14 +50,16 @@ impl Quality {
         for angle in &angles {
             histogram[((angle / HISTOGRAM_STEP_DEG) as usize).min(HISTOGRAM_BARS - 1)] += 1;
         }
-        let sharp: Vec<usize> = (0..angles.len()).filter(|&t| angles[t] < 5.0).collect();
+        let sharp: Vec<usize> = (0..angles.len()).filter(|&t| angles[t] < 20.0).collect();
         let sides = if sharp.is_empty() { Vec::new() } else { directed(mesh) };
+        let inner: Vec<usize> = sharp.iter().copied().filter(|&t| !is_given(mesh, &sides, t)).collect();
         Self {
             nodes: mesh.nodes.len(),
             triangles: mesh.triangles.len(),
             edges: edges.len(),
             mean_min_angle_deg: angles.iter().sum::<f64>() / angles.len().max(1) as f64,
-            below_5_deg: sharp.into_iter().filter(|&t| !is_given(mesh, &sides, t)).count(),
+            below_5_deg: inner.iter().filter(|&&t| angles[t] < 5.0).count(),
+            corners_below_20_deg: sharp.len() - inner.len(),
             histogram,
             min_angle_deg: least(&angles),
             below_20_deg: angles.iter().filter(|&&a| a < 20.0).count(),

@@ -15,11 +15,9 @@ use super::symmetry::{Axis, Half, unfold};
 use super::{Mesh, generate, smooth, tracks};
 use crate::outline::{Outline, Point};
 
-/// Boundary spacings tried, relative to the evenly dense one, for small meshes and for large ones, where the boundary is
-/// few of the nodes and the even spacing is good.
+/// Boundary spacings tried, relative to the evenly dense one.
 const SPACINGS: [f64; 18] =
     [1.0, 1.08, 0.94, 1.16, 1.24, 1.04, 1.12, 1.2, 0.97, 1.02, 1.06, 1.1, 1.14, 1.18, 0.91, 1.3, 1.37, 1.5];
-const SPACINGS_LARGE: [f64; 1] = [1.0];
 /// How the nodes inside are shared out, tried in turn while the body is one triangle across somewhere: a coarser trunk leaves
 /// more nodes for the limbs.
 const FILLS: [Fill; 3] = [
@@ -27,8 +25,11 @@ const FILLS: [Fill; 3] = [
     Fill { coarsest: 1.25, limbs: 1.35, narrow: 1.5 },
     Fill { coarsest: 1.6, limbs: 1.8, narrow: 1.25 },
 ];
-/// Fibres from which a mesh is large.
-const LARGE: usize = 3000;
+/// Attempts times fibres after which the best mesh so far is taken, and the fewest and most attempts: some tens of
+/// milliseconds.
+const PATIENCE: usize = 16_000;
+const LEAST_TRIES: usize = 1;
+const MOST_TRIES: usize = 40;
 /// A mesh without bridges and with no angle below this is taken at once, degrees.
 const FINE_DEG: f64 = 30.5;
 /// Farthest that a chord may stray from the outline, as fractions of its height, tried in turn: with few fibres fine features
@@ -73,6 +74,11 @@ struct Candidate {
 }
 
 impl Candidate {
+    /// Whether every angle below 20 degrees is one of the outline's own.
+    fn is_good(&self) -> bool {
+        self.quality.below_20_deg == self.quality.corners_below_20_deg
+    }
+
     /// Whether no better one need be sought.
     fn is_fine(&self, fibers: usize) -> bool {
         let q = &self.quality;
@@ -130,13 +136,17 @@ impl<'a> Subject<'a> {
     }
 
     /// Tries boundary spacings about the even one, and coarser ones where the boundary's own features ask for many nodes;
-    /// whether a mesh without poor triangles was among them.
+    /// whether a mesh without poor triangles was among them. Once there is one, no more than [`PATIENCE`] are tried.
     fn search(&self, even: f64, fibers: usize, close: Closeness, found: &mut Vec<Candidate>) -> bool {
-        let spacings: &[f64] = if fibers < LARGE { &SPACINGS } else { &SPACINGS_LARGE };
-        let good = |found: &[Candidate]| found.iter().any(|c| c.quality.below_20_deg == 0);
+        let mut patience = (PATIENCE / fibers.max(1)).clamp(LEAST_TRIES, MOST_TRIES);
+        let good = |found: &[Candidate]| found.iter().any(Candidate::is_good);
         let before = found.len();
-        'tried: for factor in spacings {
+        'tried: for factor in SPACINGS {
             for fill in FILLS {
+                if patience == 0 && good(found) {
+                    return true;
+                }
+                patience = patience.saturating_sub(1);
                 let candidate = self.attempt(factor * even, fill, fibers, close);
                 if candidate.is_none() && found.len() == before {
                     // Not even at the spacing meant for it: there is no need to look closely.
@@ -145,9 +155,6 @@ impl<'a> Subject<'a> {
                 found.extend(candidate);
                 if found.last().is_some_and(|c| c.is_fine(fibers)) {
                     found.drain(..found.len() - 1);
-                    return true;
-                }
-                if spacings.len() == 1 && good(found) {
                     return true;
                 }
             }
@@ -245,7 +252,8 @@ fn best(candidates: Vec<Candidate>, fibers: usize) -> Option<(Mesh, Quality)> {
     };
     let order = |a: &Quality, b: &Quality| {
         let other = |q: &Quality| q.edges != fibers;
-        a.below_20_deg.cmp(&b.below_20_deg).then(other(a).cmp(&other(b))).then(unwanted(a).total_cmp(&unwanted(b)))
+        let poor = |q: &Quality| q.below_20_deg - q.corners_below_20_deg;
+        poor(a).cmp(&poor(b)).then(other(a).cmp(&other(b))).then(unwanted(a).total_cmp(&unwanted(b)))
     };
     candidates.into_iter().min_by(|a, b| order(&a.quality, &b.quality)).map(|c| (c.mesh, c.quality))
 }

@@ -87,12 +87,7 @@ impl Body {
         let [i, j, l] = self.triangles[k];
         let (px, py) = (x[2 * j] - x[2 * i], x[2 * j + 1] - x[2 * i + 1]);
         let (qx, qy) = (x[2 * l] - x[2 * i], x[2 * l + 1] - x[2 * i + 1]);
-        Matrix2::new(
-            px * b[0] + qx * c[0],
-            px * b[1] + qx * c[1],
-            py * b[0] + qy * c[0],
-            py * b[1] + qy * c[1],
-        )
+        Matrix2::new(px * b[0] + qx * c[0], px * b[1] + qx * c[1], py * b[0] + qy * c[0], py * b[1] + qy * c[1])
     }
 
     /// The gradient at coordinates of two words, for [`super::refine`].

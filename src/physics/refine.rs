@@ -98,9 +98,11 @@ fn evaluate(model: &Model, state: &[Double], x: &[f64], gradient: &mut [f64], sc
     let mut pins = Vec::with_capacity(model.pins.pins.len());
     for pin in &model.pins.pins {
         let force = [0, 1].map(|axis| {
-            let at = pin.nodes.iter().zip(&pin.weights).fold(Double::ZERO, |sum, (n, w)| {
-                sum + state[2 * n + axis] * Double::from(*w)
-            });
+            let at = pin
+                .nodes
+                .iter()
+                .zip(&pin.weights)
+                .fold(Double::ZERO, |sum, (n, w)| sum + state[2 * n + axis] * Double::from(*w));
             pin.stiffness * (Double::from(pin.anchor[axis]) - at).value()
         });
         for (&n, w) in pin.nodes.iter().zip(&pin.weights) {

@@ -4,9 +4,7 @@ use super::equilibrium::{Statics, settle};
 use super::failure::{Failure, Part};
 use super::file::{DragData, Problem, ProblemError};
 use super::frame::Frame;
-use crate::physics::{
-    Body, Cause, Contractile, Element, Energy, Gravity, Model, ModelError, NeoHookean, Pin, Pins,
-};
+use crate::physics::{Body, Cause, Contractile, Element, Energy, Gravity, Model, ModelError, NeoHookean, Pin, Pins};
 use crate::soft_ik::{
     self, Actuation, Budget, Objective, PointTarget, Quality, Question, Tracker, Winch, default_method, sensitivity,
 };

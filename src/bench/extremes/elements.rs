@@ -8,7 +8,16 @@ use crate::problem::Problem;
 const GROUP: &str = "elements";
 
 pub fn rows(short: bool) -> Vec<Row> {
-    vec![stiffness(short), smoothing(short), both(short), contraction(short), slack(short), folded(short), degenerate(), gap(short)]
+    vec![
+        stiffness(short),
+        smoothing(short),
+        both(short),
+        contraction(short),
+        slack(short),
+        folded(short),
+        degenerate(),
+        gap(short),
+    ]
 }
 
 /// The square with a fibre on its diagonal.
@@ -101,7 +110,12 @@ fn slack(short: bool) -> Row {
             off.fold(0.0, f64::max) / size
         })
     };
-    Row { group: GROUP, name: "slack everywhere", swept: "contraction / length", cases: parts.iter().map(case).collect() }
+    Row {
+        group: GROUP,
+        name: "slack everywhere",
+        swept: "contraction / length",
+        cases: parts.iter().map(case).collect(),
+    }
 }
 
 /// Routings that run to and fro, and through a node several times.
@@ -118,7 +132,12 @@ fn folded(short: bool) -> Row {
         fiber(&mut problem, routing, 0.2);
         Case::solved(name, problem)
     };
-    Row { group: GROUP, name: "routing folds back", swept: "routing", cases: routings[..count].iter().map(case).collect() }
+    Row {
+        group: GROUP,
+        name: "routing folds back",
+        swept: "routing",
+        cases: routings[..count].iter().map(case).collect(),
+    }
 }
 
 /// Segments without a length or a direction.

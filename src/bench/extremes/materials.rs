@@ -8,7 +8,14 @@ use crate::problem::Problem;
 const GROUP: &str = "material";
 
 pub fn rows(short: bool) -> Vec<Row> {
-    vec![incompressible_square(short), incompressible_arm(short), compressed(short), stretched(short), sheared(short), inverted(short)]
+    vec![
+        incompressible_square(short),
+        incompressible_arm(short),
+        compressed(short),
+        stretched(short),
+        sheared(short),
+        inverted(short),
+    ]
 }
 
 /// Every decade, or the ends and the middle of a shortened table.
@@ -64,8 +71,7 @@ fn patch(f: [[f64; 2]; 2], at: String) -> Case {
 
 fn compressed(short: bool) -> Row {
     let parts: &[f64] = if short { &[0.5, 0.1] } else { &[0.9, 0.7, 0.5, 0.3, 0.2, 0.1] };
-    let mut cases: Vec<Case> =
-        parts.iter().map(|&s| patch([[s, 0.0], [0.0, 1.0]], format!("{s} along x"))).collect();
+    let mut cases: Vec<Case> = parts.iter().map(|&s| patch([[s, 0.0], [0.0, 1.0]], format!("{s} along x"))).collect();
     cases.extend(parts.iter().map(|&s| patch([[s, 0.0], [0.0, s]], format!("{s} both ways"))));
     cases.extend(parts.iter().map(|&s| pressed_arm(s)));
     Row { group: GROUP, name: "compression", swept: "stretch", cases }
@@ -73,8 +79,7 @@ fn compressed(short: bool) -> Row {
 
 fn stretched(short: bool) -> Row {
     let parts: &[f64] = if short { &[2.0, 10.0] } else { &[1.5, 2.0, 4.0, 7.0, 10.0] };
-    let mut cases: Vec<Case> =
-        parts.iter().map(|&s| patch([[s, 0.0], [0.0, 1.0]], format!("{s} along x"))).collect();
+    let mut cases: Vec<Case> = parts.iter().map(|&s| patch([[s, 0.0], [0.0, 1.0]], format!("{s} along x"))).collect();
     cases.extend(parts.iter().map(|&s| pressed_arm(s)));
     Row { group: GROUP, name: "stretch", swept: "stretch", cases }
 }

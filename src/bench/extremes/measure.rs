@@ -149,9 +149,8 @@ fn unsound(state: &Statics) -> Option<String> {
 
 /// Free rigid motions, 3 for a piece without a pin and 1 about a single one; and the number of pieces.
 fn rigid_motions(problem: &Problem) -> (usize, usize) {
-    let motions = |m: crate::physics::Model| {
-        (m.loose().iter().map(|l| if l.pinned == 0 { 3 } else { 1 }).sum(), m.pieces())
-    };
+    let motions =
+        |m: crate::physics::Model| (m.loose().iter().map(|l| if l.pinned == 0 { 3 } else { 1 }).sum(), m.pieces());
     answer::model(problem).map_or((0, 1), motions)
 }
 

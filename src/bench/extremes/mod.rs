@@ -131,7 +131,20 @@ fn summary(judged: &[Judged]) -> Table {
     let mut table = Table::new(
         "extremes",
         "Rows, the worst of their cases",
-        &["group", "row", "swept", "cases", "iterations", "factors", "projections", "det F", "residual", "lost digits", "condition", "pass"],
+        &[
+            "group",
+            "row",
+            "swept",
+            "cases",
+            "iterations",
+            "factors",
+            "projections",
+            "det F",
+            "residual",
+            "lost digits",
+            "condition",
+            "pass",
+        ],
     );
     for j in judged {
         let most = |of: fn(&Outcome) -> usize| j.outcomes.iter().map(|(o, _)| of(o)).max().unwrap_or(0);
@@ -170,7 +183,21 @@ fn details(judged: &[Judged]) -> Table {
     let mut table = Table::new(
         "cases",
         "Cases",
-        &["row", "at", "iterations", "factors", "projections", "det F", "residual", "error", "lost digits", "condition", "target error", "ms", "outcome"],
+        &[
+            "row",
+            "at",
+            "iterations",
+            "factors",
+            "projections",
+            "det F",
+            "residual",
+            "error",
+            "lost digits",
+            "condition",
+            "target error",
+            "ms",
+            "outcome",
+        ],
     );
     for j in judged {
         for (case, (o, short)) in j.row.cases.iter().zip(&j.outcomes) {

@@ -93,7 +93,8 @@ pub fn rest_length(problem: &Problem, routing: &[usize]) -> f64 {
 pub fn fiber(problem: &mut Problem, routing: &[usize], part: f64) {
     let length = rest_length(problem, routing);
     let winch = problem.elements.len() as i64;
-    let data = ElementData { routing: routing.to_vec(), stiffness: FIBER, epsilon: EPSILON * length, alpha0: length, winch };
+    let data =
+        ElementData { routing: routing.to_vec(), stiffness: FIBER, epsilon: EPSILON * length, alpha0: length, winch };
     problem.elements.push(data);
     problem.contractions.get_or_insert_default().push(part * length);
 }
@@ -143,8 +144,7 @@ fn area(problem: &Problem, t: &[usize; 3]) -> f64 {
 /// Targets at rest, without any weight towards rest elsewhere but a little.
 pub fn aim(problem: &mut Problem, nodes: &[usize]) {
     let targets = nodes.iter().map(|&node| TargetData { node, xy: problem.mesh.nodes[node], weight: 1.0 });
-    problem.objective =
-        Some(ObjectiveData { targets: targets.collect(), default_weight: 1e-4, regulariser: 0.0 });
+    problem.objective = Some(ObjectiveData { targets: targets.collect(), default_weight: 1e-4, regulariser: 0.0 });
 }
 
 /// Everything in other units of length, at another place.

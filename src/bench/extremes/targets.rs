@@ -47,10 +47,8 @@ fn cables(targets: &[usize]) -> Problem {
 fn dragged(mut problem: Problem, offsets: Vec<Vec<[f64; 2]>>) -> Problem {
     let targets = problem.objective.iter().flat_map(|o| &o.targets);
     let home: Vec<[f64; 2]> = targets.map(|t| problem.mesh.nodes[t.node]).collect();
-    let frames: Vec<Vec<[f64; 2]>> = offsets
-        .iter()
-        .map(|frame| home.iter().zip(frame).map(|(h, o)| [h[0] + o[0], h[1] + o[1]]).collect())
-        .collect();
+    let frames: Vec<Vec<[f64; 2]>> =
+        offsets.iter().map(|frame| home.iter().zip(frame).map(|(h, o)| [h[0] + o[0], h[1] + o[1]]).collect()).collect();
     let report = (0..frames.len()).collect();
     problem.drag = Some(DragData { frames, report, tension_regulariser: TENSION_WEIGHT });
     problem
@@ -63,7 +61,8 @@ fn excursion(distance: f64, targets: usize) -> Vec<Vec<[f64; 2]>> {
         [distance * part * turned.cos(), distance * part * turned.sin()]
     };
     let all = |angle: f64, part: f64| (0..targets).map(|k| spot(angle, part, k)).collect();
-    let mut frames: Vec<Vec<[f64; 2]>> = vec![all(0.3, 0.1), all(0.5, 1.0), all(1.5, 1.0), all(3.0, 1.0), all(4.5, 0.5)];
+    let mut frames: Vec<Vec<[f64; 2]>> =
+        vec![all(0.3, 0.1), all(0.5, 1.0), all(1.5, 1.0), all(3.0, 1.0), all(4.5, 0.5)];
     frames.extend((0..10).map(|_| vec![[0.0; 2]; targets]));
     frames
 }
@@ -103,7 +102,11 @@ fn too_many(short: bool) -> Row {
         let away: Vec<[f64; 2]> = (0..every.len()).map(|k| wave(k, 1.0)).collect();
         let mut frames = vec![away; 4];
         frames.extend(vec![vec![[0.0; 2]; every.len()]; 8]);
-        cases.push(Case::posed(format!("{distance:e}, all nodes, fibres"), dragged(muscles(&every), frames.clone()), 0.02));
+        cases.push(Case::posed(
+            format!("{distance:e}, all nodes, fibres"),
+            dragged(muscles(&every), frames.clone()),
+            0.02,
+        ));
         cases.push(Case::posed(format!("{distance:e}, all nodes, two winches"), dragged(cables(&every), frames), 0.02));
     }
     Row { group: GROUP, name: "more targets than freedoms", swept: "distance, body lengths", cases }

@@ -88,9 +88,10 @@ fn show(solver: &mut Solver, design: &Arc<Design>, random: &mut Random) -> Resul
     };
     let outcome = solver.solve(&request, &AtomicBool::new(false));
     let shapes = [("idealized", outcome.idealized), ("realizable", outcome.realizable)];
-    shapes.iter().filter_map(|(name, shape)| Some((name, shape.as_ref()?))).try_for_each(|(name, shape)| {
-        sound(design, shape).map_err(|what| format!("{name}: {what}"))
-    })
+    shapes
+        .iter()
+        .filter_map(|(name, shape)| Some((name, shape.as_ref()?)))
+        .try_for_each(|(name, shape)| sound(design, shape).map_err(|what| format!("{name}: {what}")))
 }
 
 fn sound(design: &Design, shape: &Shape) -> Result<(), String> {
@@ -143,7 +144,8 @@ fn change(random: &mut Random, design: &mut Design) -> Result<(), EditError> {
     match random.index(20) {
         0 | 1 => {
             let position = (random.index(3) == 0).then(|| [random.between(-50.0, 150.0), random.between(-50.0, 150.0)]);
-            let stiffness = if random.index(4) == 0 { 10f64.powf(random.between(-6.0, 12.0)) } else { random.between(-1.0, 30.0) };
+            let stiffness =
+                if random.index(4) == 0 { 10f64.powf(random.between(-6.0, 12.0)) } else { random.between(-1.0, 30.0) };
             edit::add_pin(design, Pin { at: point(random, &design.mesh), position, stiffness }).map(drop)
         }
         2 => edit::remove_pin(design, index).map(drop),
@@ -162,7 +164,8 @@ fn change(random: &mut Random, design: &mut Design) -> Result<(), EditError> {
         14 => {
             let activations_mm = design.networks.iter().map(|_| random.between(0.0, 20.0)).collect();
             let pose = design.poses.get(index).map(|p| p.name.clone());
-            let (time_s, easing) = (0.25 * random.index(20) as f64, [Easing::Linear, Easing::Smooth, Easing::Hold][index]);
+            let (time_s, easing) =
+                (0.25 * random.index(20) as f64, [Easing::Linear, Easing::Smooth, Easing::Hold][index]);
             edit::set_keyframe(design, Keyframe { time_s, activations_mm, pose, easing }).map(drop)
         }
         15 => edit::move_keyframe(design, index, 0.25 * random.index(20) as f64).map(drop),

@@ -104,10 +104,12 @@ fn elements(random: &mut Random, problem: &mut Problem) {
             routing.push((last + 1 + random.index(nodes - 1)) % nodes);
         }
         let length = super::super::extremes::scenes::rest_length(problem, &routing);
-        let stiffness = problem.material.mu * if chance(random, 0.3) { power(random, -3.0, 9.0) } else { random.between(0.0, 5.0) };
+        let stiffness =
+            problem.material.mu * if chance(random, 0.3) { power(random, -3.0, 9.0) } else { random.between(0.0, 5.0) };
         let epsilon = length * if chance(random, 0.3) { power(random, -9.0, -1.0) } else { 1e-2 };
         let alpha0 = length * if chance(random, 0.2) { random.between(0.1, 2.0) } else { 1.0 };
-        contractions.push(alpha0 * if chance(random, 0.2) { random.between(-1.0, 1.3) } else { random.between(0.0, 0.4) });
+        contractions
+            .push(alpha0 * if chance(random, 0.2) { random.between(-1.0, 1.3) } else { random.between(0.0, 0.4) });
         let winch = if chance(random, 0.3) { random.index(3) as i64 } else { k as i64 + 10 };
         problem.elements.push(ElementData { routing, stiffness, epsilon, alpha0, winch });
     }
