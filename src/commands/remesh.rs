@@ -12,7 +12,7 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
-/// Parts that moved farther than this fraction of the farthest are named one by one.
+/// How many of the parts that moved farthest are named.
 const NAMED: usize = 5;
 
 /// Change the resolution of a design; keep its pins, poses, networks and keyframes

@@ -55,7 +55,8 @@ pub struct Meshed {
 /// outline gives a symmetric mesh. The same outline gives the same bits. About n log n in the number of fibres.
 ///
 /// # Errors
-/// [`MeshError::Unreachable`] names the least count found possible where the outline needs more edges than asked for.
+/// [`MeshError::Unreachable`] names the least count found possible where the outline needs more edges than asked for;
+/// [`MeshError::TooFine`] where none was found.
 pub fn generate(outline: &Outline, fibers: usize) -> Result<Mesh, MeshError> {
     build(outline, &Request::fibers(fibers)).map(|meshed| meshed.mesh)
 }
@@ -106,7 +107,10 @@ fn with_fibers(outline: &Outline, request: &Request, fibers: usize) -> Result<Me
     if let Some((mesh, quality)) = subject.mesh(even, fibers) {
         return Ok(Meshed { mesh, quality, axis: None });
     }
-    Err(MeshError::Unreachable { asked: fibers, nearest: nearest(&subject, fibers) })
+    Err(match nearest(&subject, fibers) {
+        Some(nearest) => MeshError::Unreachable { asked: fibers, nearest },
+        None => MeshError::TooFine { most: MAX_FIBERS },
+    })
 }
 
 /// A mesh of the outline made of one half and its image.
@@ -124,21 +128,21 @@ fn check(outline: &Outline) -> Result<(), MeshError> {
     if finite && sound && outline.area() > 0.0 { Ok(()) } else { Err(MeshError::BadOutline) }
 }
 
-/// The least count above `asked` that was found to give a mesh; [`MAX_FIBERS`] if none was found.
-fn nearest(subject: &Subject, asked: usize) -> usize {
+/// The least count above `asked` that was found to give a mesh.
+fn nearest(subject: &Subject, asked: usize) -> Option<usize> {
     let most = (NEAREST_MOST * asked.max(100)).min(MAX_FIBERS);
     let least = subject.least_edges(asked, most).or_else(|| subject.least_edges(most, MAX_FIBERS));
-    let mut count = least.unwrap_or(MAX_FIBERS).max(asked + 1);
+    let mut count = least?.max(asked + 1);
     for _ in 0..NEAREST_STEPS {
-        if count >= MAX_FIBERS {
+        if count > MAX_FIBERS {
             break;
         }
         if let Some((_, quality)) = subject.mesh(subject.even(count), count) {
-            return quality.edges.max(count);
+            return Some(quality.edges.max(count));
         }
         count += (count / 12).max(1);
     }
-    MAX_FIBERS
+    None
 }
 
 /// Puts triangles in the order of their nodes, each with its smallest first.

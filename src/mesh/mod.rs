@@ -49,8 +49,10 @@ pub enum MeshError {
     BadOutline,
     #[error("a tendon track is not finite")]
     BadTrack,
-    #[error("no mesh of this outline has {asked} muscle fibres; the smallest count found for it is {nearest}")]
+    #[error("no mesh of this outline has {asked} muscle fibres; the nearest count found possible is {nearest}")]
     Unreachable { asked: usize, nearest: usize },
+    #[error("the outline is too fine to be meshed: not even {most} muscle fibres give good triangles")]
+    TooFine { most: usize },
     #[error("the mesh has no triangles")]
     Empty,
     #[error("node {node} of the mesh is not finite")]
