@@ -4,8 +4,8 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-const COMMANDS: [&str; 11] =
-    ["demo", "new", "pose", "rig", "key", "check", "export", "render", "solve", "discover", "bench"];
+const COMMANDS: [&str; 13] =
+    ["demo", "new", "mesh", "remesh", "pose", "rig", "key", "check", "export", "render", "solve", "discover", "bench"];
 
 /// A bar that is wide enough for a few dozen fibres.
 const OUTLINE: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" width="120mm" height="40mm" viewBox="0 0 120 40">
@@ -364,4 +364,26 @@ fn studies_print_tables_and_leave_csv_and_plots() {
     let line = fail(here, 2, &["bench", "cold", "--shapes", "cow", "--out", "cold"]);
     assert!(line.contains("cow") && line.contains("pig"), "{line}");
     assert_eq!(names(here), ["linear"]);
+}
+
+#[test]
+fn a_mesh_is_measured_and_changed() {
+    let folder = bar();
+    let here = folder.path();
+    let text = succeed(here, &["mesh", "bar.plush", "-o", "mesh.png", "--size", "320x160"]);
+    assert!(text.contains("smallest angle") && text.contains("mirror images of themselves"), "{text}");
+    assert!(fs::read(here.join("mesh.png")).unwrap().starts_with(b"\x89PNG"));
+    let figures: serde_json::Value = serde_json::from_str(&succeed(here, &["mesh", "bar.plush", "--json"])).unwrap();
+    assert_eq!((&figures["fibers"], &figures["symmetric_mesh"]), (&60.into(), &true.into()));
+
+    let text = succeed(here, &["remesh", "bar.plush", "-o", "fine.plush", "--fibers", "200"]);
+    assert!(text.contains("fibers 60 -> 200"), "{text}");
+    succeed(here, &["remesh", "bar.plush", "-o", "both.plush", "--fibers", "60", "--finer", "2", "--json"]);
+    let figures: serde_json::Value = serde_json::from_str(&succeed(here, &["mesh", "both.plush", "--json"])).unwrap();
+    assert_eq!(figures["fibers"], 60);
+    assert!(figures["quality"]["edges"].as_u64().unwrap() > 200);
+    let track = ["remesh", "bar.plush", "-o", "track.plush", "--edge", "8", "--track", "10,20 110,20"];
+    assert!(succeed(here, &track).contains("track.plush"));
+    assert!(fail(here, 2, &["remesh", "bar.plush", "-o", "no.plush"]).contains("--fibers"));
+    assert!(!here.join("no.plush").exists());
 }

@@ -109,7 +109,8 @@ fn mutilated_problem_files_are_refused_or_answered() {
     let options = Options { budget: Duration::from_millis(40), all: true, ..Options::default() };
     for number in 0..1000 {
         let mut random = Random::of(5, "problem text", number);
-        let text = mutated(&mut random, &files[random.clone().index(files.len())]);
+        let chosen = random.index(files.len());
+        let text = mutated(&mut random, &files[chosen]);
         let Ok((problem, _)) = read(&text) else {
             refused += 1;
             continue;
@@ -130,7 +131,8 @@ fn mutilated_design_files_are_refused_or_whole() {
     let (mut refused, mut read) = (0, 0);
     for number in 0..150 {
         let mut random = Random::of(5, "design text", number);
-        let text = mutated(&mut random, &files[random.clone().index(files.len())]);
+        let chosen = random.index(files.len());
+        let text = mutated(&mut random, &files[chosen]);
         match file::parse(&text) {
             Err(error) => {
                 assert!(!error.to_string().is_empty());

@@ -12,10 +12,12 @@ pub mod document;
 pub mod error;
 mod export;
 mod key;
+mod mesh;
 mod new;
 mod output;
 mod place;
 mod pose;
+mod remesh;
 mod render;
 mod rig;
 mod solve;
@@ -55,6 +57,8 @@ pub struct Cli {
 pub enum Command {
     Demo(demo::Demo),
     New(new::New),
+    Mesh(mesh::MeshCommand),
+    Remesh(remesh::Remesh),
     Pose(pose::Pose),
     Rig(rig::Rig),
     Key(key::Key),
@@ -76,6 +80,8 @@ pub fn run(command: &Command, out: &mut dyn Write, cancel: &AtomicBool) -> Resul
     match command {
         Command::Demo(command) => command.run(out, cancel),
         Command::New(command) => command.run(out, cancel),
+        Command::Mesh(command) => command.run(out, cancel),
+        Command::Remesh(command) => command.run(out, cancel),
         Command::Pose(command) => command.run(out, cancel),
         Command::Rig(command) => command.run(out, cancel),
         Command::Key(command) => command.run(out, cancel),

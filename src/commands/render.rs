@@ -83,7 +83,7 @@ pub fn picture(
 }
 
 /// Reads `WxH`.
-fn parse_size(text: &str) -> Result<(u32, u32), String> {
+pub fn parse_size(text: &str) -> Result<(u32, u32), String> {
     let explain = || format!("expected WxH in pixels, each from 16 to 8192, found `{text}`");
     let number = |part: &str| part.parse::<u32>().ok().filter(|n| (16..=8192).contains(n)).ok_or_else(explain);
     let (width, height) = text.split_once('x').ok_or_else(explain)?;

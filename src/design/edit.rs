@@ -8,6 +8,7 @@ use super::{
     ControllerSettings, Design, DesignError, FabricationSettings, FiberSettings, Gravity, Keyframe, Material, Network,
     Pin, Pose, Target, TendonSettings, validate,
 };
+use crate::mesh::MeshError;
 use crate::outline::Point;
 use thiserror::Error;
 
@@ -26,6 +27,8 @@ pub enum EditError {
     TimeTaken(f64),
     #[error("no gesture is running")]
     NoGesture,
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
 }
 
 /// Adds a pin; its index.

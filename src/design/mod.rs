@@ -10,6 +10,7 @@ pub mod edit;
 pub mod file;
 pub mod history;
 mod problem;
+pub mod remesh;
 mod settings;
 #[cfg(test)]
 pub(crate) mod testing;
@@ -181,6 +182,14 @@ impl Design {
         match &self.fibers.set {
             FiberSet::Edges => self.mesh.edges().into_iter().map(Vec::from).collect(),
             FiberSet::Routings(routings) => routings.clone(),
+        }
+    }
+
+    /// Number of fibres if `mesh` were the design's mesh.
+    pub(crate) fn fiber_count_on(&self, mesh: &Mesh) -> usize {
+        match &self.fibers.set {
+            FiberSet::Edges => mesh.edges().len(),
+            FiberSet::Routings(routings) => routings.len(),
         }
     }
 

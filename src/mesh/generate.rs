@@ -1,68 +1,125 @@
-//! Outline to triangle mesh with a given number of edges.
-//!
-//! A triangulation with `B` boundary nodes, `I` interior nodes and `H` holes has `E = 2 B + 3 I - 3 + 3 H` edges (Euler:
-//! `V - E + T = 1 - H`, and `3 T = 2 E - B`). So once the boundary is sampled, the number of interior nodes for the
-//! asked edge count follows, and no search for a mesh size is needed; a node or two more on the boundary make the
-//! division by three come out. What is searched is the spacing along the boundary, among a few about the one at which
-//! boundary and interior would be equally dense, for the mesh with the best triangles.
+//! Outline to triangle mesh: what can be asked for, and the refusal of what cannot be.
 
 use super::quality::Quality;
-use super::{Mesh, MeshError, fill, sample, smooth};
-use crate::outline::Outline;
+use super::search::{Pool, Subject, even_spacing};
+use super::symmetry::{self, Axis};
+use super::{Mesh, MeshError};
+use crate::outline::{Outline, Point};
 
 /// Most muscle fibres that are meshed: far beyond what a pose could be solved with.
 pub const MAX_FIBERS: usize = 200_000;
-/// Boundary spacings tried, relative to the evenly dense one, for small meshes and for large ones, where the boundary is
-/// few of the nodes and the even spacing is good.
-const SPACINGS: [f64; 12] = [1.0, 0.94, 1.06, 0.88, 1.12, 0.97, 1.03, 1.18, 1.24, 1.3, 1.09, 1.15];
-const SPACINGS_LARGE: [f64; 1] = [1.0];
-/// Longest wanted edges inside, in boundary spacings, tried in turn while the body is one triangle across somewhere: a
-/// coarser trunk leaves more nodes for the limbs.
-const COARSEST: [f64; 3] = [1.25, 1.5, 1.8];
-/// Fibres from which a mesh is large.
-const LARGE: usize = 3000;
-/// Steps of 2 % taken upward to find a possible count: a factor of 3.3.
-const NEAREST_STEPS: usize = 60;
-/// Number of spacings tried where the boundary alone has too many edges at those, and the factor from one to the next.
-const COARSER: i32 = 40;
-const COARSENING: f64 = 1.12;
+/// Steps of a twelfth taken upward from the edges that good angles need alone, to find a count that smoothing and the search
+/// reach as well: 1.6 times in all.
+const NEAREST_STEPS: usize = 6;
+/// Largest multiple of the asked count that is looked for instead, at first.
+const NEAREST_MOST: usize = 10;
 
-/// A mesh of the outline with `fibers` edges, exactly so where nothing stands in the way.
+/// What mesh is wanted.
+#[derive(Clone, Debug)]
+pub struct Request {
+    pub size: Size,
+    /// Polylines inside the body, mm, along which edges shall run, so that a thread can follow them.
+    pub tracks: Vec<Vec<Point>>,
+    /// Whether an outline that is its own mirror image gets a mesh that is one too.
+    pub mirror: bool,
+}
+
+/// How fine a mesh is wanted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Size {
+    /// Number of edges: the muscle fibres.
+    Fibers(usize),
+    /// Typical length of an edge, mm.
+    EdgeMm(f64),
+}
+
+impl Request {
+    pub fn fibers(fibers: usize) -> Self {
+        Self { size: Size::Fibers(fibers), tracks: Vec::new(), mirror: true }
+    }
+}
+
+/// A mesh and how it came out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Meshed {
+    pub mesh: Mesh,
+    pub quality: Quality,
+    /// The axis about which the mesh is its own mirror image, if it was made so.
+    pub axis: Option<Axis>,
+}
+
+/// A mesh of the outline with `fibers` edges: exactly so, or within 3 % where nothing comes out even.
 ///
-/// Boundary nodes lie on the outline, its corners are nodes, the area is kept within 1 %, and triangles are as near to
-/// equilateral as the outline permits. The same outline gives the same bits. About n log n in the number of fibres.
+/// Boundary nodes lie on the outline and its corners are nodes; area is kept within 1 %, the boundary within 0.5 % of the
+/// height where there are fibres enough, and triangles are as near to equilateral as the outline permits. A symmetric
+/// outline gives a symmetric mesh. The same outline gives the same bits. About n log n in the number of fibres.
 ///
 /// # Errors
-/// [`MeshError::Unreachable`] names the nearest possible count where the outline needs more edges than asked for.
+/// [`MeshError::Unreachable`] names the least count found possible where the outline needs more edges than asked for;
+/// [`MeshError::TooFine`] where none was found.
 pub fn generate(outline: &Outline, fibers: usize) -> Result<Mesh, MeshError> {
+    build(outline, &Request::fibers(fibers)).map(|meshed| meshed.mesh)
+}
+
+/// The mesh that is asked for. See [`generate()`].
+///
+/// # Errors
+/// As [`generate()`]; a size in mm that is too coarse for the outline gives the coarsest mesh there is instead.
+pub fn build(outline: &Outline, request: &Request) -> Result<Meshed, MeshError> {
     check(outline)?;
+    if !request.tracks.iter().flatten().flatten().all(|v| v.is_finite()) {
+        return Err(MeshError::BadTrack);
+    }
+    match request.size {
+        Size::Fibers(fibers) => with_fibers(outline, request, fibers),
+        Size::EdgeMm(length) => {
+            let fibers = fibers_of_length(outline, length);
+            match with_fibers(outline, request, fibers) {
+                Err(MeshError::Unreachable { asked, nearest }) if asked < nearest => {
+                    with_fibers(outline, request, nearest)
+                }
+                other => other,
+            }
+        }
+    }
+}
+
+/// About how many edges a mesh with edges of this length has.
+fn fibers_of_length(outline: &Outline, length: f64) -> usize {
+    let triangles = outline.area() / (0.25 * 3.0_f64.sqrt() * length * length);
+    let count = 0.5 * (3.0 * triangles + outline.perimeter() / length);
+    if count.is_finite() { (count.round() as usize).clamp(3, MAX_FIBERS) } else { MAX_FIBERS + 1 }
+}
+
+fn with_fibers(outline: &Outline, request: &Request, fibers: usize) -> Result<Meshed, MeshError> {
     if fibers > MAX_FIBERS {
         return Err(MeshError::Unreachable { asked: fibers, nearest: MAX_FIBERS });
     }
-    if let Some(mesh) = with_count(outline, fibers) {
-        return Ok(mesh);
-    }
-    Err(MeshError::Unreachable { asked: fibers, nearest: nearest(outline, fibers) })
-}
-
-/// The best mesh found that has exactly `fibers` edges.
-fn with_count(outline: &Outline, fibers: usize) -> Option<Mesh> {
     let even = even_spacing(outline, fibers);
-    let spacings: &[f64] = if fibers < LARGE { &SPACINGS } else { &SPACINGS_LARGE };
-    let mut found: Vec<Candidate> = Vec::new();
-    for coarsest in COARSEST {
-        found.extend(spacings.iter().filter_map(|factor| attempt(outline, fibers, factor * even, coarsest)));
-        if found.is_empty() || found.iter().any(|c| c.quality.bridges + c.quality.below_20_deg == 0) {
-            break;
+    if request.mirror && request.tracks.is_empty() {
+        let mirrored = symmetry::axis(outline).and_then(|(axis, off)| mirrored(outline, axis, off, even, fibers));
+        if let Some(meshed) = mirrored.filter(|m| m.quality.below_20_deg == m.quality.corners_below_20_deg) {
+            return Ok(meshed);
         }
     }
-    if let Some(mesh) = best(found) {
-        return Some(mesh);
+    let pool = Pool::of(outline);
+    let subject = Subject::whole(outline, &pool, &request.tracks);
+    if let Some((mesh, quality)) = subject.mesh(even, fibers) {
+        return Ok(Meshed { mesh, quality, axis: None });
     }
-    // The boundary's own features ask for many nodes: sample it more and more coarsely.
-    let coarser: Vec<f64> = (1..=COARSER).map(|k| even * COARSENING.powi(k)).collect();
-    let found = coarser.iter().filter_map(|&h| attempt(outline, fibers, h, COARSEST[0])).take(SPACINGS.len());
-    best(found)
+    Err(match nearest(&subject, fibers) {
+        Some(nearest) => MeshError::Unreachable { asked: fibers, nearest },
+        None => MeshError::TooFine { most: MAX_FIBERS },
+    })
+}
+
+/// A mesh of the outline made of one half and its image.
+fn mirrored(outline: &Outline, axis: Axis, off: f64, even: f64, fibers: usize) -> Option<Meshed> {
+    let half = symmetry::half(outline, axis)?;
+    let pool = Pool::of(&half.outline);
+    let subject = Subject::half(outline, &half, &pool, axis, off);
+    let (mesh, quality) = subject.mesh(even, fibers)?;
+    Some(Meshed { mesh, quality, axis: Some(axis) })
 }
 
 fn check(outline: &Outline) -> Result<(), MeshError> {
@@ -71,68 +128,30 @@ fn check(outline: &Outline) -> Result<(), MeshError> {
     if finite && sound && outline.area() > 0.0 { Ok(()) } else { Err(MeshError::BadOutline) }
 }
 
-/// The edge length at which equilateral triangles fill the area and the boundary with `fibers` edges in all:
-/// `2 E = 3 T + B` with `T = A / (sqrt(3)/4 h^2)` and `B = P / h`, solved for `h`.
-fn even_spacing(outline: &Outline, fibers: usize) -> f64 {
-    let a = 4.0 * 3.0_f64.sqrt() * outline.area();
-    let p = outline.perimeter();
-    let e2 = 2.0 * fibers.max(1) as f64;
-    (p + (p * p + 4.0 * a * e2).sqrt()) / (2.0 * e2)
-}
-
-struct Candidate {
-    mesh: Mesh,
-    quality: Quality,
-}
-
-/// The candidate with the fewest poor triangles, and among those the one with the least of what else is unwanted: an
-/// inner edge across a limb weighs as much as ten degrees of the least angle, or edges that differ by a factor of two
-/// more.
-fn best(candidates: impl IntoIterator<Item = Candidate>) -> Option<Mesh> {
-    let unwanted = |q: &Quality| q.bridges as f64 - 0.1 * q.min_angle_deg + 0.5 * q.max_edge / q.min_edge;
-    let order =
-        |a: &Quality, b: &Quality| a.below_20_deg.cmp(&b.below_20_deg).then(unwanted(a).total_cmp(&unwanted(b)));
-    candidates.into_iter().min_by(|a, b| order(&a.quality, &b.quality)).map(|c| c.mesh)
-}
-
-/// A mesh at boundary spacing `h`, if there is one with the asked count.
-fn attempt(outline: &Outline, fibers: usize, h: f64, coarsest: f64) -> Option<Candidate> {
-    let holes = 3 * outline.holes.len();
-    for extra in 0..6 {
-        let boundary = sample::sample(outline, h, extra)?;
-        let fixed = boundary.nodes.len();
-        let interior3 = (fibers + 3).checked_sub(2 * fixed + holes)?;
-        if interior3 % 3 != 0 {
-            continue;
+/// The least count above `asked` that was found to give a mesh.
+fn nearest(subject: &Subject, asked: usize) -> Option<usize> {
+    let most = (NEAREST_MOST * asked.max(100)).min(MAX_FIBERS);
+    let least = subject.least_edges(asked, most).or_else(|| subject.least_edges(most, MAX_FIBERS));
+    let mut count = least?.max(asked + 1);
+    for _ in 0..NEAREST_STEPS {
+        if count > MAX_FIBERS {
+            break;
         }
-        let mut nodes = fill::fill(&boundary, interior3 / 3, h, coarsest)?;
-        let triangles = smooth::smooth(&mut nodes, fixed, &boundary.segments)?;
-        let mesh = Mesh { nodes, triangles };
-        let quality = Quality::of(&mesh);
-        let sound =
-            quality.edges == fibers && (mesh.area() / outline.area() - 1.0).abs() < 0.01 && mesh.validate().is_ok();
-        if sound {
-            return Some(Candidate { mesh, quality });
+        if let Some((_, quality)) = subject.mesh(subject.even(count), count) {
+            return Some(quality.edges.max(count));
         }
+        count += (count / 12).max(1);
     }
     None
 }
 
-/// The least count above `asked` that was found to give a mesh, searched upward in steps of 2 % from the edges that the
-/// coarsest boundary has alone; [`MAX_FIBERS`] if none was found.
-fn nearest(outline: &Outline, asked: usize) -> usize {
-    let h = even_spacing(outline, asked);
-    let holes = 3 * outline.holes.len();
-    let coarse = [1.0, 4.0, 16.0, 64.0].into_iter().filter_map(|factor| sample::sample(outline, factor * h, 0));
-    let alone = coarse.map(|b| (2 * b.nodes.len() + holes).saturating_sub(3)).min().unwrap_or(asked);
-    let mut count = alone.max(asked + 1);
-    for _ in 0..NEAREST_STEPS {
-        if with_count(outline, count).is_some() {
-            return count;
-        }
-        count += (count / 50).max(1);
+/// Puts triangles in the order of their nodes, each with its smallest first.
+pub(super) fn order(triangles: &mut [[usize; 3]]) {
+    for t in triangles.iter_mut() {
+        let smallest = (0..3).min_by_key(|&k| t[k]).unwrap_or(0);
+        t.rotate_left(smallest);
     }
-    MAX_FIBERS
+    triangles.sort_unstable();
 }
 
 #[cfg(test)]
@@ -250,7 +269,8 @@ mod tests {
             .collect();
         let outline = Outline { outer: [vec![[0.0, 0.0], [400.0, 0.0]], comb].concat(), holes: Vec::new() };
         let Err(MeshError::Unreachable { asked: 20, nearest }) = generate(&outline, 20) else { panic!() };
-        assert!(nearest > 150 && nearest < 500, "{nearest}");
+        // A tooth 5 mm wide and 50 mm long takes some 12 boundary edges for angles of 20 degrees and more.
+        assert!(nearest > 150 && nearest < 1000, "{nearest}");
         assert!(generate(&outline, nearest).is_ok());
         assert!(matches!(
             generate(&rectangle(1.0, 1.0), usize::MAX),

@@ -4,15 +4,24 @@
 //! [`Mesh::locate`] finds the point of the body at a place.
 
 mod check;
-mod fill;
+mod curve;
 mod generate;
+mod grid;
 mod locate;
 pub mod quality;
+mod refine;
 mod sample;
+mod search;
 mod smooth;
+mod subdivide;
+mod symmetry;
+mod tracks;
+mod tri;
 mod triangulate;
 
-pub use generate::{MAX_FIBERS, generate};
+pub use generate::{MAX_FIBERS, Meshed, Request, Size, build, generate};
+pub use subdivide::subdivided;
+pub use symmetry::{Axis, axis, is_mirrored};
 
 use crate::outline::Point;
 use serde::{Deserialize, Serialize};
@@ -38,8 +47,12 @@ pub struct BodyPoint {
 pub enum MeshError {
     #[error("the outline is not a simple polygon with an area")]
     BadOutline,
-    #[error("no mesh of this outline has {asked} muscle fibres; the nearest possible count is {nearest}")]
+    #[error("a tendon track is not finite")]
+    BadTrack,
+    #[error("no mesh of this outline has {asked} muscle fibres; the nearest count found possible is {nearest}")]
     Unreachable { asked: usize, nearest: usize },
+    #[error("the outline is too fine to be meshed: not even {most} muscle fibres give good triangles")]
+    TooFine { most: usize },
     #[error("the mesh has no triangles")]
     Empty,
     #[error("node {node} of the mesh is not finite")]

@@ -2,41 +2,63 @@
 //!
 //! Corners become nodes. Between them the spacing follows the density `rho(s) = sqrt(1 + (a h kappa)^2) / h`, so that
 //! rounded tips get more nodes than straight flanks; `kappa` is the turning of the outline in a window about `s`,
-//! divided by its length. Then nodes are added where a chord strays from the outline by more than a fraction of `h`,
-//! so that features finer than `h` stay, and where it is needed to keep the area.
+//! divided by its length. Then nodes are added where a chord strays from the outline too far, and where it is needed to
+//! keep the area.
 
+use super::curve::Curve;
 use crate::outline::{Outline, Point, polygon};
 
-/// Half the window in which turning is measured, in spacings.
-const WINDOW: f64 = 0.3;
-/// Turning within the window that makes a corner, rad (45 degrees): a limb's tip of radius h stays round.
-const CORNER_TURN: f64 = std::f64::consts::FRAC_PI_4;
-/// Corners closer than this along the outline, in spacings, count as one.
-const CORNER_GAP: f64 = 0.55;
 /// Weights `a` of curvature in the density, tried in turn until the area is kept.
-const CURVATURE_WEIGHTS: [f64; 4] = [0.4, 0.7, 1.0, 1.4];
-/// Farthest that a chord may stray from the outline, in spacings, and as a fraction of the longer side of the box (4.5 mm
-/// on 300 mm): however few fibres are asked for, a limb is not left out.
+const CURVATURE_WEIGHTS: [f64; 10] = [0.3, 0.4, 0.5, 0.6, 0.7, 0.85, 1.0, 1.2, 1.5, 1.9];
+/// Farthest that a chord may stray from the outline, in spacings: features finer than `h` stay.
 const STRAY: f64 = 0.12;
-const STRAY_FRACTION: f64 = 0.015;
-/// Area that the polygon of boundary nodes may lose or win, as a fraction of the outline's.
-const AREA_FRACTION: f64 = 0.0095;
+
+/// A feature this close to a node, as a fraction of the arc, moves the node rather than adding one.
+const NEAR: f64 = 0.3;
+/// Most change of the spacing along the boundary per length of way: neighbouring edges differ by a third.
+const GRADATION: f64 = 0.35;
 
 /// Sampled boundary. Nodes of a ring are consecutive and in the ring's order.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Boundary {
     pub nodes: Vec<Point>,
+    /// Ring and arc length of each node.
+    pub places: Vec<(usize, f64)>,
     /// Index pairs of consecutive nodes: the constrained edges.
     pub segments: Vec<[usize; 2]>,
 }
 
-/// Samples all polygons of the outline at spacing `h`, with `extra` nodes beyond what the spacing asks for. `None`
-/// where no choice gives a boundary free of crossings.
-pub(super) fn sample(outline: &Outline, h: f64, extra: usize) -> Option<Boundary> {
-    let curves: Vec<Curve> = outline.polygons().map(Curve::new).collect();
+/// How closely the boundary is followed.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Closeness {
+    /// Farthest that a chord may stray from the outline, mm.
+    pub stray: f64,
+    /// Area that the polygon of boundary nodes may lose or win, as a fraction of the outline's.
+    pub area: f64,
+}
+
+/// The boundary to sample.
+pub(super) struct Rim<'a> {
+    pub outline: &'a Outline,
+    /// One for each polygon.
+    pub curves: &'a [Curve<'a>],
+    /// Vertices of the outer polygon that must be nodes: there the body meets the axis of its mirror symmetry.
+    pub on_axis: &'a [usize],
+}
+
+/// Nodes beyond what the spacing asks for, on the outer polygon and on the axis.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Extra {
+    pub rim: usize,
+    pub axis: usize,
+}
+
+/// Samples all polygons of the outline at spacing `h`. `None` where no choice of at most `most` nodes gives a boundary
+/// free of crossings.
+pub(super) fn sample(rim: &Rim, h: f64, extra: Extra, close: Closeness, most: usize) -> Option<Boundary> {
+    let Rim { outline, curves, on_axis } = *rim;
     let area = outline.area();
-    let (low, high) = outline.bounding_box();
-    let stray = (STRAY * h).min(STRAY_FRACTION * (high[0] - low[0]).max(high[1] - low[1]));
+    let stray = (STRAY * h).min(close.stray);
     let lost = |rings: &[Vec<f64>]| {
         let sampled: f64 = curves.iter().zip(rings).map(|(c, ring)| polygon::signed_area(&c.points(ring))).sum();
         1.0 - sampled / area
@@ -44,22 +66,28 @@ pub(super) fn sample(outline: &Outline, h: f64, extra: usize) -> Option<Boundary
     let mut rings = Vec::new();
     for weight in CURVATURE_WEIGHTS {
         // The outer polygon takes the extra nodes.
-        rings = curves
-            .iter()
-            .enumerate()
-            .map(|(k, c)| c.sample(h, weight, stray, if k == 0 { extra } else { 0 }))
-            .collect();
-        if lost(&rings).abs() < AREA_FRACTION {
+        let ring = |(k, c): (usize, &Curve)| match k {
+            0 => along(c, on_axis, h, weight, stray, extra),
+            _ => along(c, &[], h, weight, stray, Extra::default()),
+        };
+        rings = curves.iter().enumerate().map(ring).collect();
+        if lost(&rings).abs() < close.area {
             break;
         }
     }
-    while lost(&rings).abs() > AREA_FRACTION {
-        let (k, i) = widest_lens(&curves, &rings, lost(&rings).signum())?;
-        curves[k].split(&mut rings[k], i)?;
+    loop {
+        let lost = lost(&rings);
+        if rings.iter().map(Vec::len).sum::<usize>() > most {
+            return None;
+        }
+        if lost.abs() <= close.area {
+            break;
+        }
+        split_widest(curves, &mut rings, lost.signum())?;
     }
     // Chords across narrow gaps may cross: halve what does until nothing is left to halve.
     loop {
-        let boundary = join(&curves, &rings);
+        let boundary = join(curves, &rings);
         let crossing = super::triangulate::crossings(&boundary);
         if crossing.is_empty() {
             return Some(boundary);
@@ -70,217 +98,180 @@ pub(super) fn sample(outline: &Outline, h: f64, extra: usize) -> Option<Boundary
         }
         for &node in crossing.iter().rev() {
             let (k, i) = starts[node];
-            curves[k].split(&mut rings[k], i)?;
+            split(&curves[k], &mut rings[k], i)?;
         }
     }
 }
 
-/// The chord that cuts off the largest area (`sign` 1) or adds the largest (-1), as ring and index of its first node.
-fn widest_lens(curves: &[Curve], rings: &[Vec<f64>], sign: f64) -> Option<(usize, usize)> {
-    let mut widest = (0.0, None);
-    for (k, (curve, ring)) in curves.iter().zip(rings).enumerate() {
+/// Halves the arcs whose chords cut off the largest areas (`sign` 1) or add the largest (-1), a tenth of them at once.
+fn split_widest(curves: &[Curve], rings: &mut [Vec<f64>], sign: f64) -> Option<()> {
+    let mut lenses: Vec<(f64, usize, usize)> = Vec::new();
+    for (k, (curve, ring)) in curves.iter().zip(rings.iter()).enumerate() {
         for i in 0..ring.len() {
             let (from, to) = curve.arc(ring, i);
             let lens = sign * polygon::signed_area(&curve.arc_points(from, to));
-            if lens > widest.0 {
-                widest = (lens, Some((k, i)));
+            if lens > 0.0 {
+                lenses.push((lens, k, i));
             }
         }
     }
-    widest.1
+    lenses.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2)));
+    lenses.truncate(lenses.len().div_ceil(10));
+    // From behind, so that the numbers before stay.
+    lenses.sort_by_key(|&(_, k, i)| std::cmp::Reverse((k, i)));
+    for &(_, k, i) in &lenses {
+        split(&curves[k], &mut rings[k], i)?;
+    }
+    (!lenses.is_empty()).then_some(())
 }
 
 fn join(curves: &[Curve], rings: &[Vec<f64>]) -> Boundary {
     let mut boundary = Boundary::default();
-    for (curve, ring) in curves.iter().zip(rings) {
+    for (k, (curve, ring)) in curves.iter().zip(rings).enumerate() {
         let first = boundary.nodes.len();
         boundary.nodes.extend(curve.points(ring));
+        boundary.places.extend(ring.iter().map(|&s| (k, s)));
         let n = ring.len();
         boundary.segments.extend((0..n).map(|i| [first + i, first + (i + 1) % n]));
     }
     boundary
 }
 
-/// A polygon by arc length.
-struct Curve<'a> {
-    ring: &'a [Point],
-    /// Arc length at each vertex; the length of the whole ring at the end.
-    s: Vec<f64>,
-    /// Running sum of the turning angles at the vertices: `turns[i]` is that of the vertices before `i`.
-    turns: Vec<f64>,
-}
-
-impl<'a> Curve<'a> {
-    fn new(ring: &'a [Point]) -> Self {
-        let n = ring.len();
-        let mut s = vec![0.0];
-        for (i, (a, b)) in polygon::sides(ring).enumerate() {
-            s.push(s[i] + polygon::length(a, b));
-        }
-        let mut turns = vec![0.0];
-        for i in 0..n {
-            let (a, b, c) = (ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n]);
-            let (u, v) = ([b[0] - a[0], b[1] - a[1]], [c[0] - b[0], c[1] - b[1]]);
-            turns.push(turns[i] + (u[0] * v[1] - u[1] * v[0]).atan2(u[0] * v[0] + u[1] * v[1]));
-        }
-        Self { ring, s, turns }
+/// Ascending arc lengths of a ring's nodes.
+fn along(curve: &Curve, on_axis: &[usize], h: f64, weight: f64, stray: f64, extra: Extra) -> Vec<f64> {
+    let corners = curve.corners(h, on_axis);
+    let starts = if corners.is_empty() { vec![0.0] } else { corners };
+    // A ring without corners still needs a few nodes to be round.
+    let least = if starts.len() == 1 { 5 } else { 1 };
+    let mut steps: Vec<Step> = Vec::new();
+    let mut firsts = Vec::new();
+    for i in 0..starts.len() {
+        firsts.push(steps.len());
+        steps.extend(section(curve, curve.arc(&starts, i), h, weight, stray));
     }
-
-    fn length(&self) -> f64 {
-        self.s[self.ring.len()]
-    }
-
-    /// The point at arc length `s`, which may run past the end by up to one round.
-    fn at(&self, s: f64) -> Point {
-        let n = self.ring.len();
-        let s = s.rem_euclid(self.length());
-        let i = self.s.partition_point(|&t| t <= s).clamp(1, n) - 1;
-        let side = self.s[i + 1] - self.s[i];
-        let t = if side > 0.0 { (s - self.s[i]) / side } else { 0.0 };
-        // A node that is meant to be a vertex is exactly it.
-        if t <= 0.0 { self.ring[i] } else { polygon::lerp(self.ring[i], self.ring[(i + 1) % n], t.min(1.0)) }
-    }
-
-    fn points(&self, ring: &[f64]) -> Vec<Point> {
-        ring.iter().map(|&s| self.at(s)).collect()
-    }
-
-    /// Sum of the turning angles from `from` (included) to `to` (not included), any window up to one round.
-    fn turning(&self, from: f64, to: f64) -> f64 {
-        let upto = |s: f64| {
-            let round = (s / self.length()).floor();
-            let within = s - round * self.length();
-            let n = self.ring.len();
-            round * self.turns[n] + self.turns[self.s[..n].partition_point(|&t| t < within)]
-        };
-        upto(to) - upto(from)
-    }
-
-    /// Arc lengths of the corners at spacing `h`, ascending: the sharpest first claim their place.
-    fn corners(&self, h: f64) -> Vec<f64> {
-        let window = (WINDOW * h).min(self.length() / 8.0);
-        let mut candidates: Vec<(f64, f64)> = (0..self.ring.len())
-            .map(|i| {
-                let s = self.s[i];
-                let before = self.turning(s - window, s);
-                let after = self.turning(s, s + window);
-                let own = self.turns[i + 1] - self.turns[i];
-                let turn = (before + after).abs();
-                // In a rounded corner the turning before and after the middle are equal.
-                let uneven = (before - (after - own)).abs().min(turn);
-                (turn, s, uneven)
-            })
-            .filter(|c| c.0 > CORNER_TURN)
-            .map(|(turn, s, uneven)| (turn - 0.25 * uneven, s))
-            .collect();
-        candidates.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.total_cmp(&b.1)));
-        let gap = |a: f64, b: f64| (a - b).abs().min(self.length() - (a - b).abs());
-        let mut corners: Vec<f64> = Vec::new();
-        for (_, s) in candidates {
-            if corners.iter().all(|&c| gap(c, s) > CORNER_GAP * h) {
-                corners.push(s);
-            }
-        }
-        corners.sort_by(f64::total_cmp);
-        corners
-    }
-
-    /// Ascending arc lengths of the nodes.
-    fn sample(&self, h: f64, weight: f64, stray: f64, extra: usize) -> Vec<f64> {
-        let corners = self.corners(h);
-        let starts = if corners.is_empty() { vec![0.0] } else { corners };
-        let window = (WINDOW * h).min(self.length() / 8.0);
-        // A ring without corners still needs a few nodes to be round.
-        let least = if starts.len() == 1 { 5 } else { 1 };
-        let mut sections: Vec<(Vec<f64>, f64, usize)> = Vec::new();
-        for (i, &from) in starts.iter().enumerate() {
-            let to = if i + 1 < starts.len() { starts[i + 1] } else { starts[0] + self.length() };
-            let steps = ((to - from) / (0.08 * h)).ceil().max(8.0) as usize;
-            let step = (to - from) / steps as f64;
-            let mut mass = vec![0.0];
-            for k in 0..steps {
-                let s = from + (k as f64 + 0.5) * step;
-                // A corner is a node already: its turning must not crowd the nodes beside it.
-                let (a, b) = ((s - window).max(from + 1e-9 * h), (s + window).min(to - 1e-9 * h));
-                let bend = weight * h * self.turning(a, b) / (2.0 * window);
-                mass.push(mass[k] + step / h * (1.0 + bend * bend).sqrt());
-            }
-            let total = mass[steps];
-            let n = (total.round() as usize).max(least);
-            sections.push((mass, total, n));
-        }
+    grade(&mut steps);
+    firsts.push(steps.len());
+    let mut sections: Vec<(&[Step], f64, usize)> = firsts
+        .windows(2)
+        .map(|w| {
+            let section = &steps[w[0]..w[1]];
+            let total: f64 = section.iter().map(|s| s.length / s.spacing).sum();
+            (section, total, (total.round() as usize).max(least))
+        })
+        .collect();
+    let is_axis = |k: usize| {
+        let (from, to) = curve.arc(&starts, k);
+        !on_axis.is_empty() && curve.at(from)[1] == 0.0 && curve.at(0.5 * (from + to))[1] == 0.0
+    };
+    for (axis, extra) in [(false, extra.rim), (true, extra.axis)] {
         for _ in 0..extra {
             let wanting = |k: &usize| sections[*k].1 - sections[*k].2 as f64;
-            if let Some(k) = (0..sections.len()).max_by(|a, b| wanting(a).total_cmp(&wanting(b)).then(b.cmp(a))) {
+            let allowed = (0..sections.len()).filter(|&k| is_axis(k) == axis);
+            if let Some(k) = allowed.max_by(|a, b| wanting(a).total_cmp(&wanting(b)).then(b.cmp(a))) {
                 sections[k].2 += 1;
             }
         }
-        let mut nodes = Vec::new();
-        for (i, (mass, total, n)) in sections.iter().enumerate() {
-            let from = starts[i];
-            let to = if i + 1 < starts.len() { starts[i + 1] } else { starts[0] + self.length() };
-            let step = (to - from) / (mass.len() - 1) as f64;
-            nodes.push(from);
-            for j in 1..*n {
-                let wanted = total * j as f64 / *n as f64;
-                let k = mass.partition_point(|&m| m < wanted).clamp(1, mass.len() - 1);
-                let t = (wanted - mass[k - 1]) / (mass[k] - mass[k - 1]);
-                nodes.push(from + (k as f64 - 1.0 + t) * step);
+    }
+    let mut nodes = Vec::new();
+    for (i, (section, total, n)) in sections.iter().enumerate() {
+        let (from, to) = curve.arc(&starts, i);
+        nodes.push(from);
+        let (mut k, mut mass, mut s) = (0, 0.0, from);
+        for j in 1..*n {
+            let wanted = total * j as f64 / *n as f64;
+            while k + 1 < section.len() && mass + section[k].length / section[k].spacing < wanted {
+                mass += section[k].length / section[k].spacing;
+                s += section[k].length;
+                k += 1;
             }
+            nodes.push((s + (wanted - mass) * section[k].spacing).min(to));
         }
-        for s in &mut nodes {
-            *s = s.rem_euclid(self.length());
+    }
+    for s in &mut nodes {
+        *s = s.rem_euclid(curve.length());
+    }
+    nodes.sort_by(f64::total_cmp);
+    nodes.dedup();
+    let fixed: Vec<f64> = on_axis.iter().map(|&i| curve.vertex(i)).collect();
+    keep_features(curve, nodes, &fixed, stray)
+}
+
+/// A short stretch of a ring and the spacing wanted there.
+struct Step {
+    length: f64,
+    spacing: f64,
+}
+
+/// The stretches between two corners. The spacing is that of the density, and short enough for the chords of an arc of
+/// the local curvature to stray no more than `stray`: `l = sqrt(8 stray / kappa)`.
+fn section(curve: &Curve, (from, to): (f64, f64), h: f64, weight: f64, stray: f64) -> Vec<Step> {
+    let window = curve.window(h);
+    let count = ((to - from) / (0.08 * h)).ceil().max(8.0) as usize;
+    let length = (to - from) / count as f64;
+    let step = |k: usize| {
+        let s = from + (k as f64 + 0.5) * length;
+        // A corner is a node already: its turning must not crowd the nodes beside it.
+        let (a, b) = ((s - window).max(from + 1e-9 * h), (s + window).min(to - 1e-9 * h));
+        let curvature = curve.turning(a, b).abs() / (2.0 * window);
+        let bend = weight * h * curvature;
+        let chord = (8.0 * stray / curvature).sqrt();
+        Step { length, spacing: (h / (1.0 + bend * bend).sqrt()).min(chord) }
+    };
+    (0..count).map(step).collect()
+}
+
+/// Lets the spacing change along a closed ring by no more than [`GRADATION`] a length.
+fn grade(steps: &mut [Step]) {
+    let n = steps.len();
+    for round in 0..2 * n {
+        let (i, j) = (round % n, (round + 1) % n);
+        let most = steps[i].spacing + GRADATION * 0.5 * (steps[i].length + steps[j].length);
+        steps[j].spacing = steps[j].spacing.min(most);
+    }
+    for round in (0..2 * n).rev() {
+        let (i, j) = ((round + 1) % n, round % n);
+        let most = steps[i].spacing + GRADATION * 0.5 * (steps[i].length + steps[j].length);
+        steps[j].spacing = steps[j].spacing.min(most);
+    }
+}
+
+/// Adds the farthest vertex of every arc that strays from its chord by more than `stray`, again and again. A node close by
+/// (none of the `fixed`) is moved there instead if both its arcs are then close enough.
+fn keep_features(curve: &Curve, mut ring: Vec<f64>, fixed: &[f64], stray: f64) -> Vec<f64> {
+    let mut i = 0;
+    while i < ring.len() {
+        let (from, to) = curve.arc(&ring, i);
+        let Some((s, _)) = curve.stray(from, to).filter(|&(_, away)| away > stray) else {
+            i += 1;
+            continue;
+        };
+        let n = ring.len();
+        let near = |k: usize, away: f64| away < NEAR * (to - from) && n > 4 && !fixed.contains(&ring[k]);
+        let strays = |a: f64, b: f64| curve.stray(a, b).is_some_and(|(_, away)| away > stray);
+        let moved = if near(i, s - from) && i > 0 && !strays(ring[i - 1], s) && !strays(s, to) {
+            Some(i)
+        } else if i + 1 < n && near(i + 1, to - s) && !strays(from, s) && !strays(s, curve.arc(&ring, i + 1).1) {
+            Some(i + 1)
+        } else {
+            None
+        };
+        match moved.filter(|_| s < curve.length()) {
+            Some(k) => ring[k] = s,
+            None => insert(&mut ring, s.rem_euclid(curve.length()), &mut i),
         }
-        nodes.sort_by(f64::total_cmp);
-        nodes.dedup();
-        self.keep_features(nodes, stray)
     }
+    ring
+}
 
-    /// Adds the farthest vertex of every arc that strays from its chord by more than `stray`, again and again.
-    fn keep_features(&self, mut ring: Vec<f64>, stray: f64) -> Vec<f64> {
-        let mut i = 0;
-        while i < ring.len() {
-            let (from, to) = self.arc(&ring, i);
-            let (a, b) = (self.at(from), self.at(to));
-            let away = |s: f64| polygon::distance_to_segment(a, b, self.at(s));
-            let inner = self.vertices_between(from, to);
-            match inner.into_iter().max_by(|&p, &q| away(p).total_cmp(&away(q))) {
-                Some(s) if away(s) > stray => insert(&mut ring, s.rem_euclid(self.length()), &mut i),
-                _ => i += 1,
-            }
-        }
-        ring
+/// Halves the arc after node `i`; `None` where it is too short to.
+fn split(curve: &Curve, ring: &mut Vec<f64>, i: usize) -> Option<()> {
+    let (from, to) = curve.arc(ring, i);
+    if to - from < 1e-6 * curve.length() {
+        return None;
     }
-
-    /// Start and end of the arc after node `i`; the end may lie past the end of the ring.
-    fn arc(&self, ring: &[f64], i: usize) -> (f64, f64) {
-        let to = if i + 1 < ring.len() { ring[i + 1] } else { ring[0] + self.length() };
-        (ring[i], to)
-    }
-
-    /// Arc lengths of the ring's vertices strictly between two.
-    fn vertices_between(&self, from: f64, to: f64) -> Vec<f64> {
-        let n = self.ring.len();
-        let once = self.s[..n].iter().copied();
-        once.clone().chain(once.map(|s| s + self.length())).filter(|&s| s > from && s < to).collect()
-    }
-
-    /// The arc as points, both ends included.
-    fn arc_points(&self, from: f64, to: f64) -> Vec<Point> {
-        let inner = self.vertices_between(from, to);
-        std::iter::once(from).chain(inner).chain(std::iter::once(to)).map(|s| self.at(s)).collect()
-    }
-
-    /// Halves the arc after node `i`; `None` where it is too short to.
-    fn split(&self, ring: &mut Vec<f64>, i: usize) -> Option<()> {
-        let (from, to) = self.arc(ring, i);
-        if to - from < 1e-6 * self.length() {
-            return None;
-        }
-        let mut i = i;
-        insert(ring, (0.5 * (from + to)).rem_euclid(self.length()), &mut i);
-        Some(())
-    }
+    let mut i = i;
+    insert(ring, (0.5 * (from + to)).rem_euclid(curve.length()), &mut i);
+    Some(())
 }
 
 /// Inserts keeping the order; `i` goes on pointing to the same node.

@@ -3,14 +3,14 @@
 use super::sample::Boundary;
 use crate::outline::Point;
 use spade::handles::FixedFaceHandle;
-use spade::handles::InnerTag;
-use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
+use spade::handles::{InnerTag, UndirectedEdgeHandle};
+use spade::{CdtEdge, ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
-pub(super) type Cdt = ConstrainedDelaunayTriangulation<Point2<f64>>;
+type Cdt = ConstrainedDelaunayTriangulation<Point2<f64>>;
 
 /// The triangulation of `nodes` with the segments as edges; nodes keep their numbers. `None` where nodes coincide or
 /// are not finite, or segments cross.
-pub(super) fn cdt(nodes: &[Point], segments: &[[usize; 2]]) -> Option<Cdt> {
+fn cdt(nodes: &[Point], segments: &[[usize; 2]]) -> Option<Cdt> {
     let vertices: Vec<Point2<f64>> = nodes.iter().map(|p| Point2::new(p[0], p[1])).collect();
     let mut conflict = false;
     let cdt = Cdt::try_bulk_load_cdt(vertices, segments.to_vec(), |_| conflict = true).ok()?;
@@ -54,35 +54,11 @@ pub(super) fn doubled_area(a: Point, b: Point, c: Point) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])
 }
 
-/// For each inner face of the triangulation, by its index, whether it lies inside the boundary: an even-odd flood from
-/// the outside over the constrained edges.
-pub(super) fn inside_faces(cdt: &Cdt) -> Vec<bool> {
-    let mut depth: Vec<Option<bool>> = vec![None; cdt.num_all_faces()];
-    let outer = cdt.outer_face().fix().index();
-    depth[outer] = Some(false);
-    let mut open: Vec<FixedFaceHandle<InnerTag>> = Vec::new();
-    for edge in cdt.convex_hull() {
-        if let Some(face) = edge.rev().face().as_inner().filter(|face| depth[face.fix().index()].is_none()) {
-            depth[face.fix().index()] = Some(edge.as_undirected().is_constraint_edge());
-            open.push(face.fix());
-        }
-    }
-    while let Some(face) = open.pop() {
-        let here = depth[face.index()] == Some(true);
-        for edge in cdt.face(face).adjacent_edges() {
-            if let Some(next) = edge.rev().face().as_inner().filter(|next| depth[next.fix().index()].is_none()) {
-                depth[next.fix().index()] = Some(here ^ edge.as_undirected().is_constraint_edge());
-                open.push(next.fix());
-            }
-        }
-    }
-    depth.into_iter().map(|d| d == Some(true)).collect()
-}
-
-/// The triangles inside the boundary, counter-clockwise, the smallest node first, in lexicographic order.
-pub(super) fn triangles(nodes: &[Point], segments: &[[usize; 2]]) -> Option<Vec<[usize; 3]>> {
-    let cdt = cdt(nodes, segments)?;
-    let inside = inside_faces(&cdt);
+/// The triangles inside the closed `rim`, counter-clockwise, the smallest node first, in lexicographic order; `tracks` are
+/// edges too. `None` where segments cross or nodes coincide.
+pub(super) fn triangles(nodes: &[Point], rim: &[[usize; 2]], tracks: &[[usize; 2]]) -> Option<Vec<[usize; 3]>> {
+    let cdt = cdt(nodes, &[rim, tracks].concat())?;
+    let inside = inside_faces(&cdt, rim);
     let mut triangles: Vec<[usize; 3]> = cdt
         .inner_faces()
         .filter(|face| inside[face.fix().index()])
@@ -95,4 +71,35 @@ pub(super) fn triangles(nodes: &[Point], segments: &[[usize; 2]]) -> Option<Vec<
         .collect();
     triangles.sort_unstable();
     Some(triangles)
+}
+
+/// For each inner face of the triangulation, by its index, whether it lies inside the rim: an even-odd flood from the
+/// outside over its edges.
+fn inside_faces(cdt: &Cdt, rim: &[[usize; 2]]) -> Vec<bool> {
+    let mut walls: Vec<[usize; 2]> = rim.iter().map(|&[a, b]| [a.min(b), a.max(b)]).collect();
+    walls.sort_unstable();
+    let is_wall = |edge: UndirectedEdgeHandle<'_, Point2<f64>, (), CdtEdge<()>, ()>| {
+        let [a, b] = edge.vertices().map(|v| v.fix().index());
+        edge.is_constraint_edge() && walls.binary_search(&[a.min(b), a.max(b)]).is_ok()
+    };
+    let mut depth: Vec<Option<bool>> = vec![None; cdt.num_all_faces()];
+    let outer = cdt.outer_face().fix().index();
+    depth[outer] = Some(false);
+    let mut open: Vec<FixedFaceHandle<InnerTag>> = Vec::new();
+    for edge in cdt.convex_hull() {
+        if let Some(face) = edge.rev().face().as_inner().filter(|face| depth[face.fix().index()].is_none()) {
+            depth[face.fix().index()] = Some(is_wall(edge.as_undirected()));
+            open.push(face.fix());
+        }
+    }
+    while let Some(face) = open.pop() {
+        let here = depth[face.index()] == Some(true);
+        for edge in cdt.face(face).adjacent_edges() {
+            if let Some(next) = edge.rev().face().as_inner().filter(|next| depth[next.fix().index()].is_none()) {
+                depth[next.fix().index()] = Some(here ^ is_wall(edge.as_undirected()));
+                open.push(next.fix());
+            }
+        }
+    }
+    depth.into_iter().map(|d| d == Some(true)).collect()
 }

@@ -4,6 +4,7 @@
 //! logical pixels, so that they stay crisp at every zoom.
 
 pub mod palette;
+pub mod quality;
 pub mod raster;
 pub mod scene;
 

@@ -1,0 +1,259 @@
+//! The search for the best mesh of a given number of edges.
+//!
+//! A triangulation with `B` boundary nodes, `I` interior nodes and `H` holes has `E = 2 B + 3 I - 3 + 3 H` edges (Euler:
+//! `V - E + T = 1 - H`, and `3 T = 2 E - B`). So once the boundary is sampled, nodes are added until the count is there; a
+//! node or two more on the boundary make the division by three come out. Two mirrored halves with `A` edges on the axis
+//! have `2 E - A`, and a node more on the axis plays its part. What is searched is the spacing along the boundary, among
+//! a few about the one at which boundary and interior would be equally dense, and how closely the outline is followed.
+
+use super::curve::Curve;
+use super::quality::Quality;
+use super::refine::{Fill, Refiner};
+use super::sample::{Closeness, Extra, Rim, sample};
+use super::smooth::Sliding;
+use super::symmetry::{Axis, Half, unfold};
+use super::{Mesh, generate, smooth, tracks};
+use crate::outline::{Outline, Point};
+
+/// Boundary spacings tried, relative to the evenly dense one.
+const SPACINGS: [f64; 18] =
+    [1.0, 1.08, 0.94, 1.16, 1.24, 1.04, 1.12, 1.2, 0.97, 1.02, 1.06, 1.1, 1.14, 1.18, 0.91, 1.3, 1.37, 1.5];
+/// How the nodes inside are shared out, tried in turn while the body is one triangle across somewhere: a coarser trunk leaves
+/// more nodes for the limbs.
+const FILLS: [Fill; 3] = [
+    Fill { coarsest: 1.25, limbs: 1.35, narrow: 1.0 },
+    Fill { coarsest: 1.25, limbs: 1.35, narrow: 1.5 },
+    Fill { coarsest: 1.6, limbs: 1.8, narrow: 1.25 },
+];
+/// Attempts times fibres after which the best mesh so far is taken, and the fewest and most attempts: some tens of
+/// milliseconds.
+const PATIENCE: usize = 16_000;
+const LEAST_TRIES: usize = 1;
+const MOST_TRIES: usize = 40;
+/// A mesh without bridges and with no angle below this is taken at once, degrees.
+const FINE_DEG: f64 = 30.5;
+/// Farthest that a chord may stray from the outline, as fractions of its height, tried in turn: with few fibres fine features
+/// are rounded off rather than refused.
+const STRAYS: [f64; 4] = [0.0047, 0.008, 0.016, 0.03];
+/// Fibres from which following the outline goes before limbs that are two triangles across.
+const CLOSE_FROM: usize = 400;
+/// Area that the mesh may lose or win at each of those, as a fraction.
+const AREAS: [f64; 4] = [0.0095, 0.0095, 0.0095, 0.03];
+/// How much of that nodes sliding along the boundary may add.
+const AREA_SLACK: f64 = 1.04;
+/// How far the number of edges may be from the asked one where no mesh has it exactly.
+const COUNT_FRACTION: f64 = 0.03;
+/// Number of spacings tried where the boundary alone has too many edges at those, and the factor from one to the next.
+const COARSER: i32 = 12;
+const COARSENING: f64 = 1.25;
+
+/// The polygons of an outline by arc length.
+pub(super) struct Pool<'a>(Vec<Curve<'a>>);
+
+impl<'a> Pool<'a> {
+    pub fn of(outline: &'a Outline) -> Self {
+        Self(outline.polygons().map(Curve::new).collect())
+    }
+}
+
+/// What is to be meshed: an outline, or one half of it.
+pub(super) struct Subject<'a> {
+    /// The whole, for its size and its fit.
+    whole: &'a Outline,
+    rim: Rim<'a>,
+    tracks: &'a [Vec<Point>],
+    axis: Option<Axis>,
+    height: f64,
+    /// What is lost of the closeness by taking the image of one half for the other, mm.
+    off: f64,
+}
+
+struct Candidate {
+    mesh: Mesh,
+    quality: Quality,
+}
+
+impl Candidate {
+    /// Whether every angle below 20 degrees is one of the outline's own.
+    fn is_good(&self) -> bool {
+        self.quality.below_20_deg == self.quality.corners_below_20_deg
+    }
+
+    /// Whether no better one need be sought.
+    fn is_fine(&self, fibers: usize) -> bool {
+        let q = &self.quality;
+        q.edges == fibers && q.bridges == 0 && q.min_angle_deg > FINE_DEG
+    }
+}
+
+impl<'a> Subject<'a> {
+    pub fn whole(outline: &'a Outline, pool: &'a Pool<'a>, tracks: &'a [Vec<Point>]) -> Self {
+        let rim = Rim { outline, curves: &pool.0, on_axis: &[] };
+        Self { whole: outline, rim, tracks, axis: None, height: height(outline), off: 0.0 }
+    }
+
+    pub fn half(outline: &'a Outline, half: &'a Half, pool: &'a Pool<'a>, axis: Axis, off: f64) -> Self {
+        let rim = Rim { outline: &half.outline, curves: &pool.0, on_axis: &half.on_axis };
+        Self { whole: outline, rim, tracks: &[], axis: Some(axis), height: height(outline), off }
+    }
+
+    /// The spacing at which boundary and interior are equally dense.
+    pub fn even(&self, fibers: usize) -> f64 {
+        even_spacing(self.whole, fibers)
+    }
+
+    /// The best mesh found with `fibers` edges, or nearly.
+    pub fn mesh(&self, even: f64, fibers: usize) -> Option<(Mesh, Quality)> {
+        let mut found = Vec::new();
+        for (stray, area) in STRAYS.into_iter().zip(AREAS) {
+            let close = Closeness { stray: (stray * self.height - self.off).max(0.5 * stray * self.height), area };
+            let good = self.search(even, fibers, close, &mut found);
+            if good && (fibers >= CLOSE_FROM || found.iter().any(|c| c.quality.bridges == 0)) {
+                break;
+            }
+        }
+        best(found, fibers)
+    }
+
+    /// The fewest edges that good angles need, of those at a few spacings; at most `most`.
+    pub fn least_edges(&self, asked: usize, most: usize) -> Option<usize> {
+        let mut least = None;
+        for (stray, area) in STRAYS.into_iter().zip(AREAS) {
+            let close = Closeness { stray: stray * self.height, area };
+            // From the even spacing of many times the count to one that is far too coarse for it.
+            for k in -7..4 {
+                let h = self.even(asked) * 1.5_f64.powi(k);
+                let limit = least.unwrap_or(most);
+                let Some(nodes) = most_nodes(self.rim.outline, limit) else { return least };
+                let Some(boundary) = sample(&self.rim, h, Extra::default(), close, nodes) else { continue };
+                let Some(mut refiner) = self.refiner(&boundary, h, FILLS[0]) else { continue };
+                if refiner.run_angles(limit).is_some() {
+                    least = Some(refiner.edges());
+                }
+            }
+        }
+        least
+    }
+
+    /// Tries boundary spacings about the even one, and coarser ones where the boundary's own features ask for many nodes;
+    /// whether a mesh without poor triangles was among them. Once there is one, no more than [`PATIENCE`] are tried.
+    fn search(&self, even: f64, fibers: usize, close: Closeness, found: &mut Vec<Candidate>) -> bool {
+        let mut patience = (PATIENCE / fibers.max(1)).clamp(LEAST_TRIES, MOST_TRIES);
+        let good = |found: &[Candidate]| found.iter().any(Candidate::is_good);
+        let before = found.len();
+        'tried: for factor in SPACINGS {
+            for fill in FILLS {
+                if patience == 0 && good(found) {
+                    return true;
+                }
+                patience = patience.saturating_sub(1);
+                let candidate = self.attempt(factor * even, fill, fibers, close);
+                if candidate.is_none() && found.len() == before {
+                    // Not even at the spacing meant for it: there is no need to look closely.
+                    break 'tried;
+                }
+                found.extend(candidate);
+                if found.last().is_some_and(|c| c.is_fine(fibers)) {
+                    found.drain(..found.len() - 1);
+                    return true;
+                }
+            }
+        }
+        for k in 1..=COARSER {
+            if good(found) {
+                return true;
+            }
+            found.extend(self.attempt(even * COARSENING.powi(k), FILLS[0], fibers, close));
+        }
+        good(found)
+    }
+
+    /// A mesh at boundary spacing `h`, if there is one with the asked count, or nearly.
+    fn attempt(&self, h: f64, fill: Fill, fibers: usize, close: Closeness) -> Option<Candidate> {
+        let mut near: Option<Refiner> = None;
+        let own = if self.axis.is_some() { fibers / 2 + fibers / 4 } else { fibers };
+        let most = most_nodes(self.rim.outline, own)?;
+        let extras = (0..6)
+            .map(|k| if self.axis.is_some() { Extra { rim: k / 2, axis: k % 2 } } else { Extra { rim: k, axis: 0 } });
+        for extra in extras {
+            let boundary = sample(&self.rim, h, extra, close, most)?;
+            let mut refiner = self.refiner(&boundary, h, fill)?;
+            if refiner.run(fibers).is_none() {
+                if near.is_none() {
+                    return None;
+                }
+                continue;
+            }
+            if refiner.edges() == fibers {
+                return self.finish(refiner, close);
+            }
+            near = near.or(Some(refiner));
+        }
+        near.filter(|r| within(r.edges(), fibers)).and_then(|r| self.finish(r, close))
+    }
+
+    fn refiner(&self, boundary: &super::sample::Boundary, h: f64, fill: Fill) -> Option<Refiner<'a>> {
+        let tracks = tracks::sample(self.tracks, self.whole, h);
+        Refiner::new(boundary, &tracks, self.rim.curves, self.axis.is_some(), h, fill)
+    }
+
+    /// Smooths, and checks what came out.
+    fn finish(&self, refiner: Refiner, close: Closeness) -> Option<Candidate> {
+        let Refiner { mut tri, places, .. } = refiner;
+        let mirror = self.axis.is_some();
+        let mut rim = Sliding { places, curves: self.rim.curves, stray: close.stray, mirror };
+        smooth::smooth(&mut tri, &mut rim);
+        let mut mesh = Mesh { nodes: tri.points, triangles: tri.corners };
+        generate::order(&mut mesh.triangles);
+        if let Some(axis) = self.axis {
+            let (low, high) = self.whole.bounding_box();
+            mesh = unfold(&mesh, axis, (high[0] - low[0]).max(high[1] - low[1]));
+        }
+        let quality = Quality::of(&mesh);
+        let lost = (mesh.area() / self.whole.area() - 1.0).abs();
+        let sound = quality.below_5_deg == 0 && lost < AREA_SLACK * close.area && mesh.validate().is_ok();
+        sound.then_some(Candidate { mesh, quality })
+    }
+}
+
+fn height(outline: &Outline) -> f64 {
+    let (low, high) = outline.bounding_box();
+    high[1] - low[1]
+}
+
+/// Boundary nodes of a mesh with `edges` edges: those without an interior node. `None` where the rings cannot have so few.
+fn most_nodes(outline: &Outline, edges: usize) -> Option<usize> {
+    let rings = outline.holes.len() + 1;
+    let most = (edges + 3).checked_sub(3 * outline.holes.len())? / 2;
+    (most >= 3 * rings).then_some(most)
+}
+
+/// Whether a count is as good as the asked one.
+fn within(count: usize, asked: usize) -> bool {
+    count.abs_diff(asked) as f64 <= COUNT_FRACTION * asked as f64
+}
+
+/// The edge length at which equilateral triangles fill the area and the boundary with `fibers` edges in all:
+/// `2 E = 3 T + B` with `T = A / (sqrt(3)/4 h^2)` and `B = P / h`, solved for `h`.
+pub(super) fn even_spacing(outline: &Outline, fibers: usize) -> f64 {
+    let a = 4.0 * 3.0_f64.sqrt() * outline.area();
+    let p = outline.perimeter();
+    let e2 = 2.0 * fibers.max(1) as f64;
+    (p + (p * p + 4.0 * a * e2).sqrt()) / (2.0 * e2)
+}
+
+/// The candidate with the fewest poor triangles, then of the asked count, and among those the one with the least of what
+/// else is unwanted: an inner edge across a limb weighs as much as four degrees that the least angle is below a fine one,
+/// as ten degrees above, or as edges that differ by a factor of two more.
+fn best(candidates: Vec<Candidate>, fibers: usize) -> Option<(Mesh, Quality)> {
+    let unwanted = |q: &Quality| {
+        let angle = 0.1 * q.min_angle_deg - 0.25 * (FINE_DEG - q.min_angle_deg).max(0.0);
+        q.bridges as f64 - angle + 0.5 * q.max_edge / q.min_edge
+    };
+    let order = |a: &Quality, b: &Quality| {
+        let other = |q: &Quality| q.edges != fibers;
+        let poor = |q: &Quality| q.below_20_deg - q.corners_below_20_deg;
+        poor(a).cmp(&poor(b)).then(other(a).cmp(&other(b))).then(unwanted(a).total_cmp(&unwanted(b)))
+    };
+    candidates.into_iter().min_by(|a, b| order(&a.quality, &b.quality)).map(|c| (c.mesh, c.quality))
+}

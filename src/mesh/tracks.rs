@@ -1,0 +1,112 @@
+//! Tracks: lines inside the body along which edges run, so that a thread can follow them.
+
+use super::grid::Grid;
+use crate::outline::{Outline, Point, polygon};
+
+/// Nearest that a track comes to the boundary, in spacings: what is nearer is cut off, for it would force flat triangles.
+const CLEARANCE: f64 = 0.45;
+/// Nodes of tracks nearer to each other than this, in spacings, become one.
+const MERGE: f64 = 0.3;
+
+/// Nodes of the tracks and the edges between them.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Sampled {
+    pub nodes: Vec<Point>,
+    pub segments: Vec<[usize; 2]>,
+}
+
+/// The tracks with a node about every `h`, where they cross each other, and at their own corners; only where they run well
+/// inside the body. Nodes closer than a fraction of `h` are joined, so that lines drawn nearly alike become one.
+pub(super) fn sample(tracks: &[Vec<Point>], outline: &Outline, h: f64) -> Sampled {
+    let mut sampled = Sampled::default();
+    if tracks.is_empty() {
+        return sampled;
+    }
+    let rim = Grid::new(outline.polygons().flat_map(polygon::sides).collect());
+    let pieces: Vec<(Point, Point)> = tracks.iter().flat_map(|t| t.windows(2).map(|w| (w[0], w[1]))).collect();
+    // Corners first, so that what falls together with them goes there.
+    for &p in tracks.iter().flatten().filter(|&&p| outline.contains(p) && rim.distance(p) > CLEARANCE * h) {
+        place(&mut sampled.nodes, p, MERGE * h);
+    }
+    for track in tracks {
+        let mut before: Option<usize> = None;
+        for (k, w) in track.windows(2).enumerate() {
+            for t in stops(w[0], w[1], &pieces, h, k == 0) {
+                let p = polygon::lerp(w[0], w[1], t);
+                let inside = outline.contains(p) && rim.distance(p) > CLEARANCE * h;
+                let node = inside.then(|| place(&mut sampled.nodes, p, MERGE * h));
+                if let (Some(a), Some(b)) = (before, node)
+                    && a != b
+                {
+                    let segment = [a.min(b), a.max(b)];
+                    if !sampled.segments.contains(&segment) && clear(&rim, sampled.nodes[a], sampled.nodes[b], h) {
+                        sampled.segments.push(segment);
+                    }
+                }
+                before = node;
+            }
+        }
+    }
+    without_crossings(&mut sampled);
+    sampled
+}
+
+/// Parameters of the nodes along a piece: its ends, its crossings with all pieces, and even steps between them.
+fn stops(a: Point, b: Point, pieces: &[(Point, Point)], h: f64, first: bool) -> Vec<f64> {
+    let mut fixed = vec![0.0, 1.0];
+    fixed.extend(pieces.iter().filter_map(|&(c, d)| meet(a, b, c, d)));
+    fixed.sort_by(f64::total_cmp);
+    fixed.dedup();
+    let length = polygon::length(a, b);
+    let mut all = if first { vec![0.0] } else { Vec::new() };
+    for w in fixed.windows(2) {
+        let steps = ((w[1] - w[0]) * length / h).round().max(1.0) as usize;
+        all.extend((1..=steps).map(|k| w[0] + (w[1] - w[0]) * k as f64 / steps as f64));
+    }
+    all
+}
+
+/// Where on `ab`, between its ends, `cd` crosses it.
+fn meet(a: Point, b: Point, c: Point, d: Point) -> Option<f64> {
+    let (r, s, q) = ([b[0] - a[0], b[1] - a[1]], [d[0] - c[0], d[1] - c[1]], [c[0] - a[0], c[1] - a[1]]);
+    let cross = |u: Point, v: Point| u[0] * v[1] - u[1] * v[0];
+    let (t, u) = (cross(q, s) / cross(r, s), cross(q, r) / cross(r, s));
+    (t > 0.0 && t < 1.0 && (0.0..=1.0).contains(&u)).then_some(t)
+}
+
+/// The node at `p`, or near it.
+fn place(nodes: &mut Vec<Point>, p: Point, near: f64) -> usize {
+    if let Some(found) = nodes.iter().position(|q| polygon::length(*q, p) < near) {
+        return found;
+    }
+    nodes.push(p);
+    nodes.len() - 1
+}
+
+fn clear(rim: &Grid, a: Point, b: Point, h: f64) -> bool {
+    (1..4).all(|k| rim.distance(polygon::lerp(a, b, f64::from(k) / 4.0)) > 0.5 * CLEARANCE * h)
+}
+
+/// Joining nodes may have made segments cross; the later ones go. Nodes without a segment go too.
+fn without_crossings(sampled: &mut Sampled) {
+    let nodes = &sampled.nodes;
+    let mut kept: Vec<[usize; 2]> = Vec::new();
+    for &[a, b] in &sampled.segments {
+        let crosses = kept.iter().any(|&[c, d]| {
+            ![c, d].contains(&a) && ![c, d].contains(&b) && meet(nodes[a], nodes[b], nodes[c], nodes[d]).is_some()
+        });
+        if !crosses {
+            kept.push([a, b]);
+        }
+    }
+    let mut number = vec![None; nodes.len()];
+    let mut used = Vec::new();
+    for n in kept.iter_mut().flatten() {
+        let p = sampled.nodes[*n];
+        *n = *number[*n].get_or_insert_with(|| {
+            used.push(p);
+            used.len() - 1
+        });
+    }
+    *sampled = Sampled { nodes: used, segments: kept };
+}
