@@ -245,6 +245,7 @@ mod tests {
         let fine = coarse_fibers("pig", 414, design("pig", 1055).unwrap()).unwrap();
         assert!(fine.validate().is_ok());
         let count = fine.fiber_routings().len();
-        assert!((410..=414).contains(&count), "{count}");
+        // Few fall together on the fine mesh: fewer than the 3 % by which a fibre count may be off.
+        assert!((402..=414).contains(&count), "{count}");
     }
 }

@@ -339,6 +339,7 @@ mod tests {
         design.validate().unwrap();
         assert_eq!(design.fiber_routings().len(), 414);
         assert_eq!((report.fibers[1], report.triangles[1]), (414, design.mesh.triangles.len()));
-        assert!(design.mesh.edges().len() > 4 * 400);
+        // Every edge halved, and three new ones in every coarse triangle.
+        assert_eq!(design.mesh.edges().len(), 2 * 414 + 3 * design.mesh.triangles.len() / 4);
     }
 }
