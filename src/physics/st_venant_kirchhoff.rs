@@ -1,7 +1,7 @@
 //! St. Venant-Kirchhoff material: linear in the Green strain `E = (F^T F - I)/2`.
 //!
 //! `psi = mu |E|^2 + lambda/2 (tr E)^2`, `P = F S` with `S = 2 mu E + lambda tr(E) I`. It softens under compression and
-//! does not by itself resist inversion; the density is infinite for `J <= 0`, so that no inverted state is ever shown.
+//! does not by itself resist inversion; the density is infinite for `J <= 1e-6`, so that no inverted state is ever shown.
 
 use super::material::Material;
 use nalgebra::{Matrix2, Matrix4, Vector4};
