@@ -1,10 +1,14 @@
 //! St. Venant-Kirchhoff material: linear in the Green strain `E = (F^T F - I)/2`.
 //!
 //! `psi = mu |E|^2 + lambda/2 (tr E)^2`, `P = F S` with `S = 2 mu E + lambda tr(E) I`. It softens under compression and
-//! does not by itself resist inversion; the density is infinite for `J <= 0`, so that no inverted state is ever shown.
+//! does not by itself resist inversion; the density is infinite for `J <= 1e-6`, so that no inverted state is ever shown.
 
 use super::material::Material;
 use nalgebra::{Matrix2, Matrix4, Vector4};
+
+/// A triangle is not pressed below this part of its area. Nothing in this material resists that, so states at the edge do occur,
+/// and rounding of their coordinates must not turn them over.
+const FLATTEST: f64 = 1e-6;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StVenantKirchhoff {
@@ -27,7 +31,7 @@ impl StVenantKirchhoff {
 impl Material for StVenantKirchhoff {
     fn density(&self, f: &Matrix2<f64>) -> f64 {
         let j = f.determinant();
-        if j.is_nan() || j <= 0.0 {
+        if j.is_nan() || j <= FLATTEST {
             return f64::INFINITY;
         }
         let strain = Self::strain(f);

@@ -36,7 +36,7 @@ const MAX_HALVINGS: usize = 40;
 /// A step capped below this leads nowhere: triangles have collapsed against the edge of the material's domain.
 const SMALLEST_STEP: f64 = 1e-12;
 /// A triangle of less than this part of its area is flat. A Neo-Hookean one would take a hundred times its shear modulus.
-const FLAT: f64 = 1e-6;
+const FLAT: f64 = 1e-5;
 /// Relative rounding of an energy sum: differences below it say nothing.
 const ENERGY_ROUNDING: f64 = 1e-13;
 /// There a step must leave at most this part of the residual, or rounding is all that is left of it.
