@@ -122,7 +122,8 @@ fn check_frames(mesh: &Mesh, problem: &Value, answer: &Value) {
             })
             .sum();
         let error = answer["drag"]["target_error"][k as usize].as_f64().unwrap();
-        assert!((error - (sum / nodes.len() as f64).sqrt()).abs() < 1e-12);
+        // Rounding of the distance, which may be many body lengths.
+        assert!((error - (sum / nodes.len() as f64).sqrt()).abs() < 1e-12 * error.max(1.0));
     }
 }
 

@@ -97,10 +97,25 @@ fn distance(p: Point, q: Point) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bench::shapes::Subject;
+    use crate::design::{Design, Pin, bundled};
+    use crate::engine::compile::{View, compile};
+
+    fn pig(fibers: usize) -> Design {
+        let pig = bundled::ALL.iter().map(|b| b.design().unwrap()).find(|d| d.name == "pig").unwrap();
+        let mesh = crate::mesh::generate(&pig.outline, fibers).unwrap();
+        let pins: Vec<Pin> = pig
+            .pins
+            .iter()
+            .map(|pin| {
+                let at = mesh.locate_nearest(pig.mesh.position(&pin.at, &pig.mesh.nodes), &mesh.nodes).unwrap().0;
+                Pin { at, ..pin.clone() }
+            })
+            .collect();
+        Design { mesh, pins, networks: Vec::new(), poses: Vec::new(), keyframes: Vec::new(), ..pig }
+    }
 
     fn mesh(fibers: usize) -> Mesh {
-        Subject::new("pig", fibers).unwrap().design.mesh
+        pig(fibers).mesh
     }
 
     /// Some points of the body: nodes on the outline as well as inside.
@@ -149,12 +164,13 @@ mod tests {
     #[test]
     fn the_compliance_of_a_patch_stays_as_the_mesh_gets_finer() {
         let compliance = |fibers: usize, patched: bool| {
-            let mut subject = Subject::new("pig", fibers).unwrap();
-            let mesh = subject.design.mesh.clone();
+            let design = pig(fibers);
+            let mut plushie = compile(&design, View::Idealized).unwrap();
+            let mesh = &design.mesh;
             let middle = [0.5 * mesh.body_length(), 0.35 * mesh.body_length()];
             let (at, _) = mesh.locate_nearest(middle, &mesh.nodes).unwrap();
-            let (nodes, weights) = if patched { patch(&mesh, &at) } else { point(&mesh, &at) };
-            let model = &mut subject.plushie.model;
+            let (nodes, weights) = if patched { patch(mesh, &at) } else { point(mesh, &at) };
+            let model = &mut plushie.model;
             let rest = model.rest.clone();
             model.factorize_for_descent(&rest).unwrap();
             let mut force = vec![0.0; rest.len()];
