@@ -108,7 +108,7 @@ mod tests {
             .iter()
             .map(|pin| {
                 let at = mesh.locate_nearest(pig.mesh.position(&pin.at, &pig.mesh.nodes), &mesh.nodes).unwrap().0;
-                Pin { at, ..pin.clone() }
+                Pin { at, ..*pin }
             })
             .collect();
         Design { mesh, pins, networks: Vec::new(), poses: Vec::new(), keyframes: Vec::new(), ..pig }
@@ -132,9 +132,9 @@ mod tests {
             let (nodes, weights) = patch(&mesh, &at);
             patches += (nodes.len() >= FEWEST_NODES) as usize;
             let there = turned(mesh.position(&at, &mesh.nodes));
-            for axis in 0..2 {
+            for (axis, place) in there.into_iter().enumerate() {
                 let read: f64 = nodes.iter().zip(&weights).map(|(&n, w)| w * turned(mesh.nodes[n])[axis]).sum();
-                assert!((read - there[axis]).abs() < 1e-9 * mesh.body_length());
+                assert!((read - place).abs() < 1e-9 * mesh.body_length());
             }
         }
         assert!(patches >= 40, "{patches}");
