@@ -74,7 +74,7 @@ fn mutated(random: &mut Random, text: &[u8]) -> String {
         match random.index(6) {
             0 => bytes[at] ^= 1 << random.index(7),
             1 => drop(bytes.drain(at..(at + 1 + random.index(20)).min(bytes.len()))),
-            2 => bytes.insert(at, b"{}[](),:\"\\-.e0\xff\0"[random.index(17)]),
+            2 => bytes.insert(at, b"{}[](),:\"\\-.e0\xff\0"[random.index(16)]),
             3 => bytes.truncate(at + 1),
             _ => {
                 let digit = |b: &u8| b.is_ascii_digit() || b"+-.e".contains(b);
@@ -121,7 +121,7 @@ fn mutilated_problem_files_are_refused_or_answered() {
             answered += 1;
         }
     }
-    assert!(refused > 200 && answered > 80, "{refused} refused, {answered} answered");
+    assert!(refused > 200 && answered > 50, "{refused} refused, {answered} answered");
 }
 
 #[test]

@@ -97,17 +97,21 @@ fn distance(p: Point, q: Point) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::design::{Design, bundled};
+    use crate::design::{Design, Pin, bundled};
     use crate::engine::compile::{View, compile};
 
     fn pig(fibers: usize) -> Design {
         let pig = bundled::ALL.iter().map(|b| b.design().unwrap()).find(|d| d.name == "pig").unwrap();
         let mesh = crate::mesh::generate(&pig.outline, fibers).unwrap();
-        let pins = [[0.4, 0.4], [0.6, 0.4]].map(|[x, y]| {
-            let (at, _) = mesh.locate_nearest([x * mesh.body_length(), y * mesh.body_length()], &mesh.nodes).unwrap();
-            crate::design::Pin { at, position: None, stiffness: 20.0 }
-        });
-        Design { mesh, pins: pins.to_vec(), networks: Vec::new(), poses: Vec::new(), keyframes: Vec::new(), ..pig }
+        let pins: Vec<Pin> = pig
+            .pins
+            .iter()
+            .map(|pin| {
+                let at = mesh.locate_nearest(pig.mesh.position(&pin.at, &pig.mesh.nodes), &mesh.nodes).unwrap().0;
+                Pin { at, ..*pin }
+            })
+            .collect();
+        Design { mesh, pins, networks: Vec::new(), poses: Vec::new(), keyframes: Vec::new(), ..pig }
     }
 
     fn mesh(fibers: usize) -> Mesh {
@@ -128,9 +132,9 @@ mod tests {
             let (nodes, weights) = patch(&mesh, &at);
             patches += (nodes.len() >= FEWEST_NODES) as usize;
             let there = turned(mesh.position(&at, &mesh.nodes));
-            for axis in 0..2 {
+            for (axis, place) in there.into_iter().enumerate() {
                 let read: f64 = nodes.iter().zip(&weights).map(|(&n, w)| w * turned(mesh.nodes[n])[axis]).sum();
-                assert!((read - there[axis]).abs() < 1e-9 * mesh.body_length());
+                assert!((read - place).abs() < 1e-9 * mesh.body_length());
             }
         }
         assert!(patches >= 40, "{patches}");

@@ -54,7 +54,7 @@ pub(super) fn step_aside(model: &mut Model, x: &[f64]) -> Option<Vec<f64>> {
     let moved = |t: f64| x.iter().zip(&v).map(|(x, v)| x + t * v).collect::<Vec<f64>>();
     let mut t = 1.0;
     for _ in 0..HALVINGS {
-        let [plus, minus] = [t, -t].map(|t| moved(t));
+        let [plus, minus] = [t, -t].map(&moved);
         let [up, down] = [&plus, &minus].map(|x| model.energy(x));
         if up < energy && up <= down {
             return Some(plus);
