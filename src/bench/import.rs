@@ -6,7 +6,7 @@
 use super::report::{Cell, Report, Table};
 use super::statistics::Summary;
 use super::{BenchError, Session};
-use crate::mesh::{self, Mesh, MeshError};
+use crate::mesh::{self, Request};
 use crate::outline::{self, Import, OutlineError};
 use grade::Grade;
 use std::path::{Path, PathBuf};
@@ -312,14 +312,11 @@ fn attempt(path: PathBuf, import: &Import, fibers: &[usize]) -> Outcome {
     let (_, high) = outline.bounding_box();
     let meshes = fibers.iter().map(|&count| {
         let start = Instant::now();
-        let (mesh, more) = match mesh::generate(&outline, count) {
-            Err(MeshError::Unreachable { nearest, .. }) if nearest > count && nearest < mesh::MAX_FIBERS => {
-                (mesh::generate(&outline, nearest), Some(nearest))
-            }
-            other => (other, None),
-        };
+        let made = mesh::build_or_finer(&outline, &Request::fibers(count));
         let ms = milliseconds(start);
-        let result = mesh.map(|mesh: Mesh| (Grade::of(&mesh, &outline), more)).map_err(|error| error.to_string());
+        let result = made
+            .map(|(meshed, made_for)| (Grade::of(&meshed.mesh, &outline), Some(made_for).filter(|&n| n != count)))
+            .map_err(|error| error.to_string());
         Meshed { ms, result }
     });
     let meshes = meshes.collect();

@@ -5,7 +5,7 @@ use super::error::CommandError;
 use super::output::{say, say_json};
 use crate::defaults;
 use crate::design::Design;
-use crate::mesh::{self, Mesh, MeshError};
+use crate::mesh::{self, Mesh, MeshError, Request};
 use crate::outline::{self, Background, Changes, Holes, Import, Imported, Pieces};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
@@ -188,14 +188,16 @@ pub fn design(imported: Imported, fibers: Option<usize>, name: &str) -> Result<(
         mesh.validate().map_err(|e| e.to_string())?;
         return Ok((Design::new(name, outline, mesh), changes));
     }
-    let mesh = match mesh::generate(&outline, fibers.unwrap_or(defaults::FIBERS)) {
-        Err(MeshError::Unreachable { nearest, asked }) if fibers.is_none() && nearest < mesh::MAX_FIBERS => {
-            changes.notes.push(format!("the outline needs more than {asked} fibers; it has {nearest}"));
-            mesh::generate(&outline, nearest)
+    let asked = fibers.unwrap_or(defaults::FIBERS);
+    let (meshed, count) =
+        mesh::build_or_finer(&outline, &Request::fibers(asked)).map_err(|error| error.to_string())?;
+    if count != asked {
+        if fibers.is_some() {
+            return Err(MeshError::Unreachable { asked, nearest: count }.to_string());
         }
-        other => other,
-    };
-    Ok((Design::new(name, outline, mesh.map_err(|e| e.to_string())?), changes))
+        changes.notes.push(format!("the outline needs more than {asked} fibers; it has {count}"));
+    }
+    Ok((Design::new(name, outline, meshed.mesh), changes))
 }
 
 fn stem(path: &Path) -> String {

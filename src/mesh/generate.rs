@@ -1,7 +1,7 @@
 //! Outline to triangle mesh: what can be asked for, and the refusal of what cannot be.
 
 use super::quality::Quality;
-use super::search::{Pool, Subject, even_spacing};
+use super::search::{Pool, Subject};
 use super::symmetry::{self, Axis};
 use super::{Mesh, MeshError};
 use crate::outline::{Outline, Point};
@@ -66,21 +66,52 @@ pub fn generate(outline: &Outline, fibers: usize) -> Result<Mesh, MeshError> {
 /// # Errors
 /// As [`generate()`]; a size in mm that is too coarse for the outline gives the coarsest mesh there is instead.
 pub fn build(outline: &Outline, request: &Request) -> Result<Meshed, MeshError> {
+    match (request.size, build_or_finer(outline, request)?) {
+        (Size::Fibers(asked), (_, nearest)) if nearest != asked => Err(MeshError::Unreachable { asked, nearest }),
+        (_, (meshed, _)) => Ok(meshed),
+    }
+}
+
+/// The mesh that is asked for or, where the outline needs more fibres, the one with the fewest that were found possible;
+/// and the number of fibres that it was made for.
+///
+/// # Errors
+/// As [`generate()`], but [`MeshError::Unreachable`] only for more than [`MAX_FIBERS`].
+pub fn build_or_finer(outline: &Outline, request: &Request) -> Result<(Meshed, usize), MeshError> {
     check(outline)?;
     if !request.tracks.iter().flatten().flatten().all(|v| v.is_finite()) {
         return Err(MeshError::BadTrack);
     }
-    match request.size {
-        Size::Fibers(fibers) => with_fibers(outline, request, fibers),
-        Size::EdgeMm(length) => {
-            let fibers = fibers_of_length(outline, length);
-            match with_fibers(outline, request, fibers) {
-                Err(MeshError::Unreachable { asked, nearest }) if asked < nearest => {
-                    with_fibers(outline, request, nearest)
-                }
-                other => other,
-            }
-        }
+    let fibers = match request.size {
+        Size::Fibers(fibers) => fibers,
+        Size::EdgeMm(length) => fibers_of_length(outline, length),
+    };
+    if fibers > MAX_FIBERS {
+        return Err(MeshError::Unreachable { asked: fibers, nearest: MAX_FIBERS });
+    }
+    let mirror = request.mirror && request.tracks.is_empty();
+    let axis = if mirror { symmetry::axis(outline) } else { None };
+    let half = axis.and_then(|(axis, off)| Some((axis, off, symmetry::half(outline, axis)?)));
+    let half_pool = half.as_ref().map(|(_, _, half)| Pool::of(&half.outline));
+    let half = half.as_ref().zip(half_pool.as_ref());
+    let half = half.map(|((axis, off, half), pool)| (*axis, Subject::half(outline, half, pool, *axis, *off)));
+    let pool = Pool::of(outline);
+    let whole = Subject::whole(outline, &pool, &request.tracks);
+    // One half and its image, unless the whole gives better angles.
+    let at = |fibers: usize| {
+        let even = whole.even(fibers);
+        let mirrored = half.as_ref().and_then(|(axis, subject)| {
+            let (mesh, quality) = subject.mesh(even, fibers)?;
+            Some(Meshed { mesh, quality, axis: Some(*axis) })
+        });
+        mirrored.filter(|m| m.quality.below_20_deg == m.quality.corners_below_20_deg).or_else(|| {
+            let (mesh, quality) = whole.mesh(even, fibers)?;
+            Some(Meshed { mesh, quality, axis: None })
+        })
+    };
+    match at(fibers) {
+        Some(meshed) => Ok((meshed, fibers)),
+        None => finer(&whole, fibers, at).ok_or(MeshError::TooFine { most: MAX_FIBERS }),
     }
 }
 
@@ -91,55 +122,29 @@ fn fibers_of_length(outline: &Outline, length: f64) -> usize {
     if count.is_finite() { (count.round() as usize).clamp(3, MAX_FIBERS) } else { MAX_FIBERS + 1 }
 }
 
-fn with_fibers(outline: &Outline, request: &Request, fibers: usize) -> Result<Meshed, MeshError> {
-    if fibers > MAX_FIBERS {
-        return Err(MeshError::Unreachable { asked: fibers, nearest: MAX_FIBERS });
-    }
-    let even = even_spacing(outline, fibers);
-    if request.mirror && request.tracks.is_empty() {
-        let mirrored = symmetry::axis(outline).and_then(|(axis, off)| mirrored(outline, axis, off, even, fibers));
-        if let Some(meshed) = mirrored.filter(|m| m.quality.below_20_deg == m.quality.corners_below_20_deg) {
-            return Ok(meshed);
-        }
-    }
-    let pool = Pool::of(outline);
-    let subject = Subject::whole(outline, &pool, &request.tracks);
-    if let Some((mesh, quality)) = subject.mesh(even, fibers) {
-        return Ok(Meshed { mesh, quality, axis: None });
-    }
-    Err(match nearest(&subject, fibers) {
-        Some(nearest) => MeshError::Unreachable { asked: fibers, nearest },
-        None => MeshError::TooFine { most: MAX_FIBERS },
-    })
-}
-
-/// A mesh of the outline made of one half and its image.
-fn mirrored(outline: &Outline, axis: Axis, off: f64, even: f64, fibers: usize) -> Option<Meshed> {
-    let half = symmetry::half(outline, axis)?;
-    let pool = Pool::of(&half.outline);
-    let subject = Subject::half(outline, &half, &pool, axis, off);
-    let (mesh, quality) = subject.mesh(even, fibers)?;
-    Some(Meshed { mesh, quality, axis: Some(axis) })
-}
-
 fn check(outline: &Outline) -> Result<(), MeshError> {
     let finite = outline.polygons().flatten().flatten().all(|v| v.is_finite());
     let sound = outline.polygons().all(|ring| ring.len() >= 3);
     if finite && sound && outline.area() > 0.0 { Ok(()) } else { Err(MeshError::BadOutline) }
 }
 
-/// The least count above `asked` that was found to give a mesh.
-fn nearest(subject: &Subject, asked: usize) -> Option<usize> {
+/// The mesh with the fewest fibres above `asked` that was found, and how many it was made for.
+fn finer(whole: &Subject, asked: usize, at: impl Fn(usize) -> Option<Meshed>) -> Option<(Meshed, usize)> {
     let most = (NEAREST_MOST * asked.max(100)).min(MAX_FIBERS);
-    let least = subject.least_edges(asked, most).or_else(|| subject.least_edges(most, MAX_FIBERS));
+    let least = whole.least_edges(asked, most).or_else(|| whole.least_edges(most, MAX_FIBERS));
     let mut count = least?.max(asked + 1);
+    let mut failed = asked;
     for _ in 0..NEAREST_STEPS {
         if count > MAX_FIBERS {
             break;
         }
-        if let Some((_, quality)) = subject.mesh(subject.even(count), count) {
-            return Some(quality.edges.max(count));
+        if let Some(meshed) = at(count) {
+            // Fewer may do, but not much fewer.
+            let between = failed.max(count - count / 12).midpoint(count);
+            let fewer = if between > failed { at(between).map(|meshed| (meshed, between)) } else { None };
+            return Some(fewer.unwrap_or((meshed, count)));
         }
+        failed = count;
         count += (count / 12).max(1);
     }
     None

@@ -19,7 +19,7 @@ mod tracks;
 mod tri;
 mod triangulate;
 
-pub use generate::{MAX_FIBERS, Meshed, Request, Size, build, generate};
+pub use generate::{MAX_FIBERS, Meshed, Request, Size, build, build_or_finer, generate};
 pub use subdivide::subdivided;
 pub use symmetry::{Axis, axis, is_mirrored};
 
@@ -49,7 +49,7 @@ pub enum MeshError {
     BadOutline,
     #[error("a tendon track is not finite")]
     BadTrack,
-    #[error("no mesh of this outline has {asked} muscle fibres; the nearest count found possible is {nearest}")]
+    #[error("no mesh of this outline has {asked} muscle fibres; the nearest possible count found is {nearest}")]
     Unreachable { asked: usize, nearest: usize },
     #[error("the outline is too fine to be meshed: not even {most} muscle fibres give good triangles")]
     TooFine { most: usize },

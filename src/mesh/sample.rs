@@ -63,12 +63,14 @@ pub(super) fn sample(rim: &Rim, h: f64, extra: Extra, close: Closeness, most: us
         let sampled: f64 = curves.iter().zip(rings).map(|(c, ring)| polygon::signed_area(&c.points(ring))).sum();
         1.0 - sampled / area
     };
+    // The outer polygon takes the extra nodes.
+    let corners: Vec<Vec<f64>> =
+        curves.iter().enumerate().map(|(k, c)| c.corners(h, if k == 0 { on_axis } else { &[] })).collect();
     let mut rings = Vec::new();
     for weight in CURVATURE_WEIGHTS {
-        // The outer polygon takes the extra nodes.
         let ring = |(k, c): (usize, &Curve)| match k {
-            0 => along(c, on_axis, h, weight, stray, extra),
-            _ => along(c, &[], h, weight, stray, Extra::default()),
+            0 => along(c, &corners[k], on_axis, h, weight, stray, extra),
+            _ => along(c, &corners[k], &[], h, weight, stray, Extra::default()),
         };
         rings = curves.iter().enumerate().map(ring).collect();
         if lost(&rings).abs() < close.area {
@@ -137,10 +139,17 @@ fn join(curves: &[Curve], rings: &[Vec<f64>]) -> Boundary {
     boundary
 }
 
-/// Ascending arc lengths of a ring's nodes.
-fn along(curve: &Curve, on_axis: &[usize], h: f64, weight: f64, stray: f64, extra: Extra) -> Vec<f64> {
-    let corners = curve.corners(h, on_axis);
-    let starts = if corners.is_empty() { vec![0.0] } else { corners };
+/// Ascending arc lengths of a ring's nodes, its `corners` among them.
+fn along(
+    curve: &Curve,
+    corners: &[f64],
+    on_axis: &[usize],
+    h: f64,
+    weight: f64,
+    stray: f64,
+    extra: Extra,
+) -> Vec<f64> {
+    let starts = if corners.is_empty() { vec![0.0] } else { corners.to_vec() };
     // A ring without corners still needs a few nodes to be round.
     let least = if starts.len() == 1 { 5 } else { 1 };
     let mut steps: Vec<Step> = Vec::new();

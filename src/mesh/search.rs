@@ -14,6 +14,7 @@ use super::smooth::Sliding;
 use super::symmetry::{Axis, Half, unfold};
 use super::{Mesh, generate, smooth, tracks};
 use crate::outline::{Outline, Point};
+use std::cell::Cell;
 
 /// Boundary spacings tried, relative to the evenly dense one.
 const SPACINGS: [f64; 18] =
@@ -25,11 +26,18 @@ const FILLS: [Fill; 3] = [
     Fill { coarsest: 1.25, limbs: 1.35, narrow: 1.5 },
     Fill { coarsest: 1.6, limbs: 1.8, narrow: 1.25 },
 ];
-/// Attempts times fibres after which the best mesh so far is taken, and the fewest and most attempts: some tens of
-/// milliseconds.
-const PATIENCE: usize = 16_000;
+/// Attempts times fibres after which the best mesh so far is taken if it is good, and the fewest and most attempts: some
+/// tens of milliseconds.
+const PATIENCE: usize = 24_000;
 const LEAST_TRIES: usize = 1;
-const MOST_TRIES: usize = 40;
+const MOST_TRIES: usize = 54;
+/// Most work for one mesh, in vertices, nodes and edges handled: some tenths of a second. Then the best mesh so far is
+/// taken, good or not. Counted and not timed, so that the same outline gives the same bits on every machine.
+const EFFORT: usize = 300_000;
+/// The same in samplings of large meshes, of which one alone may take as much.
+const LEAST_SAMPLINGS: usize = 12;
+/// Edges that smoothing and measuring a mesh weigh, for each that it has.
+const SMOOTHING: usize = 3;
 /// A mesh without bridges and with no angle below this is taken at once, degrees.
 const FINE_DEG: f64 = 30.5;
 /// Farthest that a chord may stray from the outline, as fractions of its height, tried in turn: with few fibres fine features
@@ -66,6 +74,10 @@ pub(super) struct Subject<'a> {
     height: f64,
     /// What is lost of the closeness by taking the image of one half for the other, mm.
     off: f64,
+    /// Vertices of the outline.
+    vertices: usize,
+    /// Work done for the mesh that is sought.
+    spent: Cell<usize>,
 }
 
 struct Candidate {
@@ -89,12 +101,15 @@ impl Candidate {
 impl<'a> Subject<'a> {
     pub fn whole(outline: &'a Outline, pool: &'a Pool<'a>, tracks: &'a [Vec<Point>]) -> Self {
         let rim = Rim { outline, curves: &pool.0, on_axis: &[] };
-        Self { whole: outline, rim, tracks, axis: None, height: height(outline), off: 0.0 }
+        let vertices = vertices(outline);
+        Self { whole: outline, rim, tracks, axis: None, height: height(outline), off: 0.0, vertices, spent: Cell::new(0) }
     }
 
     pub fn half(outline: &'a Outline, half: &'a Half, pool: &'a Pool<'a>, axis: Axis, off: f64) -> Self {
         let rim = Rim { outline: &half.outline, curves: &pool.0, on_axis: &half.on_axis };
-        Self { whole: outline, rim, tracks: &[], axis: Some(axis), height: height(outline), off }
+        let vertices = vertices(&half.outline);
+        let height = height(outline);
+        Self { whole: outline, rim, tracks: &[], axis: Some(axis), height, off, vertices, spent: Cell::new(0) }
     }
 
     /// The spacing at which boundary and interior are equally dense.
@@ -105,9 +120,13 @@ impl<'a> Subject<'a> {
     /// The best mesh found with `fibers` edges, or nearly.
     pub fn mesh(&self, even: f64, fibers: usize) -> Option<(Mesh, Quality)> {
         let mut found = Vec::new();
-        for (stray, area) in STRAYS.into_iter().zip(AREAS) {
+        let effort = EFFORT.max(LEAST_SAMPLINGS * (self.vertices + fibers));
+        self.spent.set(0);
+        for (k, (stray, area)) in STRAYS.into_iter().zip(AREAS).enumerate() {
             let close = Closeness { stray: (stray * self.height - self.off).max(0.5 * stray * self.height), area };
-            let good = self.search(even, fibers, close, &mut found);
+            // Each has its share, and what those before left.
+            let effort = effort * (k + 1) / STRAYS.len();
+            let good = self.search(even, fibers, close, effort, &mut found);
             if good && (fibers >= CLOSE_FROM || found.iter().any(|c| c.quality.bridges == 0)) {
                 break;
             }
@@ -115,20 +134,29 @@ impl<'a> Subject<'a> {
         best(found, fibers)
     }
 
-    /// The fewest edges that good angles need, of those at a few spacings; at most `most`.
+    /// The fewest edges that good angles need, of those at a few spacings; at most `most`. Once some are found, no more
+    /// than [`EFFORT`] is spent on fewer.
     pub fn least_edges(&self, asked: usize, most: usize) -> Option<usize> {
         let mut least = None;
-        for (stray, area) in STRAYS.into_iter().zip(AREAS) {
+        self.spent.set(0);
+        // From a coarse following of the outline, which needs the fewest, to a close one.
+        for (stray, area) in STRAYS.into_iter().zip(AREAS).rev() {
             let close = Closeness { stray: stray * self.height, area };
-            // From the even spacing of many times the count to one that is far too coarse for it.
-            for k in -7..4 {
+            // From a spacing that is far too coarse for the count to the even one of many times as many.
+            for k in (-7..4).rev() {
+                if least.is_some() && self.spent.get() > EFFORT {
+                    return least;
+                }
                 let h = self.even(asked) * 1.5_f64.powi(k);
                 let limit = least.unwrap_or(most);
+                self.spend(self.vertices);
                 let Some(nodes) = most_nodes(self.rim.outline, limit) else { return least };
                 let Some(boundary) = sample(&self.rim, h, Extra::default(), close, nodes) else { continue };
                 let Some(mut refiner) = self.refiner(&boundary, h, FILLS[0]) else { continue };
-                if refiner.run_angles(limit).is_some() {
-                    least = Some(refiner.edges());
+                let good = refiner.run_angles(limit).is_some();
+                self.spend(refiner.edges());
+                if good {
+                    least = Some(least.unwrap_or(usize::MAX).min(refiner.edges()));
                 }
             }
         }
@@ -136,15 +164,23 @@ impl<'a> Subject<'a> {
     }
 
     /// Tries boundary spacings about the even one, and coarser ones where the boundary's own features ask for many nodes;
-    /// whether a mesh without poor triangles was among them. Once there is one, no more than [`PATIENCE`] are tried.
-    fn search(&self, even: f64, fibers: usize, close: Closeness, found: &mut Vec<Candidate>) -> bool {
+    /// whether a mesh without poor triangles was among them. Once there is one, no more than [`PATIENCE`] are tried, and
+    /// none once `effort` is spent.
+    fn search(
+        &self,
+        even: f64,
+        fibers: usize,
+        close: Closeness,
+        effort: usize,
+        found: &mut Vec<Candidate>,
+    ) -> bool {
         let mut patience = (PATIENCE / fibers.max(1)).clamp(LEAST_TRIES, MOST_TRIES);
         let good = |found: &[Candidate]| found.iter().any(Candidate::is_good);
         let before = found.len();
         'tried: for factor in SPACINGS {
             for fill in FILLS {
-                if patience == 0 && good(found) {
-                    return true;
+                if self.spent.get() > effort || (patience == 0 && good(found)) {
+                    return good(found);
                 }
                 patience = patience.saturating_sub(1);
                 let candidate = self.attempt(factor * even, fill, fibers, close);
@@ -160,8 +196,8 @@ impl<'a> Subject<'a> {
             }
         }
         for k in 1..=COARSER {
-            if good(found) {
-                return true;
+            if self.spent.get() > effort || good(found) {
+                break;
             }
             found.extend(self.attempt(even * COARSENING.powi(k), FILLS[0], fibers, close));
         }
@@ -176,9 +212,12 @@ impl<'a> Subject<'a> {
         let extras = (0..6)
             .map(|k| if self.axis.is_some() { Extra { rim: k / 2, axis: k % 2 } } else { Extra { rim: k, axis: 0 } });
         for extra in extras {
+            self.spend(self.vertices);
             let boundary = sample(&self.rim, h, extra, close, most)?;
             let mut refiner = self.refiner(&boundary, h, fill)?;
-            if refiner.run(fibers).is_none() {
+            let room = refiner.run(fibers);
+            self.spend(refiner.tri.edges());
+            if room.is_none() {
                 if near.is_none() {
                     return None;
                 }
@@ -192,6 +231,10 @@ impl<'a> Subject<'a> {
         near.filter(|r| within(r.edges(), fibers)).and_then(|r| self.finish(r, close))
     }
 
+    fn spend(&self, work: usize) {
+        self.spent.set(self.spent.get().saturating_add(work));
+    }
+
     fn refiner(&self, boundary: &super::sample::Boundary, h: f64, fill: Fill) -> Option<Refiner<'a>> {
         let tracks = tracks::sample(self.tracks, self.whole, h);
         Refiner::new(boundary, &tracks, self.rim.curves, self.axis.is_some(), h, fill)
@@ -200,6 +243,7 @@ impl<'a> Subject<'a> {
     /// Smooths, and checks what came out.
     fn finish(&self, refiner: Refiner, close: Closeness) -> Option<Candidate> {
         let Refiner { mut tri, places, .. } = refiner;
+        self.spend(SMOOTHING * tri.edges());
         let mirror = self.axis.is_some();
         let mut rim = Sliding { places, curves: self.rim.curves, stray: close.stray, mirror };
         smooth::smooth(&mut tri, &mut rim);
@@ -214,6 +258,10 @@ impl<'a> Subject<'a> {
         let sound = quality.below_5_deg == 0 && lost < AREA_SLACK * close.area && mesh.validate().is_ok();
         sound.then_some(Candidate { mesh, quality })
     }
+}
+
+fn vertices(outline: &Outline) -> usize {
+    outline.polygons().map(<[Point]>::len).sum()
 }
 
 fn height(outline: &Outline) -> f64 {

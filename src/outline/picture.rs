@@ -120,7 +120,9 @@ fn field(
     Ok(((Field { width, height, values }, level), factor))
 }
 
-/// The level that parts values between 0 and `most` into two classes with the largest variance between them.
+/// Parts values between 0 and `most` into the two classes with the largest variance between them (Otsu 1979), and takes
+/// the level halfway between their means: where the classes are far apart any level between them parts them as well,
+/// but a blurred edge lies where its value is halfway.
 fn otsu(values: &[f32], most: f64) -> f64 {
     let mut histogram = [0_f64; LEVELS];
     for &value in values {
@@ -130,7 +132,7 @@ fn otsu(values: &[f32], most: f64) -> f64 {
     let mean = |range: &[f64], from: usize| range.iter().enumerate().map(|(k, n)| (k + from) as f64 * n).sum::<f64>();
     let all = mean(&histogram, 0);
     let (mut count, mut sum) = (0.0, 0.0);
-    let (mut best, mut level) = (-1.0, LEVELS / 2);
+    let (mut best, mut level) = (-1.0, 0.5 * LEVELS as f64);
     for k in 0..LEVELS - 1 {
         count += histogram[k];
         sum += k as f64 * histogram[k];
@@ -140,10 +142,11 @@ fn otsu(values: &[f32], most: f64) -> f64 {
         }
         let between = count * rest * (sum / count - (all - sum) / rest).powi(2);
         if between > best {
-            (best, level) = (between, k + 1);
+            // A bar stands for the values about its middle.
+            (best, level) = (between, 0.5 * (sum / count + (all - sum) / rest) + 0.5);
         }
     }
-    level as f64 / LEVELS as f64 * most
+    level / LEVELS as f64 * most
 }
 
 /// The regions at or above the level, without noise.

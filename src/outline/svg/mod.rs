@@ -6,6 +6,7 @@
 //! everything else that fills the page is paper, not plushie. Filters (shadows, blurs) and embedded pictures are left
 //! out. What was left out or read in a special way is noted.
 
+mod expansion;
 mod flatten;
 mod mask;
 
@@ -15,7 +16,8 @@ use flatten::flatten;
 use i_overlay::core::fill_rule::FillRule;
 use std::sync::{Arc, LazyLock};
 use usvg::tiny_skia_path::PathStroker;
-use usvg::{Group, ImageKind, Node, Paint, Transform, Tree};
+use usvg::roxmltree::{self, Document, ParsingOptions};
+use usvg::{Group, ImageHrefResolver, ImageKind, Node, Paint, Transform, Tree};
 
 /// Millimetres in a CSS px.
 const MM_PER_PX: f64 = 25.4 / 96.0;
@@ -49,8 +51,12 @@ pub fn read(svg: &[u8], height_mm: Option<f64>) -> Result<Outline, OutlineError>
 
 /// All that is painted, in px with y up.
 pub(super) fn painting(svg: &[u8], import: &Import) -> Result<Painting, OutlineError> {
-    let tree = Tree::from_data(svg, &options())
-        .map_err(|error| OutlineError::Unreadable { format: "SVG", reason: error.to_string() })?;
+    let unreadable = |reason: String| OutlineError::Unreadable { format: "SVG", reason };
+    let text = std::str::from_utf8(svg).map_err(|error| unreadable(error.to_string()))?;
+    let document = parse(text).map_err(|error| unreadable(error.to_string()))?;
+    expansion::check(&document)?;
+    let tree = Tree::from_xmltree(&document, &options()).map_err(|error| unreadable(error.to_string()))?;
+    drop(document);
     let bounds = tree.root().abs_stroke_bounding_box();
     let longer = f64::from(bounds.width().max(bounds.height()));
     let page = [f64::from(tree.size().width()), f64::from(tree.size().height())];
@@ -86,6 +92,11 @@ pub(super) fn painting(svg: &[u8], import: &Import) -> Result<Painting, OutlineE
     Ok(Painting { shapes, unit_mm: MM_PER_PX, notes })
 }
 
+/// The elements of a file. Its own entities are resolved, within the bounds of the XML reader.
+fn parse(text: &str) -> Result<Document<'_>, roxmltree::Error> {
+    Document::parse_with_options(text, ParsingOptions { allow_dtd: true, ..ParsingOptions::default() })
+}
+
 /// Nothing is painted: says so, and whether there is something that cannot count.
 fn nothing(tree: &Tree) -> OutlineError {
     fn any(group: &Group, test: &dyn Fn(&Node) -> bool) -> bool {
@@ -108,10 +119,16 @@ static FONTS: LazyLock<Arc<usvg::fontdb::Database>> = LazyLock::new(|| {
     Arc::new(fonts)
 });
 
-/// The default options, with references to files outside the SVG cut off: a silhouette needs none.
+/// The default options, with references to files outside the SVG cut off, which a silhouette
+/// does not need, and embedded drawings read within the same bounds.
 fn options() -> usvg::Options<'static> {
     let mut options = usvg::Options { fontdb: FONTS.clone(), ..usvg::Options::default() };
     options.image_href_resolver.resolve_string = Box::new(|_, _| None);
+    let embedded = ImageHrefResolver::default_data_resolver();
+    options.image_href_resolver.resolve_data = Box::new(move |mime, data, options| {
+        let drawing = ["image/svg+xml", "text/plain"].contains(&mime);
+        if drawing && !expansion::fits(&data) { None } else { embedded(mime, data, options) }
+    });
     options.font_resolver.select_font = Box::new(|_, fonts| fonts.faces().next().map(|face| face.id));
     options
 }
