@@ -39,11 +39,16 @@ fn seeds() -> Vec<Vec<u8>> {
                0 10 50 20 9 10 9 20 60 0 ENDSEC 0 EOF";
     let obj = "v 0 0 0\nv 9 0 0\nv 9 9 0\nv 0 9 0\nv 4 14 0\nf 1 2 3 4\nf 4/1 3/1 5/1\nf -5 -4 -3\n";
     let mut files = vec![svg.into(), dxf.replace(' ', "\n").into_bytes(), obj.into()];
-    let picture =
-        image::RgbaImage::from_fn(24, 24, |x, y| image::Rgba([9, 9, 9, if x > 4 && y > x / 2 { 255 } else { 0 }]));
-    for format in [image::ImageFormat::Png, image::ImageFormat::Jpeg] {
+    // Dark on what is clear in the PNG and white in the JPEG, which has no opacity.
+    let picture = image::RgbaImage::from_fn(24, 24, |x, y| {
+        image::Rgba(if x > 4 && y > x / 2 { [9, 9, 9, 255] } else { [255, 255, 255, 0] })
+    });
+    let picture = image::DynamicImage::from(picture);
+    for (format, picture) in
+        [(image::ImageFormat::Png, picture.clone()), (image::ImageFormat::Jpeg, picture.to_rgb8().into())]
+    {
         let mut bytes = std::io::Cursor::new(Vec::new());
-        image::DynamicImage::from(picture.clone()).to_rgb8().write_to(&mut bytes, format).unwrap();
+        picture.write_to(&mut bytes, format).unwrap();
         files.push(bytes.into_inner());
     }
     files
