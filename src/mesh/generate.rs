@@ -1,7 +1,7 @@
 //! Outline to triangle mesh: what can be asked for, and the refusal of what cannot be.
 
 use super::quality::Quality;
-use super::search::{Pool, Subject};
+use super::search::{Effort, Pool, Subject};
 use super::symmetry::{self, Axis};
 use super::{Mesh, MeshError};
 use crate::outline::{Outline, Point};
@@ -11,6 +11,10 @@ pub const MAX_FIBERS: usize = 200_000;
 /// Steps of a twelfth taken upward from the edges that good angles need alone, to find a count that smoothing and the search
 /// reach as well: 1.6 times in all.
 const NEAREST_STEPS: usize = 6;
+/// Fewest fibres that are looked for below a count that has a mesh, as a part of it, and how often that interval is halved:
+/// to 2 %.
+const FEWER: f64 = 0.7;
+const HALVINGS: usize = 4;
 /// Largest multiple of the asked count that is looked for instead, at first.
 const NEAREST_MOST: usize = 10;
 
@@ -98,18 +102,18 @@ pub fn build_or_finer(outline: &Outline, request: &Request) -> Result<(Meshed, u
     let pool = Pool::of(outline);
     let whole = Subject::whole(outline, &pool, &request.tracks);
     // One half and its image, unless the whole gives better angles.
-    let at = |fibers: usize| {
+    let at = |fibers: usize, effort: Effort| {
         let even = whole.even(fibers);
         let mirrored = half.as_ref().and_then(|(axis, subject)| {
-            let (mesh, quality) = subject.mesh(even, fibers)?;
+            let (mesh, quality) = subject.mesh(even, fibers, effort)?;
             Some(Meshed { mesh, quality, axis: Some(*axis) })
         });
         mirrored.filter(|m| m.quality.below_20_deg == m.quality.corners_below_20_deg).or_else(|| {
-            let (mesh, quality) = whole.mesh(even, fibers)?;
+            let (mesh, quality) = whole.mesh(even, fibers, effort)?;
             Some(Meshed { mesh, quality, axis: None })
         })
     };
-    match at(fibers) {
+    match at(fibers, Effort::Full) {
         Some(meshed) => Ok((meshed, fibers)),
         None => finer(&whole, fibers, at).ok_or(MeshError::TooFine { most: MAX_FIBERS }),
     }
@@ -129,25 +133,42 @@ fn check(outline: &Outline) -> Result<(), MeshError> {
 }
 
 /// The mesh with the fewest fibres above `asked` that was found, and how many it was made for.
-fn finer(whole: &Subject, asked: usize, at: impl Fn(usize) -> Option<Meshed>) -> Option<(Meshed, usize)> {
+///
+/// The angles alone say where to begin; from there upward until a count has a mesh, then the interval to the largest
+/// count that had none, or to [`FEWER`] of it, is halved.
+fn finer(
+    whole: &Subject,
+    asked: usize,
+    at: impl Fn(usize, Effort) -> Option<Meshed>,
+) -> Option<(Meshed, usize)> {
     let most = (NEAREST_MOST * asked.max(100)).min(MAX_FIBERS);
     let least = whole.least_edges(asked, most).or_else(|| whole.least_edges(most, MAX_FIBERS));
     let mut count = least?.max(asked + 1);
-    let mut failed = asked;
+    let mut without = asked;
+    let mut found = None;
     for _ in 0..NEAREST_STEPS {
-        if count > MAX_FIBERS {
+        found = if count > MAX_FIBERS { None } else { at(count, Effort::Little).map(|meshed| (meshed, count)) };
+        if found.is_some() {
             break;
         }
-        if let Some(meshed) = at(count) {
-            // Fewer may do, but not much fewer.
-            let between = failed.max(count - count / 12).midpoint(count);
-            let fewer = if between > failed { at(between).map(|meshed| (meshed, between)) } else { None };
-            return Some(fewer.unwrap_or((meshed, count)));
-        }
-        failed = count;
+        without = count;
         count += (count / 12).max(1);
     }
-    None
+    let (meshed, mut count) = found?;
+    without = without.max((FEWER * count as f64) as usize);
+    for _ in 0..HALVINGS {
+        let between = without.midpoint(count);
+        if between <= without {
+            break;
+        }
+        if at(between, Effort::Little).is_some() {
+            count = between;
+        } else {
+            without = between;
+        }
+    }
+    // The same mesh as for who asks for so many.
+    Some((at(count, Effort::Full).unwrap_or(meshed), count))
 }
 
 /// Puts triangles in the order of their nodes, each with its smallest first.

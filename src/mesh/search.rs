@@ -80,6 +80,14 @@ pub(super) struct Subject<'a> {
     spent: Cell<usize>,
 }
 
+/// How much work a search may take.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Effort {
+    Full,
+    /// A quarter: for one of several counts. What is found with it is found with all of it too.
+    Little,
+}
+
 struct Candidate {
     mesh: Mesh,
     quality: Quality,
@@ -118,9 +126,12 @@ impl<'a> Subject<'a> {
     }
 
     /// The best mesh found with `fibers` edges, or nearly.
-    pub fn mesh(&self, even: f64, fibers: usize) -> Option<(Mesh, Quality)> {
+    pub fn mesh(&self, even: f64, fibers: usize, effort: Effort) -> Option<(Mesh, Quality)> {
         let mut found = Vec::new();
-        let effort = EFFORT.max(LEAST_SAMPLINGS * (self.vertices + fibers));
+        let effort = match effort {
+            Effort::Full => EFFORT.max(LEAST_SAMPLINGS * (self.vertices + fibers)),
+            Effort::Little => (EFFORT / 4).max(LEAST_SAMPLINGS / 3 * (self.vertices + fibers)),
+        };
         self.spent.set(0);
         for (k, (stray, area)) in STRAYS.into_iter().zip(AREAS).enumerate() {
             let close = Closeness { stray: (stray * self.height - self.off).max(0.5 * stray * self.height), area };
