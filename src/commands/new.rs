@@ -189,8 +189,7 @@ pub fn design(imported: Imported, fibers: Option<usize>, name: &str) -> Result<(
         return Ok((Design::new(name, outline, mesh), changes));
     }
     let asked = fibers.unwrap_or(defaults::FIBERS);
-    let (meshed, count) =
-        mesh::build_or_finer(&outline, &Request::fibers(asked)).map_err(|error| error.to_string())?;
+    let (meshed, count) = mesh::build_or_finer(&outline, &Request::fibers(asked)).map_err(|error| error.to_string())?;
     if count != asked {
         if fibers.is_some() {
             return Err(MeshError::Unreachable { asked, nearest: count }.to_string());

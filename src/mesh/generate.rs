@@ -136,11 +136,7 @@ fn check(outline: &Outline) -> Result<(), MeshError> {
 ///
 /// The angles alone say where to begin; from there upward until a count has a mesh, then the interval to the largest
 /// count that had none, or to [`FEWER`] of it, is halved.
-fn finer(
-    whole: &Subject,
-    asked: usize,
-    at: impl Fn(usize, Effort) -> Option<Meshed>,
-) -> Option<(Meshed, usize)> {
+fn finer(whole: &Subject, asked: usize, at: impl Fn(usize, Effort) -> Option<Meshed>) -> Option<(Meshed, usize)> {
     let most = (NEAREST_MOST * asked.max(100)).min(MAX_FIBERS);
     let least = whole.least_edges(asked, most).or_else(|| whole.least_edges(most, MAX_FIBERS));
     let mut count = least?.max(asked + 1);

@@ -140,15 +140,7 @@ fn join(curves: &[Curve], rings: &[Vec<f64>]) -> Boundary {
 }
 
 /// Ascending arc lengths of a ring's nodes, its `corners` among them.
-fn along(
-    curve: &Curve,
-    corners: &[f64],
-    on_axis: &[usize],
-    h: f64,
-    weight: f64,
-    stray: f64,
-    extra: Extra,
-) -> Vec<f64> {
+fn along(curve: &Curve, corners: &[f64], on_axis: &[usize], h: f64, weight: f64, stray: f64, extra: Extra) -> Vec<f64> {
     let starts = if corners.is_empty() { vec![0.0] } else { corners.to_vec() };
     // A ring without corners still needs a few nodes to be round.
     let least = if starts.len() == 1 { 5 } else { 1 };

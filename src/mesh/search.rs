@@ -110,7 +110,16 @@ impl<'a> Subject<'a> {
     pub fn whole(outline: &'a Outline, pool: &'a Pool<'a>, tracks: &'a [Vec<Point>]) -> Self {
         let rim = Rim { outline, curves: &pool.0, on_axis: &[] };
         let vertices = vertices(outline);
-        Self { whole: outline, rim, tracks, axis: None, height: height(outline), off: 0.0, vertices, spent: Cell::new(0) }
+        Self {
+            whole: outline,
+            rim,
+            tracks,
+            axis: None,
+            height: height(outline),
+            off: 0.0,
+            vertices,
+            spent: Cell::new(0),
+        }
     }
 
     pub fn half(outline: &'a Outline, half: &'a Half, pool: &'a Pool<'a>, axis: Axis, off: f64) -> Self {
@@ -177,14 +186,7 @@ impl<'a> Subject<'a> {
     /// Tries boundary spacings about the even one, and coarser ones where the boundary's own features ask for many nodes;
     /// whether a mesh without poor triangles was among them. Once there is one, no more than [`PATIENCE`] are tried, and
     /// none once `effort` is spent.
-    fn search(
-        &self,
-        even: f64,
-        fibers: usize,
-        close: Closeness,
-        effort: usize,
-        found: &mut Vec<Candidate>,
-    ) -> bool {
+    fn search(&self, even: f64, fibers: usize, close: Closeness, effort: usize, found: &mut Vec<Candidate>) -> bool {
         let mut patience = (PATIENCE / fibers.max(1)).clamp(LEAST_TRIES, MOST_TRIES);
         let good = |found: &[Candidate]| found.iter().any(Candidate::is_good);
         let before = found.len();

@@ -22,9 +22,9 @@ const DEGENERATE_FRACTION: f64 = 1e-5;
 const HAIRLINE_FRACTION: f64 = 0.01;
 /// Area that widening hairlines may add, as a part of the silhouette.
 const HAIRLINE_BUDGET: f64 = 0.01;
-/// Diameter of the disc that joins a pinched point, as a fraction of the longer side of the box: a tenth more than a
-/// hairline, so that what is joined is none even across the flats of the disc's polygon.
-const PINCH_FRACTION: f64 = 1.1 * HAIRLINE_FRACTION;
+/// Diameter of the disc that joins a pinched point, as a fraction of the longer side of the box. Where two right angles meet
+/// tip to tip, the chord from side to side is that over the square root of 2: a little wider than a hairline.
+const PINCH_FRACTION: f64 = 1.5 * HAIRLINE_FRACTION;
 
 /// One outline from what was painted.
 pub(super) fn clean(painting: Painting, import: &Import) -> Result<Imported, OutlineError> {

@@ -132,7 +132,12 @@ impl Style {
     fn of(nodes: &[Node]) -> Self {
         let mut style = Self::default();
         let sheets = nodes.iter().filter(|n| n.has_tag_name_anywhere("style"));
-        for rule in sheets.flat_map(|n| n.descendants()).filter(Node::is_text).filter_map(|n| n.text()).flat_map(|t| t.split('}')) {
+        for rule in sheets
+            .flat_map(|n| n.descendants())
+            .filter(Node::is_text)
+            .filter_map(|n| n.text())
+            .flat_map(|t| t.split('}'))
+        {
             style.rules += 1;
             let Some((before, body)) = rule.rsplit_once('{') else { continue };
             style.marked |= body.contains("marker");
@@ -201,7 +206,8 @@ mod tests {
 
     #[test]
     fn references_multiply_however_they_are_written() {
-        for way in ["<rect clip-path='url(#c{})'/>", "<rect style='clip-path: url( \"#c{}\" )'/>", "<use href='#c{}'/>"] {
+        for way in ["<rect clip-path='url(#c{})'/>", "<rect style='clip-path: url( \"#c{}\" )'/>", "<use href='#c{}'/>"]
+        {
             let few = count(&chain(5, |i| way.replace("{}", &i.to_string()))).unwrap();
             assert!((50..500).contains(&few), "{few}");
             assert!(count(&chain(70, |i| way.replace("{}", &i.to_string()))).unwrap() > MAX_ELEMENTS);

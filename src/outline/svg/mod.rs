@@ -15,8 +15,8 @@ use super::{Background, Import, Outline, OutlineError, Painting, Point, import, 
 use flatten::flatten;
 use i_overlay::core::fill_rule::FillRule;
 use std::sync::{Arc, LazyLock};
-use usvg::tiny_skia_path::PathStroker;
 use usvg::roxmltree::{self, Document, ParsingOptions};
+use usvg::tiny_skia_path::PathStroker;
 use usvg::{Group, ImageHrefResolver, ImageKind, Node, Paint, Transform, Tree};
 
 /// Millimetres in a CSS px.
