@@ -366,7 +366,8 @@ impl Fibers {
                 }
                 Stage::Finishing => {
                     fresh = true;
-                    self.ended = self.step(question, frame, false, tolerance);
+                    // Nobody waits for it: as far as the most accurate would.
+                    self.ended = self.step(question, frame, false, Quality::Accurate.step_tolerance());
                     if self.ended {
                         self.stage = Stage::Done;
                     }
@@ -393,7 +394,6 @@ impl Fibers {
             (None, None) => self.run.go_on_from(question, &posture.x, &posture.beta, &mut self.work),
         }
         self.stage = match deciding {
-            Some(converged) if converged && shown.is_some() && !snapped => Stage::Done,
             Some(_) => Stage::Finishing,
             None if snapped && self.stage == Stage::Done => Stage::Finishing,
             None if snapped => Stage::Following,
@@ -432,7 +432,7 @@ impl Fibers {
             None => true,
             Some(progress) => {
                 frame.factorizations += progress.factorizations;
-                progress.settled && progress.moved <= tolerance
+                progress.settled && progress.moved <= tolerance || progress.gain <= self.work.worth(tolerance)
             }
         }
     }
