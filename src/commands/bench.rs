@@ -6,6 +6,7 @@ use super::solve::Effort;
 use crate::bench::drags::{Path as DragPath, SWEEP_FRAMES};
 use crate::bench::{
     BenchError, Quality, Report, Session, cold, drag, extremes, linear, properties, resolution, scene, shapes, trade,
+    wander,
 };
 use clap::{Args, Subcommand, ValueEnum};
 use std::cell::Cell;
@@ -77,6 +78,17 @@ enum Study {
         /// Drags of each shape and number of targets
         #[arg(long, default_value_t = 1)]
         draws: usize,
+        #[command(flatten)]
+        common: Common,
+    },
+    /// Wild drags that come back: may every frame be shown, and does the pose not depend on the way there
+    Wander {
+        /// Number of muscle fibres
+        #[arg(long, default_value_t = 414)]
+        fibers: usize,
+        /// Drags of each shape
+        #[arg(long, default_value_t = 10)]
+        drags: usize,
         #[command(flatten)]
         common: Common,
     },
@@ -162,6 +174,7 @@ impl Study {
         match self {
             Self::Drag { common, .. }
             | Self::Cold { common, .. }
+            | Self::Wander { common, .. }
             | Self::Trade { common, .. }
             | Self::Resolution { common, .. }
             | Self::Scene { common, .. }
@@ -202,6 +215,9 @@ impl Study {
             Self::Cold { fibers, targets, draws, common } => {
                 cold::Cold { shapes: common.shapes(&["all"]), fibers: *fibers, targets: targets.clone(), draws: *draws }
                     .run(session)
+            }
+            Self::Wander { fibers, drags, common } => {
+                wander::Wander { shapes: common.shapes(&["all"]), fibers: *fibers, drags: *drags }.run(session)
             }
             Self::Trade { fibers, reference, common } => {
                 let shapes = common.shapes(&["pig"]);
