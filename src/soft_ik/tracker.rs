@@ -43,8 +43,8 @@ impl Quality {
         }
     }
 
-    /// A frame is done when no node moves further than this part of the body in an iteration. A thousandth of a millimetre in a
-    /// plushie of 100 mm cannot be seen.
+    /// A frame is done when no node moves further than this part of the body in an iteration, or no target would come nearer
+    /// by more than that. A thousandth of a millimetre in a plushie of 100 mm cannot be seen.
     pub fn step_tolerance(self) -> f64 {
         match self {
             Self::Draft => 1e-4,

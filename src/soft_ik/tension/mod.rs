@@ -14,6 +14,9 @@
 //!    its spring in `H`, `dtau = U'' dalpha_c` at fixed `x`. Where the step moves it off its bound it is freed. So held and
 //!    free elements are decided on together, against the same targets.
 //!
+//! A stiff element whose tension is the unknown keeps a softer spring's stiffness, or the body would buckle where the real cable
+//! does not let it. Such springs resist the choice of tensions, so the stiffness shrinks where steps turn out timid.
+//!
 //! Tension does not vanish from the model where an element is slack, so the slack stall does not exist here. Contractions
 //! follow as `alpha_c = alpha_0 - l + U'^-1(tau)`, and a statics polish ends the work.
 //!
