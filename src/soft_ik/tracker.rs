@@ -146,8 +146,10 @@ const SETTLED: f64 = 1e-10;
 const SMALL: usize = 8;
 /// What must be reached before a pose is shown, whatever the budget.
 const SHOWN: f64 = 1e-3;
-/// Newton steps spent on that at most, before the pose of the last frame stays.
+/// Newton steps spent on that at most, before the pose of the last frame stays: in small scenes, and in large ones, where the
+/// hand would feel them.
 const SETTLING_STEPS: usize = 60;
+const HASTY_STEPS: usize = 8;
 
 impl Tracker {
     /// Starts at a posture in equilibrium. Works out the rest pose (activations zero) too.
@@ -265,7 +267,7 @@ impl Tracker {
             (residual, scale) = settle(SETTLED, left, &mut self.trial);
         }
         if residual > SHOWN * scale {
-            (residual, scale) = settle(SHOWN, SETTLING_STEPS, &mut self.trial);
+            (residual, scale) = settle(SHOWN, if whole { SETTLING_STEPS } else { HASTY_STEPS }, &mut self.trial);
         }
         self.force_scale = scale;
         let settled = residual <= SHOWN * scale;
