@@ -70,7 +70,7 @@ impl Method for GaussNewton {
                 let (trial, factorizations) = question.settle(&beta, &guess, budget.stop);
                 answer.factorizations += factorizations;
                 let gain = best.objective - trial.objective;
-                if trial.in_equilibrium && gain > 1e-4 * promised {
+                if trial.in_equilibrium() && gain > 1e-4 * promised {
                     damping = (damping * if gain > 0.7 * promised { 0.1 } else { 0.5 }).max(1e-12);
                     best = trial;
                     improved = true;
