@@ -122,7 +122,7 @@ fn sensitivities_agree_with_resolved_equilibria() {
         let tangents: Vec<f64> =
             elements.iter().zip(&contractions).map(|(e, c)| e.tangent(e.length(&at.x) - e.alpha0 + c)).collect();
         question.model.factorize(&at.x, HessianForm::Exact).unwrap();
-        let columns = sensitivity::position_jacobian(&mut question, &at.x, &tangents);
+        let columns = sensitivity::position_jacobian(&mut question, &at.x, &tangents, &|| false).unwrap();
         let here = zones(question.model, &at.x, &contractions);
         let scale = [largest(&gradient.by_activation), largest(&columns)];
         for (j, column) in columns.chunks_exact(at.x.len()).enumerate() {

@@ -2,7 +2,7 @@
 
 use super::compile::{Plushie, View, compile, objective};
 use super::trial::{SAME_STATE, WINDING_STEPS};
-use super::{Outcome, Quality, Question, Request, Shape};
+use super::{Outcome, Quality, Question, Request, Shape, Warning};
 use crate::design::{Design, Target};
 use crate::soft_ik::contraction::GaussNewton;
 use crate::soft_ik::{self, Actuation, Answer, Budget, Method, Posture, Tracker, default_method};
@@ -311,17 +311,7 @@ pub(super) fn report(
         iterations: 0,
         factorizations: 0,
         milliseconds: clock.elapsed().as_secs_f64() * 1e3,
-        warning: warning(plushie, posture),
-    }
-}
-
-fn warning(plushie: &Plushie, posture: &Posture) -> Option<String> {
-    if plushie.model.free_pieces() > 0 {
-        Some("The body is free to move: add pins until two points of it are held.".into())
-    } else if !posture.in_equilibrium() {
-        Some("Not in equilibrium: what is shown is the nearest state found.".into())
-    } else {
-        None
+        warning: Warning::of(plushie, posture),
     }
 }
 
@@ -346,11 +336,11 @@ impl Shape {
     }
 
     /// The rest shape, with what is to be said about it.
-    pub fn at_rest(design: &Design, warning: String) -> Self {
+    pub fn at_rest(design: &Design, why: String) -> Self {
         Self {
             nodes: design.mesh.nodes.clone(),
             activations_mm: vec![0.0; design.networks.len()],
-            warning: Some(warning),
+            warning: Some(Warning::Solver(why)),
             ..Self::default()
         }
     }

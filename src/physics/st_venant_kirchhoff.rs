@@ -94,3 +94,44 @@ fn barrier(j: f64) -> [f64; 3] {
     let part = gap / j;
     [-gap * gap * log, -gap * (2.0 * log + part), -2.0 * log - 4.0 * part + part * part].map(|v| v / TOUCHING)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::physics::{Body, Contractile, Element, Model, Pin, Pins, StaticsSettings, statics};
+
+    /// A square of two triangles, held at its lower side; cables draw its upper corners down to the lower ones.
+    fn pressed(lambda: f64, stiffness: f64) -> Model {
+        let nodes = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        let material = Box::new(StVenantKirchhoff { mu: 1.0, lambda });
+        let body = Body::new(&nodes, &[[0, 1, 2], [0, 2, 3]], material, None).unwrap();
+        let cable = |routing: [usize; 2]| Element { routing: routing.to_vec(), stiffness, epsilon: 1e-3, alpha0: 1.0 };
+        let mut cables = Contractile::new(vec![cable([0, 3]), cable([1, 2])]);
+        cables.set_contractions(&[0.999; 2]);
+        let pins = Pins { pins: vec![Pin::node(0, nodes[0], 1e3), Pin::node(1, nodes[1], 1e3)] };
+        Model::new(&nodes, body, cables, pins, Vec::new()).unwrap()
+    }
+
+    #[test]
+    fn a_body_that_is_pressed_flat_comes_to_rest() {
+        for (lambda, stiffness) in [(1.0, 1.0), (1.0, 100.0), (1e4, 1e4), (0.0, 1e6), (-0.5, 1e3)] {
+            let mut model = pressed(lambda, stiffness);
+            let rest = model.rest.clone();
+            let state = statics::solve(&mut model, &rest, &StaticsSettings::default(), &|| false)
+                .unwrap_or_else(|e| panic!("lambda {lambda}, K {stiffness}: {e} after {} steps", e.best.iterations));
+            let j = model.body.smallest_determinant(&state.x);
+            assert!(j > 0.0 && j < 0.05, "lambda {lambda}, K {stiffness}: det F {j:e}");
+            assert!(state.iterations < 200, "lambda {lambda}, K {stiffness}: {} steps", state.iterations);
+        }
+    }
+
+    #[test]
+    fn the_barrier_begins_without_a_jump() {
+        let at = barrier(TOUCHING * (1.0 - 1e-9));
+        assert!(at[0].abs() < 1e-18 && at[1].abs() < 1e-12 && at[2].abs() < 1e-5, "{at:?}");
+        // Above it the material is what its name says.
+        let material = StVenantKirchhoff { mu: 1.0, lambda: 0.0 };
+        let f = Matrix2::new(1.0, 0.0, 0.0, 1.01 * TOUCHING);
+        assert_eq!(material.density(&f), StVenantKirchhoff::strain(&f).norm_squared());
+    }
+}

@@ -74,7 +74,7 @@ pub enum Cause {
     Factorization,
     #[error("no step lowers the energy any further, and forces are still unbalanced")]
     Stalled,
-    #[error("not in equilibrium after the allowed number of Newton steps")]
+    #[error("the allowed number of Newton steps was not enough")]
     Iterations,
     #[error("the body is free to move: add a pin")]
     FreeToMove,
