@@ -87,7 +87,8 @@ fn a_budget_holds_for_20_000_fibers() {
     let once = clock.elapsed();
     let upper = plain.elements.iter().map(|e| Some(0.3 * e.alpha0)).collect();
     let soft_ik = SoftIkData { beta_upper: Some(upper), ..SoftIkData::default() };
-    let goals = |lift: f64| plain.objective.iter().flat_map(|o| &o.targets).map(|t| [t.xy[0], t.xy[1] + lift]).collect();
+    let goals =
+        |lift: f64| plain.objective.iter().flat_map(|o| &o.targets).map(|t| [t.xy[0], t.xy[1] + lift]).collect();
     let drag = DragData { frames: vec![goals(0.0), goals(0.2)], report: vec![0], tension_regulariser: 1e-4 };
     for (name, problem) in [
         ("statics", plain.clone()),

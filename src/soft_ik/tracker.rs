@@ -342,7 +342,7 @@ impl Fibers {
             match self.stage {
                 Stage::Following => {
                     fresh = true;
-                    let converged = self.step(question, frame, false, tolerance);
+                    let converged = self.step(question, frame, false, tolerance, stop);
                     self.ended = converged;
                     if converged || (self.waited > CHALLENGE_AFTER && frame.factorizations >= budget) {
                         if self.stale {
@@ -362,7 +362,7 @@ impl Fibers {
                     }
                 }
                 Stage::Challenging(count) => {
-                    let converged = self.step(question, frame, true, tolerance);
+                    let converged = self.step(question, frame, true, tolerance, stop);
                     self.stage = Stage::Challenging(count + 1);
                     if converged || count >= CHALLENGE_ITERATIONS {
                         // Whether it is as good is seen once it is settled.
@@ -374,7 +374,7 @@ impl Fibers {
                 }
                 Stage::Finishing => {
                     fresh = true;
-                    self.ended = self.step(question, frame, false, tolerance);
+                    self.ended = self.step(question, frame, false, tolerance, stop);
                     if self.ended {
                         self.stage = Stage::Done;
                     }
@@ -433,11 +433,18 @@ impl Fibers {
     }
 
     /// One iteration of the run or its challenger; whether it has converged (or cannot go on).
-    fn step(&mut self, question: &mut Question, frame: &mut Frame, challenger: bool, tolerance: f64) -> bool {
+    fn step(
+        &mut self,
+        question: &mut Question,
+        frame: &mut Frame,
+        challenger: bool,
+        tolerance: f64,
+        stop: &dyn Fn() -> bool,
+    ) -> bool {
         let run = if challenger { &mut self.challenger } else { &mut self.run };
         frame.iterations += 1;
-        match run.iterate(question, &mut self.work) {
-            None => true,
+        match run.iterate(question, &mut self.work, stop) {
+            None => !stop(),
             Some(progress) => {
                 frame.factorizations += progress.factorizations;
                 progress.settled && progress.moved <= tolerance

@@ -173,12 +173,7 @@ fn details(judged: &[Judged]) -> Table {
     let mut table = Table::new(
         "cases",
         "Cases",
-        &[
-            &["row", "at"][..],
-            &WORK,
-            &["error", "lost digits", "condition", "target error", "ms", "outcome"],
-        ]
-        .concat(),
+        &[&["row", "at"][..], &WORK, &["error", "lost digits", "condition", "target error", "ms", "outcome"]].concat(),
     );
     for j in judged {
         for (case, (o, short)) in j.row.cases.iter().zip(&j.outcomes) {

@@ -73,7 +73,7 @@ impl Method for AllAtOnce {
             answer.converged = false;
             while answer.iterations < budget.iterations && !(budget.stop)() {
                 answer.iterations += 1;
-                let Some(progress) = run.iterate(question, &mut work) else { break };
+                let Some(progress) = run.iterate(question, &mut work, budget.stop) else { break };
                 answer.factorizations += progress.factorizations;
                 if progress.settled && progress.moved <= self.step_tolerance {
                     answer.converged = true;

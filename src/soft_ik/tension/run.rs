@@ -164,8 +164,13 @@ impl Run {
         work.phases.assembly += clock.elapsed().as_secs_f64();
     }
 
-    /// One iteration; `None` where the stiffness matrix cannot be factorised.
-    pub fn iterate(&mut self, question: &mut Question, work: &mut Workspace) -> Option<Progress> {
+    /// One iteration; `None` where the stiffness matrix cannot be factorised, or `stop` has ended it: with many targets it is long.
+    pub fn iterate(
+        &mut self,
+        question: &mut Question,
+        work: &mut Workspace,
+        stop: &dyn Fn() -> bool,
+    ) -> Option<Progress> {
         let clock = Instant::now();
         work.cables.update(&self.x);
         let elements = &question.model.contractile.elements;
@@ -177,7 +182,9 @@ impl Run {
         let form = factorize(question.model, &self.x, &mut work.phases)?;
         let factorizations = 1 + (form == HessianForm::Projected) as usize;
 
-        self.solve_sides(question, work);
+        if !self.solve_sides(question, work, stop) {
+            return None;
+        }
         if self.judge(question, work) == Verdict::Back {
             let stuck = self.nu >= LARGEST_PROXIMAL * work.rho;
             self.go_back(question, work);
@@ -188,7 +195,9 @@ impl Run {
             self.balance(work);
             self.before = None;
         } else {
-            self.choose(question, work);
+            if !self.choose(question, work, stop) {
+                return None;
+            }
             self.before = Some((self.now, self.promise(work)));
         }
         let (step, changed) = self.take(question, form, work);
