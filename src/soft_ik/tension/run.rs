@@ -182,8 +182,13 @@ impl Run {
         work.phases.assembly += clock.elapsed().as_secs_f64();
     }
 
-    /// One iteration; `None` where the stiffness matrix cannot be factorised.
-    pub fn iterate(&mut self, question: &mut Question, work: &mut Workspace) -> Option<Progress> {
+    /// One iteration; `None` where the stiffness matrix cannot be factorised, or `stop` has ended it: with many targets it is long.
+    pub fn iterate(
+        &mut self,
+        question: &mut Question,
+        work: &mut Workspace,
+        stop: &dyn Fn() -> bool,
+    ) -> Option<Progress> {
         let clock = Instant::now();
         work.cables.update(&self.x);
         let elements = &question.model.contractile.elements;
@@ -204,7 +209,9 @@ impl Run {
             factorizations += 1 + (form == HessianForm::Projected) as usize;
         }
 
-        self.solve_sides(question, work);
+        if !self.solve_sides(question, work, stop) {
+            return None;
+        }
         if self.judge(question, work) == Verdict::Back {
             let stuck = self.nu >= LARGEST_PROXIMAL * work.rho;
             self.go_back(question, work);
@@ -212,7 +219,10 @@ impl Run {
             return Some(Progress { factorizations, moved, settled: stuck, gain: f64::INFINITY });
         }
         let limited = self.linearise(question, work);
-        self.before = if self.unverified > UNBALANCED { None } else { self.choose(question, work) };
+        self.before = None;
+        if self.unverified <= UNBALANCED && !self.choose(question, work, stop) {
+            return None;
+        }
         if self.before.is_none() {
             self.balance(work);
         }

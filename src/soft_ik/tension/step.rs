@@ -9,10 +9,13 @@ use std::time::Instant;
 
 /// A Newton step is taken without a line search where at most this part of the unbalanced forces is left after it.
 const BALANCING: f64 = 0.5;
+/// Right-hand sides that are solved for at once, where there are many targets.
+const COLUMNS: usize = 64;
 
 impl Run {
     /// `H [Y, v, u] = [S^T, Q (x - X) + held tensions, g]`, targets scaled by the root of their weight.
-    pub(super) fn solve_sides(&self, question: &mut Question, work: &mut Workspace) {
+    /// `false` where `stop` has ended it.
+    pub(super) fn solve_sides(&self, question: &mut Question, work: &mut Workspace, stop: &dyn Fn() -> bool) -> bool {
         let clock = Instant::now();
         let n = self.x.len();
         let objective = question.objective;
@@ -30,8 +33,15 @@ impl Run {
         self.add_tension_of_springs(question, work, pull);
         g.copy_from_slice(&self.gradient);
         work.solved = solved;
-        question.model.solve_many(&mut work.solved, rows + 2);
+        let mut columns = work.solved.chunks_mut(n * COLUMNS).peekable();
+        while let Some(some) = columns.next() {
+            question.model.solve_many(some, some.len() / n);
+            if columns.peek().is_some() && stop() {
+                return false;
+            }
+        }
         work.phases.solves += clock.elapsed().as_secs_f64();
+        true
     }
 
     /// Adds the derivative by `x` of `rho/2 tau^2` where tension changes with length: `rho tau dtau/dl dl/dx`.
@@ -91,9 +101,9 @@ impl Run {
 
     /// The step in tension, and `dx = -u - H^-1 G^T dtau` that follows; shorter by a larger `nu` where it is too long.
     ///
-    /// Returns `O` before it and the decrease that it promises; `None` where that is an increase: `H` is so near to singular
-    /// that the choice drowns in rounding.
-    pub(super) fn choose(&mut self, question: &mut Question, work: &mut Workspace) -> Option<(f64, f64)> {
+    /// Leaves `O` before it and the decrease that it promises in `before`; nothing where that is an increase: `H` is so near
+    /// to singular that the choice drowns in rounding. `false` where `stop` has ended it.
+    pub(super) fn choose(&mut self, question: &mut Question, work: &mut Workspace, stop: &dyn Fn() -> bool) -> bool {
         let first = self.nu;
         let n = self.x.len();
         let rows = work.residual.len();
@@ -114,7 +124,11 @@ impl Run {
                 rho: work.rho,
                 nu: self.nu,
             };
-            work.dual.solve(&problem, &mut q, &mut work.next);
+            if !work.dual.solve(&problem, &mut q, &mut work.next, stop) {
+                self.warm = false;
+                self.q = q;
+                return false;
+            }
             work.phases.dual += clock.elapsed().as_secs_f64();
             let clock = Instant::now();
             work.dx.fill(0.0);
@@ -138,11 +152,12 @@ impl Run {
         }
         self.q = q;
         let promised = self.promise(work);
-        if promised < -STANDSTILL * self.now.abs() {
+        if promised >= -STANDSTILL * self.now.abs() {
+            self.before = Some((self.now, promised));
+        } else {
             self.nu = first;
-            return None;
         }
-        Some((self.now, promised))
+        true
     }
 
     /// The decrease of `O` that the linearised model promises for the chosen tensions.
