@@ -180,6 +180,11 @@ impl Model {
     /// Assembles `H(x)` and factorises it.
     pub fn factorize(&mut self, x: &[f64], form: HessianForm) -> Result<(), NotPositiveDefinite> {
         self.assemble(x, form);
+        self.factorize_assembled()
+    }
+
+    /// Factorises the Hessian assembled last.
+    pub fn factorize_assembled(&mut self) -> Result<(), NotPositiveDefinite> {
         self.cholesky.factorize(&self.pattern, &self.values)
     }
 
@@ -197,7 +202,8 @@ impl Model {
         self.cholesky.factorize(&self.pattern, &self.values)
     }
 
-    fn assemble(&mut self, x: &[f64], form: HessianForm) {
+    /// Assembles `H(x)`.
+    pub fn assemble(&mut self, x: &[f64], form: HessianForm) {
         self.values.fill(0.0);
         for (term, slots) in all_terms(&self.body, &self.contractile, &self.pins, &self.terms).zip(&self.slots) {
             term.add_hessian(x, form, &mut Scatter::new(slots, &mut self.values));
@@ -219,7 +225,7 @@ impl Model {
     }
 
     /// The projected Hessian, held where even that is singular.
-    pub(super) fn factorize_projected(&mut self, x: &[f64]) -> Result<(), NotPositiveDefinite> {
+    pub fn factorize_projected(&mut self, x: &[f64]) -> Result<(), NotPositiveDefinite> {
         if self.factorize(x, HessianForm::Projected).is_ok() {
             return Ok(());
         }

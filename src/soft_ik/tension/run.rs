@@ -242,10 +242,16 @@ impl Run {
     }
 }
 
-/// Assembles and factorises; both count as factorisation in the phases.
+/// The exact Hessian where it is positive definite, else the projected one (whose assembly counts as factorisation).
 fn factorize(model: &mut Model, x: &[f64], phases: &mut Phases) -> Option<HessianForm> {
     let clock = Instant::now();
-    let form = model.factorize_for_descent(x).ok();
+    model.assemble(x, HessianForm::Exact);
+    phases.assembly += clock.elapsed().as_secs_f64();
+    let clock = Instant::now();
+    let form = match model.factorize_assembled() {
+        Ok(()) => Some(HessianForm::Exact),
+        Err(_) => model.factorize_projected(x).ok().map(|()| HessianForm::Projected),
+    };
     phases.factorization += clock.elapsed().as_secs_f64();
     form
 }
