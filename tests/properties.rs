@@ -24,6 +24,18 @@ fn random_problems_and_edits_keep_their_properties() {
     assert!(found.edits > 10, "{found:?}");
 }
 
+/// Sequences of edits that come to a St. Venant-Kirchhoff body pulled far harder than it can bear: pressed flat, its triangles
+/// were turned over by rounding.
+#[test]
+fn a_body_pressed_flat_is_shown_whole() {
+    let cancel = AtomicBool::new(false);
+    let session = Session { seed: 1, stop: &|| false, cancel: &cancel, progress: &|_| {} };
+    for first in [18_500, 26_100, 37_500] {
+        let found = Properties { problems: 1, first }.try_out(&session).unwrap();
+        assert!(found.violations.is_empty() && found.sequences == 1, "{:#?}", found.violations);
+    }
+}
+
 /// The long run without a release build: `PROBLEMS=100000 FIRST=0 cargo test --test properties -- --ignored --nocapture`.
 #[test]
 #[ignore = "takes long; scripts/properties does the same, optimised"]

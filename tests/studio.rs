@@ -434,6 +434,92 @@ fn the_animation_plays_and_can_be_scrubbed() {
     assert!((wound - halfway).abs() < 0.05 * halfway, "{wound} {halfway}");
 }
 
+/// A body of which every triangle is the right way up.
+fn is_whole(session: &Session) -> bool {
+    let mesh = &session.design().mesh;
+    let whole = |shape: &Arc<Shape>| {
+        let x: Vec<f64> = shape.nodes.iter().flatten().copied().collect();
+        let area = |t: &[usize; 3]| {
+            let [p, q, r] = t.map(|n| [x[2 * n], x[2 * n + 1]]);
+            (q[0] - p[0]) * (r[1] - p[1]) - (r[0] - p[0]) * (q[1] - p[1])
+        };
+        x.iter().all(|v| v.is_finite()) && mesh.triangles.iter().all(|t| area(t) > 0.0)
+    };
+    [&session.shapes().idealized, &session.shapes().realizable].into_iter().flatten().all(whole)
+}
+
+/// Presses on `from`, moves through `path` and lets go at its end; what is seen on the way is a body.
+fn wave(window: &mut Window, from: Pos2, path: &[Pos2]) {
+    window.hover_at(from);
+    window.step();
+    window.drag_at(from);
+    window.step();
+    for p in path {
+        window.hover_at(*p);
+        window.step();
+        assert!(is_whole(session(window)), "at {p:?}");
+    }
+    window.drop_at(path[path.len() - 1]);
+    settle(window);
+    assert!(is_whole(session(window)));
+}
+
+#[test]
+fn wild_motion_without_pins_at_any_stiffness_ends_in_a_sane_pose() {
+    let mut window = window(bar());
+    let there = |window: &Window, x: f64, y: f64| on_screen(window, "Idealized view", [x, y]);
+    // Two targets, the second thrown about, out of the window and far beyond, and brought back.
+    pose(&mut window, "Idealized view");
+    let from = there(&window, 60.0, 40.0);
+    let wild: Vec<Pos2> = (0..40)
+        .map(|k| {
+            let (angle, far) = (2.4 * k as f32, [50.0, 400.0, 3000.0, 1e6][k % 4]);
+            from + far * vec2(angle.cos(), angle.sin())
+        })
+        .chain([there(&window, 60.0, 50.0)])
+        .collect();
+    wave(&mut window, from, &wild);
+    assert_eq!(session(&window).design().poses[0].targets.len(), 2);
+    let sane = |window: &Window| {
+        let shape = session(window).shapes().idealized.clone().unwrap();
+        shape.converged && shape.target_error < 0.1
+    };
+    assert!(sane(&window), "{:?}", session(&window).shapes().idealized.as_ref().map(|s| s.target_error));
+    // One pin after the other goes.
+    press(&mut window, Modifiers::NONE, Key::P);
+    for (p, said) in [([0.0, 0.0], None), ([0.0, 20.0], Some("free to turn")), ([0.0, 40.0], Some("free to move"))] {
+        let p = there(&window, p[0], p[1]);
+        window.hover_at(p);
+        window.drag_at(p);
+        window.drop_at(p);
+        settle(&mut window);
+        let warning = session(&window).solver_warning().map(str::to_owned);
+        assert_eq!(warning.is_some(), said.is_some(), "{warning:?}");
+        assert!(said.is_none_or(|words| window.query_by_label_contains(words).is_some()), "{warning:?}");
+    }
+    assert!(session(&window).design().pins.is_empty());
+    press(&mut window, Modifiers::NONE, Key::V);
+    let from = there(&window, 60.0, 50.0);
+    wave(&mut window, from, &wild);
+    assert!(window.query_by_label_contains("free to move").is_some());
+    // To the limits of the stiffness.
+    click(&mut window, "Settings");
+    for name in ["Mu", "Fibre stiffness"] {
+        let value = window.get_by_role_and_label(egui::accesskit::Role::SpinButton, name).rect().center();
+        for way in [1.0, -1.0] {
+            let path: Vec<Pos2> = (1..=20).map(|k| value + vec2(way * 100.0 * k as f32, 0.0)).collect();
+            wave(&mut window, value, &path);
+        }
+    }
+    for _ in 0..20 {
+        click(&mut window, "Undo");
+        if session(&window).design().pins.len() == 3 {
+            break;
+        }
+    }
+    assert!(sane(&window) && session(&window).solver_warning().is_none());
+}
+
 #[test]
 fn a_slider_is_one_undo_step() {
     let mut window = window(bar());

@@ -3,13 +3,14 @@
 
 use super::baseline::{Comparison, EQUAL_ERROR, End, follow};
 use super::drags::{Path, goals, places, points, towards};
+use super::linear::Unit;
 use super::plot::{Plot, Series};
 use super::posing::{at_rest, distance_from_equilibrium, free_fibers, may_be_shown, optimum};
 use super::random::Random;
 use super::report::significant;
 use super::shapes::Subject;
 use super::statistics::{Summary, growth_exponent};
-use super::{BenchError, Cell, Quality, Report, Session, Table, Tracker, linear};
+use super::{BenchError, Cell, Quality, Report, Session, Table, Tracker};
 use crate::soft_ik::Question;
 use std::time::Instant;
 
@@ -34,6 +35,8 @@ pub struct Drag {
 #[derive(Default)]
 struct Measured {
     times: Vec<f64>,
+    /// On sampled frames: the fastest factorisation.
+    units: Vec<f64>,
     /// Assembly, factorisation, solves, dual, line search.
     phases: Vec<[f64; 5]>,
     iterations: Vec<f64>,
@@ -95,11 +98,11 @@ impl Drag {
             for &fibers in &self.fibers {
                 session.next(&format!("{shape}, {fibers} fibres"))?;
                 let mut subject = Subject::new(shape, fibers)?;
-                let unit = linear::fastest(&mut subject, session)?;
+                let mut unit = Unit::of(&mut subject, session)?;
                 for &count in &self.targets {
                     for &path in &self.paths {
                         session.next(&format!("{shape}, {fibers} fibres, {count} targets, {}", path.name()))?;
-                        let m = self.drag(&mut subject, count, path, session)?;
+                        let m = self.drag(&mut subject, count, path, &mut unit, session)?;
                         let key: Vec<Cell> = vec![
                             subject.name.clone().into(),
                             subject.fibers().into(),
@@ -107,7 +110,7 @@ impl Drag {
                             path.name().into(),
                         ];
                         let median = Summary::of(m.times.iter().copied()).median;
-                        times.push([key.clone(), m.time_cells(unit)].concat());
+                        times.push([key.clone(), m.time_cells()].concat());
                         errors.push([key, m.error_cells()].concat());
                         let label = format!("{shape}, {count} targets, {}", path.name());
                         let point = (subject.fibers() as f64, median);
@@ -147,7 +150,14 @@ impl Drag {
         Ok(Report { title, tables: vec![times, errors], remarks, plots: vec![plot] })
     }
 
-    fn drag(&self, subject: &mut Subject, count: usize, path: Path, session: &Session) -> Result<Measured, BenchError> {
+    fn drag(
+        &self,
+        subject: &mut Subject,
+        count: usize,
+        path: Path,
+        unit: &mut Unit,
+        session: &Session,
+    ) -> Result<Measured, BenchError> {
         let mut random = Random::of(session.seed, &subject.name, count as u64);
         let at = points(subject, &places(&subject.name, count, &mut random)?);
         let goals = goals(subject, &at, path, self.frames, session)?;
@@ -193,6 +203,7 @@ impl Drag {
                 m.own.push(end, needed / time);
             }
             let Some(mut before) = before else { continue };
+            m.units.push(unit.time());
             let starts: Vec<&_> = [Some(&posture), last_optimum.as_ref()].into_iter().flatten().collect();
             if let Some(best) = optimum(&mut question, &starts, session.stop) {
                 m.excess.push((error - objective.target_error(&best.x)) / length);
@@ -209,7 +220,8 @@ impl Drag {
 }
 
 impl Measured {
-    fn time_cells(&self, unit: f64) -> Vec<Cell> {
+    fn time_cells(&self) -> Vec<Cell> {
+        let unit = Summary::of(self.units.iter().copied()).median;
         let time = Summary::of(self.times.iter().copied());
         let median = |of: &dyn Fn(&[f64; 5]) -> f64| Cell::from(Summary::of(self.phases.iter().map(of)).median);
         let mut cells = vec![time.median.into(), time.p95.into(), time.worst.into()];

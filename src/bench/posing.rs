@@ -47,7 +47,7 @@ pub fn optimum(question: &mut Question, starts: &[&Posture], stop: &dyn Fn() -> 
             let posture = tracker.posture().clone();
             let settled = question.settle(&posture.beta, &posture.x, stop).0;
             let value = settled.objective;
-            if settled.in_equilibrium && best.as_ref().is_none_or(|b| value < b.objective) {
+            if settled.in_equilibrium() && best.as_ref().is_none_or(|b| value < b.objective) {
                 best = Some(settled);
             }
             if frame.converged || value > (1.0 - ROUND_DECREASE) * last {

@@ -7,7 +7,7 @@ use super::solve::Effort;
 use crate::bench::drags::{Path as DragPath, SWEEP_FRAMES};
 use crate::bench::{
     BenchError, Quality, Report, Session, cold, drag, extremes, import, linear, properties, resolution, scene, shapes,
-    trade,
+    trade, wander,
 };
 use crate::defaults;
 use clap::{Args, Subcommand, ValueEnum};
@@ -80,6 +80,17 @@ enum Study {
         /// Drags of each shape and number of targets
         #[arg(long, default_value_t = 1)]
         draws: usize,
+        #[command(flatten)]
+        common: Common,
+    },
+    /// Wild drags that come back: may every frame be shown, and does the pose not depend on the way there
+    Wander {
+        /// Number of muscle fibres
+        #[arg(long, default_value_t = 414)]
+        fibers: usize,
+        /// Drags of each shape
+        #[arg(long, default_value_t = 10)]
+        drags: usize,
         #[command(flatten)]
         common: Common,
     },
@@ -180,6 +191,7 @@ impl Study {
         match self {
             Self::Drag { common, .. }
             | Self::Cold { common, .. }
+            | Self::Wander { common, .. }
             | Self::Trade { common, .. }
             | Self::Resolution { common, .. }
             | Self::Scene { common, .. }
@@ -221,6 +233,9 @@ impl Study {
             Self::Cold { fibers, targets, draws, common } => {
                 cold::Cold { shapes: common.shapes(&["all"]), fibers: *fibers, targets: targets.clone(), draws: *draws }
                     .run(session)
+            }
+            Self::Wander { fibers, drags, common } => {
+                wander::Wander { shapes: common.shapes(&["all"]), fibers: *fibers, drags: *drags }.run(session)
             }
             Self::Trade { fibers, reference, common } => {
                 let shapes = common.shapes(&["pig"]);

@@ -94,7 +94,8 @@ pub fn unbalanced(place: &str, [idealized, realizable]: &[Shape; 2]) -> Vec<Stri
     let off = views.into_iter().filter(|(_, shape)| !shape.converged);
     off.map(|(view, shape)| {
         let distance = shape.distance_from_equilibrium();
-        let why = shape.warning.as_deref().unwrap_or("not in equilibrium").trim_end_matches('.');
+        let why = shape.warning.as_ref().map_or("not in equilibrium".into(), |warning| warning.to_string());
+        let why = why.trim_end_matches('.');
         format!("{place}, {view}: {why} (unbalanced forces are {distance:.1e} of those at work)")
     })
     .collect()

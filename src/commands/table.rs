@@ -4,8 +4,8 @@ use super::error::CommandError;
 use super::key::{self, solve};
 use super::output::say;
 use crate::design::Design;
-use crate::engine::Question;
 use crate::engine::solver::target_error;
+use crate::engine::{Question, Warning};
 use serde::Serialize;
 use std::io::Write;
 use std::sync::atomic::AtomicBool;
@@ -58,7 +58,7 @@ pub fn figures(design: &Design, cancel: &AtomicBool) -> Result<Figures, CommandE
         let unbalanced = key::unbalanced(&pose.name, &shapes);
         let [idealized, realizable] = shapes;
         let note =
-            |view: &str, warning: &Option<String>| warning.as_ref().map(|w| format!("{}, {view}: {w}", pose.name));
+            |view: &str, warning: &Option<Warning>| warning.as_ref().map(|w| format!("{}, {view}: {w}", pose.name));
         poses.push(PoseFigures {
             name: pose.name.clone(),
             targets: pose.targets.len(),

@@ -10,11 +10,13 @@ pub mod response;
 pub mod rig;
 pub mod solver;
 pub mod trial;
+pub mod warning;
 pub mod worker;
 
 pub use crate::soft_ik::Quality;
 pub use propose::propose;
 pub use solver::{Effort, Solver};
+pub use warning::Warning;
 
 use crate::design::{Design, Network, Target};
 use crate::discovery;
@@ -48,8 +50,8 @@ pub struct Shape {
     pub factorizations: usize,
     /// From the question to this shape.
     pub milliseconds: f64,
-    /// What the user should know (not converged, body free to move, ...), ready to be shown.
-    pub warning: Option<String>,
+    /// What the user should know.
+    pub warning: Option<Warning>,
 }
 
 /// Below this distance a shape counts as in equilibrium: forces balance to eight digits, which is where statics stops when

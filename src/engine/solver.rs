@@ -2,7 +2,7 @@
 
 use super::compile::{Plushie, View, compile, objective};
 use super::trial::{SAME_STATE, WINDING_STEPS};
-use super::{Outcome, Quality, Question, Request, Shape};
+use super::{Outcome, Quality, Question, Request, Shape, Warning};
 use crate::design::{Design, Target};
 use crate::soft_ik::contraction::GaussNewton;
 use crate::soft_ik::{self, Actuation, Answer, Budget, Method, Posture, Tracker, default_method};
@@ -173,10 +173,10 @@ impl Compiled {
         };
         let (start, factorizations) = question.settle(from, x, &stop);
         let mut answer = if !posing {
-            let converged = start.in_equilibrium;
+            let converged = start.in_equilibrium();
             Answer { posture: start, iterations: 0, factorizations: 0, converged }
         } else if work.effort == Effort::Interactive {
-            let mut tracker = Tracker::new(&mut question, &start);
+            let mut tracker = Tracker::within(&mut question, &start, &stop);
             let frame = tracker.frame(&mut question, work.quality, &stop);
             let answer = answered(&tracker, &frame);
             self.tracker = Some((targets.to_vec(), tracker));
@@ -222,14 +222,14 @@ fn wind_thoroughly(question: &mut soft_ik::Question, start: &Posture, zero: &[f6
 /// The fibres, frame by frame to the end: each ends in equilibrium, so that a state which would snap elsewhere is noticed and
 /// left. The best pose on the way counts.
 fn pull_thoroughly(question: &mut soft_ik::Question, start: &Posture, stop: &dyn Fn() -> bool) -> Answer {
-    let mut tracker = Tracker::new(question, start);
+    let mut tracker = Tracker::within(question, start, stop);
     let mut best = Answer { posture: start.clone(), iterations: 0, factorizations: 0, converged: false };
     for _ in 0..THOROUGH_FRAMES {
         let frame = tracker.frame(question, Quality::Accurate, stop);
         best.iterations += frame.iterations;
         best.factorizations += frame.factorizations;
         let now = tracker.posture();
-        if now.in_equilibrium && (now.objective < best.posture.objective || !best.posture.in_equilibrium) {
+        if now.in_equilibrium() && (now.objective < best.posture.objective || !best.posture.in_equilibrium()) {
             best.posture = now.clone();
         }
         best.converged = frame.converged;
@@ -307,21 +307,11 @@ pub(super) fn report(
         tendon_tensions: tensions[plushie.tendons.clone()].to_vec(),
         residual: posture.residual,
         force_scale: plushie.model.force_scale(&posture.x),
-        converged: posture.in_equilibrium,
+        converged: posture.in_equilibrium(),
         iterations: 0,
         factorizations: 0,
         milliseconds: clock.elapsed().as_secs_f64() * 1e3,
-        warning: warning(plushie, posture),
-    }
-}
-
-fn warning(plushie: &Plushie, posture: &Posture) -> Option<String> {
-    if plushie.model.free_pieces() > 0 {
-        Some("The body is free to move: add pins until two points of it are held.".into())
-    } else if !posture.in_equilibrium {
-        Some("Not in equilibrium: what is shown is the nearest state found.".into())
-    } else {
-        None
+        warning: Warning::of(plushie, posture),
     }
 }
 
@@ -346,11 +336,11 @@ impl Shape {
     }
 
     /// The rest shape, with what is to be said about it.
-    pub fn at_rest(design: &Design, warning: String) -> Self {
+    pub fn at_rest(design: &Design, why: String) -> Self {
         Self {
             nodes: design.mesh.nodes.clone(),
             activations_mm: vec![0.0; design.networks.len()],
-            warning: Some(warning),
+            warning: Some(Warning::Solver(why)),
             ..Self::default()
         }
     }

@@ -82,7 +82,7 @@ impl Trial {
         };
         for step in 1..=steps {
             (posture, _) = question.settle(&at(step as f64 / steps as f64), &posture.x, &stop);
-            if posture.in_equilibrium && posture.objective < closest.objective {
+            if posture.in_equilibrium() && posture.objective < closest.objective {
                 closest = posture.clone();
             }
         }

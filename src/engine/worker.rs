@@ -9,7 +9,7 @@
 //! equilibrium or in a worse pose than can be reached. So once nothing newer waits, the same question is asked again with all
 //! effort, and the answer replaces the first one where it is better. Anything newer stops that at once.
 
-use super::{Effort, Outcome, Question, Request, Shape, Solver};
+use super::{Effort, Outcome, Question, Request, Shape, Solver, Warning};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -243,7 +243,8 @@ fn after_panic(request: &Request, last: Option<&Outcome>, panic: &(dyn Any + Sen
                 ..Shape::default()
             });
             shape.converged = false;
-            shape.warning = Some(format!("The solver failed ({what}); the last good shape is shown."));
+            let text = format!("The solver failed ({what}); the last good shape is shown.");
+            shape.warning = Some(Warning::Solver(text));
             shape
         })
     };
@@ -351,7 +352,7 @@ mod tests {
         woken.recv_timeout(LONG).unwrap();
         let shape = worker.take().unwrap().realizable.unwrap();
         assert_eq!(shape.nodes.len(), 3);
-        assert!(shape.warning.unwrap().contains("no good"));
+        assert!(shape.warning.unwrap().to_string().contains("no good"));
         worker.submit(request(2));
         woken.recv_timeout(LONG).unwrap();
         assert_eq!(worker.take().unwrap().realizable.unwrap().warning, None);

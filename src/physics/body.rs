@@ -5,7 +5,7 @@
 //! `F = sum_a x_a b_a^T`, `dE/dx_a = A P b_a`.
 
 use super::double::Double;
-use super::energy::{Energy, HessianForm, ROUNDING};
+use super::energy::{Energy, HessianForm, ROUNDING, Scales};
 use super::material::{Material, cofactor, project};
 use super::pattern::Scatter;
 use nalgebra::{Matrix2, Vector2};
@@ -190,31 +190,22 @@ impl Energy for Body {
         limit
     }
 
-    /// The forces of a single triangle, before they balance with its neighbours', and the floor that rounding sets.
-    fn add_force_scale(&self, x: &[f64], scale: &mut [f64]) {
+    /// The forces of a single triangle, before they balance with its neighbours', and the floor that rounding sets. `F` changes
+    /// with the coordinates, and the stress by the largest modulus with it.
+    fn add_scales(&self, x: &[f64], scales: &mut Scales) {
         let floor = ROUNDING_STRAIN * self.material.shear_modulus();
-        for (k, t) in self.triangles.iter().enumerate() {
-            let p = self.material.stress(&self.deformation_gradient(k, x)) * self.weights[k];
-            for (a, &n) in t.iter().enumerate() {
-                let force = p * self.gradients[k][a];
-                let rounding = floor * self.weights[k] * self.gradients[k][a].norm();
-                scale[2 * n] += force[0].abs() + rounding;
-                scale[2 * n + 1] += force[1].abs() + rounding;
-            }
-        }
-    }
-
-    /// `F` changes with the coordinates, and the stress by the largest modulus with it.
-    fn add_rounding(&self, x: &[f64], scale: &mut [f64]) {
         let modulus = ROUNDING * self.material.largest_modulus();
         for (k, t) in self.triangles.iter().enumerate() {
+            let weight = self.weights[k];
+            let p = self.material.stress(&self.deformation_gradient(k, x)) * weight;
             let size = t.iter().fold(0.0, |m: f64, n| m.max(x[2 * n].abs()).max(x[2 * n + 1].abs()));
-            let steepest = self.gradients[k].iter().map(|g| g.norm()).fold(0.0, f64::max);
-            let stress = modulus * size * steepest * self.weights[k];
+            let lengths = self.gradients[k].map(|g| g.norm());
+            let change = modulus * size * lengths.into_iter().fold(0.0, f64::max) * weight;
             for (a, &n) in t.iter().enumerate() {
-                let force = stress * self.gradients[k][a].norm();
-                scale[2 * n] += force;
-                scale[2 * n + 1] += force;
+                let force = p * self.gradients[k][a];
+                let rounding = floor * weight * lengths[a];
+                scales.add_force(n, [force[0].abs() + rounding, force[1].abs() + rounding]);
+                scales.add_rounding(n, [change * lengths[a]; 2]);
             }
         }
     }

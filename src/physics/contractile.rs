@@ -12,7 +12,7 @@
 //! An element may instead carry a prescribed tension `tau`, with the energy `tau l`: the unknown of the fast posing method.
 //! Segments are convex in `x` and `tau >= 0`, so the Hessian `U'' G^T G + tau d2l` is always positive semi-definite.
 
-use super::energy::{Energy, HessianForm, ROUNDING};
+use super::energy::{Energy, HessianForm, ROUNDING, Scales};
 use super::pattern::Scatter;
 
 /// Width of a point, as a fraction of the element's initial rest length: a segment of coordinate difference `d` counts as
@@ -275,22 +275,15 @@ impl Energy for Contractile {
         limit
     }
 
-    fn add_force_scale(&self, x: &[f64], scale: &mut [f64]) {
-        for (e, law) in self.elements.iter().zip(&self.laws) {
-            let tau = law.tension_and_tangent(e, e.length(x)).0;
-            for &n in &e.routing {
-                scale[2 * n] += tau;
-                scale[2 * n + 1] += tau;
-            }
-        }
-    }
-
-    fn add_rounding(&self, x: &[f64], scale: &mut [f64]) {
+    fn add_scales(&self, x: &[f64], scales: &mut Scales) {
         for (e, law) in self.elements.iter().zip(&self.laws) {
             let length = e.length(x);
             let (tau, tangent) = law.tension_and_tangent(e, length);
             if tau == 0.0 && tangent == 0.0 {
                 continue;
+            }
+            for &n in &e.routing {
+                scales.add_force(n, [tau; 2]);
             }
             // The tension changes with the length, and the direction of a segment the more, the shorter it is.
             let along = tangent * length;
@@ -298,8 +291,7 @@ impl Energy for Contractile {
                 let size = s.iter().fold(0.0, |m: f64, n| m.max(x[2 * n].abs()).max(x[2 * n + 1].abs()));
                 let force = ROUNDING * (along + tau / segment(x, s, e.point()).2 * size);
                 for &n in s {
-                    scale[2 * n] += force;
-                    scale[2 * n + 1] += force;
+                    scales.add_rounding(n, [force; 2]);
                 }
             }
         }

@@ -39,11 +39,42 @@ pub trait Energy: Send + Sync {
         1.0
     }
 
-    /// Adds the magnitudes of this term's nodal forces, entry by entry: the scale against which a residual is small.
-    fn add_force_scale(&self, x: &[f64], scale: &mut [f64]);
+    /// Adds, entry by entry, what a residual is compared with.
+    fn add_scales(&self, x: &[f64], scales: &mut Scales);
+}
 
-    /// Adds, entry by entry, what a change of the coordinates by [`ROUNDING`] of their size does to the forces of stiff springs.
-    fn add_rounding(&self, x: &[f64], scale: &mut [f64]) {
-        let _ = (x, scale);
+/// What a residual is small against, entry by entry.
+pub struct Scales<'a> {
+    at_work: &'a mut [f64],
+    rounding: Option<&'a mut [f64]>,
+}
+
+impl<'a> Scales<'a> {
+    /// Both sums on their own.
+    pub fn apart(at_work: &'a mut [f64], rounding: &'a mut [f64]) -> Self {
+        at_work.fill(0.0);
+        rounding.fill(0.0);
+        Self { at_work, rounding: Some(rounding) }
+    }
+
+    /// Both in one sum.
+    pub fn together(sum: &'a mut [f64]) -> Self {
+        sum.fill(0.0);
+        Self { at_work: sum, rounding: None }
+    }
+
+    /// The magnitude of one of the forces that meet in both components of a node.
+    pub fn add_force(&mut self, node: usize, magnitudes: [f64; 2]) {
+        for (axis, magnitude) in magnitudes.into_iter().enumerate() {
+            self.at_work[2 * node + axis] += magnitude;
+        }
+    }
+
+    /// What a change of the coordinates by [`ROUNDING`] of their size does to a force.
+    pub fn add_rounding(&mut self, node: usize, magnitudes: [f64; 2]) {
+        let sum = self.rounding.as_deref_mut().unwrap_or(self.at_work);
+        for (axis, magnitude) in magnitudes.into_iter().enumerate() {
+            sum[2 * node + axis] += magnitude;
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! Gravity, an optional term: `E = - sum_i m_i g . x_i`, the mass of each triangle lumped at its nodes.
 
-use super::energy::{Energy, HessianForm};
+use super::energy::{Energy, HessianForm, Scales};
 use super::pattern::Scatter;
 
 #[derive(Clone, Debug)]
@@ -38,10 +38,9 @@ impl Energy for Gravity {
 
     fn add_hessian(&self, _x: &[f64], _form: HessianForm, _out: &mut Scatter) {}
 
-    fn add_force_scale(&self, _x: &[f64], scale: &mut [f64]) {
-        for (f, s) in self.forces.iter().zip(scale.chunks_exact_mut(2)) {
-            s[0] += f[0].abs();
-            s[1] += f[1].abs();
+    fn add_scales(&self, _x: &[f64], scales: &mut Scales) {
+        for (node, force) in self.forces.iter().enumerate() {
+            scales.add_force(node, force.map(f64::abs));
         }
     }
 }

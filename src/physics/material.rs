@@ -76,6 +76,8 @@ mod tests {
             Matrix2::new(1.3, 0.2, -0.1, 0.85),
             Matrix2::new(0.6, 0.5, -0.4, 0.9),
             Matrix2::new(0.3, 0.0, 0.1, 2.0),
+            // Pressed nearly flat, where a barrier may stand.
+            Matrix2::new(1.1, 0.1, 0.02, 0.008),
         ]
     }
 

@@ -36,7 +36,7 @@ pub mod statics;
 pub use body::Body;
 pub use contractile::{Contractile, Element, Law};
 pub use double::Double;
-pub use energy::{Energy, HessianForm};
+pub use energy::{Energy, HessianForm, Scales};
 pub use gravity::Gravity;
 pub use material::Material;
 pub use model::{Loose, Model, ModelError};

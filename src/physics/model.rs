@@ -1,7 +1,7 @@
 //! A plushie ready to be solved: terms, fixed sparsity pattern, factorisation.
 
 use super::cholesky::{Cholesky, NotPositiveDefinite};
-use super::energy::{Energy, HessianForm};
+use super::energy::{Energy, HessianForm, Scales};
 use super::pattern::{Pattern, Scatter, Slots};
 use super::{Body, Contractile, Pins};
 
@@ -159,25 +159,17 @@ impl Model {
 
     /// The same, with the sums left in `scale`.
     pub fn force_scale_into(&self, x: &[f64], scale: &mut [f64]) -> f64 {
-        scale.fill(0.0);
-        for term in self.all() {
-            term.add_force_scale(x, scale);
-            term.add_rounding(x, scale);
-        }
+        let mut scales = Scales::together(scale);
+        self.all().for_each(|term| term.add_scales(x, &mut scales));
         scale.iter().copied().fold(0.0, f64::max)
     }
 
-    /// The forces at work alone, with their sums left in `scale`.
-    pub fn forces_at_work_into(&self, x: &[f64], scale: &mut [f64]) -> f64 {
-        scale.fill(0.0);
-        self.all().for_each(|term| term.add_force_scale(x, scale));
-        scale.iter().copied().fold(0.0, f64::max)
-    }
-
-    /// What a change of the coordinates in the sixth digit does to stiff springs, entry by entry.
-    pub fn rounding_into(&self, x: &[f64], scale: &mut [f64]) {
-        scale.fill(0.0);
-        self.all().for_each(|term| term.add_rounding(x, scale));
+    /// The sums apart, entry by entry: the forces at work, and what a change of the coordinates in the sixth digit does to stiff
+    /// springs. Returns the largest of the forces at work.
+    pub fn scales_into(&self, x: &[f64], at_work: &mut [f64], rounding: &mut [f64]) -> f64 {
+        let mut scales = Scales::apart(at_work, rounding);
+        self.all().for_each(|term| term.add_scales(x, &mut scales));
+        at_work.iter().copied().fold(0.0, f64::max)
     }
 
     /// Largest step along `dx` that keeps every term inside its domain.
@@ -188,6 +180,11 @@ impl Model {
     /// Assembles `H(x)` and factorises it.
     pub fn factorize(&mut self, x: &[f64], form: HessianForm) -> Result<(), NotPositiveDefinite> {
         self.assemble(x, form);
+        self.factorize_assembled()
+    }
+
+    /// Factorises the Hessian assembled last.
+    pub fn factorize_assembled(&mut self) -> Result<(), NotPositiveDefinite> {
         self.cholesky.factorize(&self.pattern, &self.values)
     }
 
@@ -205,7 +202,8 @@ impl Model {
         self.cholesky.factorize(&self.pattern, &self.values)
     }
 
-    fn assemble(&mut self, x: &[f64], form: HessianForm) {
+    /// Assembles `H(x)`.
+    pub fn assemble(&mut self, x: &[f64], form: HessianForm) {
         self.values.fill(0.0);
         for (term, slots) in all_terms(&self.body, &self.contractile, &self.pins, &self.terms).zip(&self.slots) {
             term.add_hessian(x, form, &mut Scatter::new(slots, &mut self.values));
@@ -220,11 +218,16 @@ impl Model {
     /// The exact Hessian where it is positive definite, else the projected one. Says which it was; an error means that
     /// even the projected one failed.
     pub fn factorize_for_descent(&mut self, x: &[f64]) -> Result<HessianForm, NotPositiveDefinite> {
-        if self.factorize(x, HessianForm::Exact).is_ok() {
-            return Ok(HessianForm::Exact);
+        match self.factorize(x, HessianForm::Exact) {
+            Ok(()) => Ok(HessianForm::Exact),
+            Err(_) => self.factorize_projected(x).map(|()| HessianForm::Projected),
         }
+    }
+
+    /// The projected Hessian, held where even that is singular.
+    pub fn factorize_projected(&mut self, x: &[f64]) -> Result<(), NotPositiveDefinite> {
         if self.factorize(x, HessianForm::Projected).is_ok() {
-            return Ok(HessianForm::Projected);
+            return Ok(());
         }
         // A mechanism without stiffness (slack everywhere): hold it by a small part of the shear modulus, or by more where
         // rounding of far stiffer parts drowns that.
@@ -235,7 +238,7 @@ impl Model {
                 self.values[self.pattern.diagonal(d)] += shift - shifted;
             }
             if self.cholesky.factorize(&self.pattern, &self.values).is_ok() {
-                return Ok(HessianForm::Projected);
+                return Ok(());
             }
             (shifted, shift) = (shift, SHIFT_GROWTH * shift);
         }

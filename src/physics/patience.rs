@@ -37,21 +37,29 @@ impl Patience {
         Self { shift: FIRST_SHIFT * mu, least: LEAST_SHIFT * mu, correction: Vec::new(), corrected: Vec::new() }
     }
 
-    /// The exact Hessian, shifted where it has to be, and the number of factorisations that took.
-    pub fn factorize(&mut self, model: &mut Model, x: &[f64]) -> Option<(HessianForm, usize)> {
+    /// The exact Hessian, shifted where it has to be, and the number of factorisations that took. `cancel` is asked between them.
+    pub fn factorize(
+        &mut self,
+        model: &mut Model,
+        x: &[f64],
+        cancel: &dyn Fn() -> bool,
+    ) -> Option<(HessianForm, usize)> {
         if model.factorize(x, HessianForm::Exact).is_ok() {
             return Some((HessianForm::Exact, 1));
         }
         let mut shift = self.shift;
         for tries in 0..TRIES {
+            if cancel() {
+                return None;
+            }
             if model.factorize_shifted(x, HessianForm::Exact, shift).is_ok() {
                 self.shift = shift;
                 return Some((HessianForm::Projected, 2 + tries));
             }
             shift *= GROWTH;
         }
-        let form = model.factorize_for_descent(x).ok()?;
-        Some((form, TRIES + 3))
+        let projected = !cancel() && model.factorize_projected(x).is_ok();
+        projected.then_some((HessianForm::Projected, TRIES + 2))
     }
 
     /// Takes out of the step of length `t` to `trial` what is wrong with it to second order, as far as that lowers its energy,

@@ -2,7 +2,7 @@
 //!
 //! `E = sum K/2 |S x - p|^2`, `S x` the pinned point. A pin holds a node or any point of a triangle.
 
-use super::energy::{Energy, HessianForm, ROUNDING};
+use super::energy::{Energy, HessianForm, ROUNDING, Scales};
 use super::pattern::Scatter;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -66,24 +66,13 @@ impl Energy for Pins {
         }
     }
 
-    fn add_force_scale(&self, x: &[f64], scale: &mut [f64]) {
+    fn add_scales(&self, x: &[f64], scales: &mut Scales) {
         for pin in &self.pins {
-            let force = pin.force(x);
+            let force = pin.force(x).map(f64::abs);
             for &n in &pin.nodes {
-                for axis in 0..2 {
-                    scale[2 * n + axis] += force[axis].abs();
-                }
-            }
-        }
-    }
-
-    fn add_rounding(&self, x: &[f64], scale: &mut [f64]) {
-        for pin in &self.pins {
-            for &n in &pin.nodes {
-                for axis in 0..2 {
-                    let size = pin.anchor[axis].abs().max(x[2 * n + axis].abs());
-                    scale[2 * n + axis] += ROUNDING * pin.stiffness * size;
-                }
+                let size = [0, 1].map(|axis| pin.anchor[axis].abs().max(x[2 * n + axis].abs()));
+                scales.add_force(n, force);
+                scales.add_rounding(n, size.map(|size| ROUNDING * pin.stiffness * size));
             }
         }
     }

@@ -8,7 +8,7 @@
 
 use super::contractile::{Element, Law};
 use super::double::Double;
-use super::energy::Energy;
+use super::energy::{Energy, Scales};
 use super::model::Model;
 use super::statics::norm;
 
@@ -35,8 +35,8 @@ pub struct Forces {
 }
 
 /// Refines the equilibrium `x` in place and returns its forces. Costs one factorisation and a few solves. A state that is not
-/// near a stable equilibrium stays as it is.
-pub fn refine(model: &mut Model, x: &mut [f64]) -> Forces {
+/// near a stable equilibrium stays as it is. `stop` is asked in every round.
+pub fn refine(model: &mut Model, x: &mut [f64], stop: &dyn Fn() -> bool) -> Forces {
     let mut state: Vec<Double> = x.iter().map(|&v| v.into()).collect();
     let (mut gradient, mut scale) = (vec![0.0; x.len()], vec![0.0; x.len()]);
     let mut forces = evaluate(model, &state, x, &mut gradient, &mut scale);
@@ -45,6 +45,9 @@ pub fn refine(model: &mut Model, x: &mut [f64]) -> Forces {
     }
     let mut fresh = false;
     for _ in 0..ROUNDS {
+        if stop() {
+            break;
+        }
         if !fresh {
             // A free motion or an unstable equilibrium: still a direction in which forces of stiff springs balance.
             if model.factorize_for_descent(x).is_err() {
@@ -79,12 +82,13 @@ pub fn refine(model: &mut Model, x: &mut [f64]) -> Forces {
 /// The forces at `state`, whose leading words are `x`, and their sum in `gradient`.
 fn evaluate(model: &Model, state: &[Double], x: &[f64], gradient: &mut [f64], scale: &mut [f64]) -> Forces {
     gradient.fill(0.0);
-    scale.fill(0.0);
+    let mut rounding = vec![0.0; x.len()];
+    let mut scales = Scales::apart(scale, &mut rounding);
     model.body.add_precise_gradient(state, gradient);
-    model.body.add_force_scale(x, scale);
+    model.body.add_scales(x, &mut scales);
     for term in &model.terms {
         term.add_gradient(x, gradient);
-        term.add_force_scale(x, scale);
+        term.add_scales(x, &mut scales);
     }
     let mut tensions = Vec::with_capacity(model.contractile.elements.len());
     for (element, law) in model.contractile.elements.iter().zip(&model.contractile.laws) {

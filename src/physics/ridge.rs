@@ -18,14 +18,15 @@ const HALVINGS: usize = 20;
 /// A state of lower energy beside the unstable equilibrium `x`; `None` where no direction leads down.
 ///
 /// Inverse iteration with a shifted Hessian finds the direction of the most negative curvature.
-pub(super) fn step_aside(model: &mut Model, x: &[f64]) -> Option<Vec<f64>> {
+/// `cancel` is asked between factorisations.
+pub(super) fn step_aside(model: &mut Model, x: &[f64], cancel: &dyn Fn() -> bool) -> Option<Vec<f64>> {
     let mu = model.body.material().shear_modulus();
     let mut shift = FIRST_SHIFT * mu;
     let mut tries = 0;
     while model.factorize_shifted(x, HessianForm::Exact, shift).is_err() {
         shift *= SHIFT_GROWTH;
         tries += 1;
-        if tries > SHIFTS {
+        if tries > SHIFTS || cancel() {
             return None;
         }
     }

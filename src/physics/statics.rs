@@ -35,7 +35,7 @@ const SUFFICIENT_DECREASE: f64 = 1e-4;
 const MAX_HALVINGS: usize = 40;
 /// A step capped below this leads nowhere: triangles have collapsed against the edge of the material's domain.
 const SMALLEST_STEP: f64 = 1e-12;
-/// A triangle of less than this part of its area is flat. A Neo-Hookean one would take a hundred times its shear modulus.
+/// A triangle of less than this part of its area is flat: that takes stresses of a thousand shear moduli.
 const FLAT: f64 = 1e-5;
 /// Relative rounding of an energy sum: differences below it say nothing.
 const ENERGY_ROUNDING: f64 = 1e-13;
@@ -74,11 +74,11 @@ pub enum Cause {
     Factorization,
     #[error("no step lowers the energy any further, and forces are still unbalanced")]
     Stalled,
-    #[error("not in equilibrium after the allowed number of Newton steps")]
+    #[error("the allowed number of Newton steps was not enough")]
     Iterations,
     #[error("the body is free to move: add a pin")]
     FreeToMove,
-    #[error("a triangle is pressed flat and its material does not resist: use a Neo-Hookean one, or pull less")]
+    #[error("a triangle is pressed flat: pull less")]
     Collapsed,
     #[error("cancelled")]
     Cancelled,
@@ -145,10 +145,26 @@ pub fn solve(
 }
 
 /// The same in place: `x` becomes the equilibrium, or the best state reached.
+pub fn settle(
+    model: &mut Model,
+    x: &mut [f64],
+    settings: &StaticsSettings,
+    cancel: &dyn Fn() -> bool,
+    work: &mut Workspace,
+) -> Progress {
+    let done = approach(model, x, settings, cancel, work);
+    if done.cause != Some(Cause::InvalidStart) {
+        return done;
+    }
+    x.copy_from_slice(&model.rest);
+    approach(model, x, settings, cancel, work)
+}
+
+/// From where `x` is.
 ///
 /// Where springs far stiffer than the body are far from their balance, they are first taken as softer ones and stiffened step by
 /// step ([`super::continuation`]); the way there is left again if it ends above the energy of the start.
-pub fn settle(
+fn approach(
     model: &mut Model,
     x: &mut [f64],
     settings: &StaticsSettings,
@@ -161,13 +177,9 @@ pub fn settle(
             *sum += more;
         }
     };
-    if !valid_energy(model, x).is_finite() {
-        x.copy_from_slice(&model.rest);
-    }
     let wanted = continuation::is_wanted(model, x);
     if wanted || continuation::is_bulky(model) {
         let start = x.to_vec();
-        let mut best = model.energy(&start);
         if !wanted {
             let most = settings.max_iterations.min(continuation::FIRST_TRY);
             let done = newton(model, x, &StaticsSettings { max_iterations: most, ..*settings }, cancel, work);
@@ -177,7 +189,6 @@ pub fn settle(
             count(&done);
         }
         let tried = x.to_vec();
-        best = best.min(model.energy(&tried));
         x.copy_from_slice(&start);
         for stage in continuation::stages(model) {
             let kept = continuation::enter(model, stage);
@@ -185,7 +196,7 @@ pub fn settle(
             continuation::leave(model, kept);
             count(&done);
         }
-        if model.energy(x) > best {
+        if model.energy(x) > model.energy(&tried) {
             x.copy_from_slice(&tried);
         }
     }
@@ -209,10 +220,6 @@ fn newton(
         buffer.resize(n, 0.0);
     }
     let mut energy = valid_energy(model, x);
-    if !energy.is_finite() {
-        x.copy_from_slice(&model.rest);
-        energy = valid_energy(model, x);
-    }
     model.gradient(x, gradient);
     let mut state = Progress {
         energy,
@@ -230,11 +237,10 @@ fn newton(
     loop {
         state.energy = energy;
         state.residual = norm(gradient);
-        let at_work = model.forces_at_work_into(x, forces);
+        let at_work = model.scales_into(x, forces, rounding);
         if model.is_pulled_away(gradient, forces) {
             return Progress { cause: Some(Cause::FreeToMove), ..state };
         }
-        model.rounding_into(x, rounding);
         let most = settings.tolerance * at_work;
         let balanced = gradient.iter().zip(rounding.iter()).all(|(g, r)| g.abs() <= most + RESOLVED * r);
         state.force_scale = forces.iter().zip(rounding.iter()).map(|(f, r)| f + r).fold(0.0, f64::max);
@@ -251,9 +257,10 @@ fn newton(
         }
         state.iterations += 1;
         let slow = state.iterations > PATIENCE;
-        let factors = if slow { patience.factorize(model, x) } else { factorize(model, x) };
+        let factors = if slow { patience.factorize(model, x, cancel) } else { factorize(model, x, cancel) };
         let Some((form, factors)) = factors else {
-            return Progress { cause: Some(Cause::Factorization), ..state };
+            let cause = if cancel() { Cause::Cancelled } else { Cause::Factorization };
+            return Progress { cause: Some(cause), ..state };
         };
         state.factorizations += factors;
         state.projections += (form == HessianForm::Projected) as usize;
@@ -319,7 +326,7 @@ pub fn minimum(
         if model.factorize(&state.x, HessianForm::Exact).is_ok() {
             break;
         }
-        let Some(aside) = ridge::step_aside(model, &state.x) else { break };
+        let Some(aside) = ridge::step_aside(model, &state.x, cancel) else { break };
         let next = solve(model, &aside, settings, cancel);
         let (next, failed) = match next {
             Ok(next) => (next, None),
@@ -343,9 +350,12 @@ pub fn minimum(
 const RIDGES: usize = 6;
 
 /// The exact Hessian or the projected one, and the number of factorisations that took.
-fn factorize(model: &mut Model, x: &[f64]) -> Option<(HessianForm, usize)> {
-    let form = model.factorize_for_descent(x).ok()?;
-    Some((form, 1 + (form == HessianForm::Projected) as usize))
+fn factorize(model: &mut Model, x: &[f64], cancel: &dyn Fn() -> bool) -> Option<(HessianForm, usize)> {
+    if model.factorize(x, HessianForm::Exact).is_ok() {
+        return Some((HessianForm::Exact, 1));
+    }
+    let projected = !cancel() && model.factorize_projected(x).is_ok();
+    projected.then_some((HessianForm::Projected, 2))
 }
 
 /// `max |v|`, infinite for NaN.
@@ -363,8 +373,7 @@ fn energy_scale(model: &Model, energy: f64) -> f64 {
     energy.abs().max(model.body.material().shear_modulus() * model.body.area())
 }
 
-/// Why no step leads on. A material without a barrier (St. Venant-Kirchhoff) lets triangles be pressed flat: there the energy
-/// ends, and not its slope.
+/// Why no step leads on: where a triangle is pressed flat, rounding of its corners is all that its forces depend on.
 fn stalled(model: &Model, x: &[f64]) -> Cause {
     if model.body.smallest_determinant(x) < FLAT { Cause::Collapsed } else { Cause::Stalled }
 }

@@ -246,7 +246,7 @@ impl Work<'_> {
         };
         let posture = answer.posture;
         let in_time = !stop();
-        if !posture.in_equilibrium || (!in_time && !answer.converged) {
+        if !posture.in_equilibrium() || (!in_time && !answer.converged) {
             self.failures.push(self.unbalanced(Part::SoftIk, &posture.x, in_time));
         }
         let (length, frame) = (self.frame.length, self.frame);
@@ -278,7 +278,7 @@ impl Work<'_> {
         let (start, _) = question.settle(&beta, &rest, stop);
         let (mut milliseconds, mut target_error, mut iterations, mut reported) = (vec![], vec![], vec![], vec![]);
         // Once the time is up, nothing more is begun.
-        let mut tracker = (!stop()).then(|| Tracker::new(&mut question, &start));
+        let mut tracker = (!stop()).then(|| Tracker::within(&mut question, &start, stop));
         if tracker.is_none() {
             self.failures.push(Failure::TimeBudget { part: Part::Frame(0) });
         }
@@ -295,7 +295,7 @@ impl Work<'_> {
             target_error.push(objective.target_error(&posture.x) * frame.length);
             iterations.push(answer.iterations);
             let out_of_time = stop();
-            if !posture.in_equilibrium {
+            if !posture.in_equilibrium() {
                 self.failures.push(self.unbalanced(Part::Frame(k), &posture.x, !out_of_time));
             } else if out_of_time && k + 1 < drag.frames.len() {
                 self.failures.push(Failure::TimeBudget { part: Part::After(k) });

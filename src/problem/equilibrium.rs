@@ -54,7 +54,7 @@ pub(super) fn settle(
     let mut tensions = model.contractile.tensions(&state.x);
     let mut pins: Vec<[f64; 2]> = model.pins.pins.iter().map(|p| p.force(&state.x)).collect();
     if cause.is_none() && !stop() {
-        let forces = refine::refine(model, &mut state.x);
+        let forces = refine::refine(model, &mut state.x, stop);
         state.energy = model.energy(&state.x);
         state.factorizations += forces.factorizations;
         (residual, force_scale, tensions, pins) = (forces.residual, forces.scale, forces.tensions, forces.pins);

@@ -234,7 +234,7 @@ impl Problem {
 
 impl MeshData {
     /// Signed area of a triangle, m^2.
-    pub(super) fn area(&self, t: &[usize; 3]) -> f64 {
+    pub(crate) fn area(&self, t: &[usize; 3]) -> f64 {
         let [p, q, r] = t.map(|k| self.nodes[k]);
         0.5 * ((q[0] - p[0]) * (r[1] - p[1]) - (r[0] - p[0]) * (q[1] - p[1]))
     }

@@ -49,11 +49,11 @@ impl Method for GaussNewton {
         while answer.iterations < budget.iterations && !(budget.stop)() {
             answer.iterations += 1;
             answer.factorizations += 1;
-            let Some(local) = Linearisation::new(question, &best) else { break };
+            let Some(local) = Linearisation::new(question, &best, budget.stop) else { break };
             let floor = self.relative_decrease * best.objective;
             let mut improved = false;
             while damping < LAST_DAMPING && !(budget.stop)() {
-                let (step, promised) = local.step(damping);
+                let Some((step, promised)) = local.step(damping, budget.stop) else { break };
                 if promised <= floor {
                     // Strong damping or many clipped activations make a promise small anywhere. Stationary is where no single
                     // activation promises anything either.
@@ -70,7 +70,7 @@ impl Method for GaussNewton {
                 let (trial, factorizations) = question.settle(&beta, &guess, budget.stop);
                 answer.factorizations += factorizations;
                 let gain = best.objective - trial.objective;
-                if trial.in_equilibrium && gain > 1e-4 * promised {
+                if trial.in_equilibrium() && gain > 1e-4 * promised {
                     damping = (damping * if gain > 0.7 * promised { 0.1 } else { 0.5 }).max(1e-12);
                     best = trial;
                     improved = true;
@@ -99,7 +99,8 @@ struct Linearisation {
 }
 
 impl Linearisation {
-    fn new(question: &mut Question, at: &Posture) -> Option<Self> {
+    /// `None` where it cannot be had, or `stop` has ended it.
+    fn new(question: &mut Question, at: &Posture, stop: &dyn Fn() -> bool) -> Option<Self> {
         let contractions = question.actuation.contractions(&at.beta);
         question.model.contractile.set_contractions(&contractions);
         question.model.factorize_for_descent(&at.x).ok()?;
@@ -131,19 +132,20 @@ impl Linearisation {
                 }
             }
         }
-        let columns = position_jacobian(question, &at.x, &tangents);
-        let model = quadratic(question, at, &base, &columns, &contractions, &tensions, &tangents);
+        let columns = position_jacobian(question, &at.x, &tangents, stop)?;
+        let mut model = quadratic(question, at, &base, &columns, &contractions, &tensions, &tangents);
+        model.prepare(stop)?;
         Some(Self { base, model, columns })
     }
 
-    /// The damped step within the bounds, and the decrease of `O` that the model promises for it.
-    fn step(&self, damping: f64) -> (DVector<f64>, f64) {
+    /// The damped step within the bounds, and the decrease of `O` that the model promises for it; `None` where `stop` has ended it.
+    fn step(&self, damping: f64, stop: &dyn Fn() -> bool) -> Option<(DVector<f64>, f64)> {
         let curvatures = self.model.curvatures();
         let largest = curvatures.max().max(f64::MIN_POSITIVE);
         let damping = curvatures.map(|c| damping * (c + 1e-4 * largest) + 1e-14 * largest);
-        let step = self.model.minimise(&damping);
+        let step = self.model.minimise(&damping, stop)?;
         let promised = self.model.promise(&step);
-        (step, promised)
+        Some((step, promised))
     }
 
     /// First-order prediction of the positions after a step, or the old ones where it would invert a triangle.
@@ -231,5 +233,5 @@ fn quadratic(
     }
     let lower = winches.iter().zip(base).map(|(w, b)| w.lower - b).collect();
     let upper = winches.iter().zip(base).map(|(w, b)| w.upper - b).collect();
-    Quadratic { gradient, rows, diagonal, lower, upper }
+    Quadratic { gradient, rows, diagonal, lower, upper, gram: None }
 }

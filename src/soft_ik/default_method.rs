@@ -61,7 +61,7 @@ impl Method for Default {
             }
             let (posture, factorizations) = question.settle(&beta, &start.x, budget.stop);
             best.factorizations += factorizations;
-            if posture.in_equilibrium {
+            if posture.in_equilibrium() {
                 absorb(&mut best, explore.solve(question, &posture, &exploring));
             }
         }
@@ -107,7 +107,7 @@ fn one_by_one(question: &mut Question, start: &Posture, method: &GaussNewton, bu
             let (next, factorizations) = inner.settle(&tried, &posture.x, budget.stop);
             best.factorizations += factorizations;
             posture = next;
-            if posture.in_equilibrium && posture.objective < closest.objective {
+            if posture.in_equilibrium() && posture.objective < closest.objective {
                 closest = posture.clone();
             }
         }
@@ -129,7 +129,7 @@ fn reach(question: &Question, winch: usize) -> f64 {
 fn absorb(best: &mut Answer, other: Answer) {
     best.iterations += other.iterations;
     best.factorizations += other.factorizations;
-    if other.posture.objective <= best.posture.objective || !best.posture.in_equilibrium {
+    if other.posture.objective <= best.posture.objective || !best.posture.in_equilibrium() {
         best.posture = other.posture;
         best.converged = other.converged;
     }

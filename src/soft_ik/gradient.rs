@@ -111,7 +111,7 @@ impl Method for Gradient {
                 question.actuation.clamp(&mut beta);
                 let (trial, factorizations) = question.settle(&beta, &best.x, budget.stop);
                 answer.factorizations += factorizations;
-                if trial.in_equilibrium && trial.objective < best.objective {
+                if trial.in_equilibrium() && trial.objective < best.objective {
                     answer.converged = best.objective - trial.objective < self.relative_decrease * best.objective;
                     best = trial;
                     xi = trial_xi;

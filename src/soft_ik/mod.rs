@@ -31,7 +31,7 @@ pub use default_method::solve;
 pub use objective::{Objective, PointTarget};
 pub use tracker::{Frame, Phases, Quality, Tracker};
 
-use crate::physics::{Model, StaticsError, StaticsSettings, statics};
+use crate::physics::{Cause, Model, StaticsSettings, statics};
 
 /// The question: a body, what may pull, and where it should go.
 pub struct Question<'a> {
@@ -49,8 +49,15 @@ pub struct Posture {
     pub objective: f64,
     /// `max |dE/dx|`.
     pub residual: f64,
+    /// Why statics did not converge at these activations; `None` where it did.
+    pub unsettled: Option<Cause>,
+}
+
+impl Posture {
     /// Whether statics converged at these activations.
-    pub in_equilibrium: bool,
+    pub fn in_equilibrium(&self) -> bool {
+        self.unsettled.is_none()
+    }
 }
 
 /// What a method did.
@@ -80,15 +87,12 @@ impl Question<'_> {
     pub fn settle(&mut self, beta: &[f64], from: &[f64], stop: &dyn Fn() -> bool) -> (Posture, usize) {
         let contractions = self.actuation.contractions(beta);
         self.model.contractile.set_contractions(&contractions);
-        let (state, in_equilibrium) = match statics::solve(self.model, from, &StaticsSettings::default(), stop) {
-            Ok(state) => (state, true),
-            Err(error) => {
-                let StaticsError { best, .. } = *error;
-                (best, false)
-            }
+        let (state, unsettled) = match statics::solve(self.model, from, &StaticsSettings::default(), stop) {
+            Ok(state) => (state, None),
+            Err(error) => (error.best, Some(error.cause)),
         };
         let objective = self.objective_at(&state.x, &contractions);
-        let posture = Posture { beta: beta.to_vec(), x: state.x, objective, residual: state.residual, in_equilibrium };
+        let posture = Posture { beta: beta.to_vec(), x: state.x, objective, residual: state.residual, unsettled };
         (posture, state.factorizations)
     }
 

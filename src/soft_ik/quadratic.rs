@@ -19,9 +19,32 @@ pub struct Quadratic {
     pub diagonal: DVector<f64>,
     pub lower: Vec<f64>,
     pub upper: Vec<f64>,
+    /// `R^T R`, where every step would need it ([`Self::prepare`]).
+    pub gram: Option<DMatrix<f64>>,
 }
 
+/// Columns of `R^T R` between two questions whether to stop.
+const COLUMNS: usize = 32;
+
 impl Quadratic {
+    /// Works out what all steps share: `O(rows m^2)`. `None` where `stop` has ended it.
+    pub fn prepare(&mut self, stop: &dyn Fn() -> bool) -> Option<()> {
+        let m = self.gradient.len();
+        if self.rows.nrows() < m {
+            return Some(());
+        }
+        let mut gram = DMatrix::zeros(m, m);
+        for first in (0..m).step_by(COLUMNS) {
+            if stop() {
+                return None;
+            }
+            let count = COLUMNS.min(m - first);
+            gram.columns_mut(first, count).gemm_tr(1.0, &self.rows, &self.rows.columns(first, count), 0.0);
+        }
+        self.gram = Some(gram);
+        Some(())
+    }
+
     /// The largest decrease that the model promises for moving one activation alone, within its bounds.
     pub fn best_single_promise(&self) -> f64 {
         let curvatures = self.curvatures();
@@ -50,13 +73,16 @@ impl Quadratic {
         -self.value(&DVector::zeros(d.len()), d).0
     }
 
-    /// The minimiser with `damping` added to the diagonal.
-    pub fn minimise(&self, damping: &DVector<f64>) -> DVector<f64> {
+    /// The minimiser with `damping` added to the diagonal; `None` where `stop` has ended the search.
+    pub fn minimise(&self, damping: &DVector<f64>, stop: &dyn Fn() -> bool) -> Option<DVector<f64>> {
         let m = self.gradient.len();
         let clamp = |j: usize, v: f64| v.max(self.lower[j]).min(self.upper[j]);
         let mut d = DVector::from_fn(m, |j, _| clamp(j, 0.0));
         let (mut value, mut gradient) = self.value(damping, &d);
         for _ in 0..MAX_STEPS {
+            if stop() {
+                return None;
+            }
             let free: Vec<usize> = (0..m)
                 .filter(|&j| {
                     !(d[j] <= self.lower[j] && gradient[j] > 0.0 || d[j] >= self.upper[j] && gradient[j] < 0.0)
@@ -82,15 +108,15 @@ impl Quadratic {
                 break;
             }
         }
-        d
+        Some(d)
     }
 
     /// `-(R^T R + D + damping)^-1 gradient` on the free variables.
     fn newton(&self, damping: &DVector<f64>, free: &[usize], gradient: &DVector<f64>) -> Option<DVector<f64>> {
         let rhs = DVector::from_fn(free.len(), |a, _| -gradient[free[a]]);
         let diagonal = DVector::from_fn(free.len(), |a, _| self.diagonal[free[a]] + damping[free[a]]);
-        let rows = self.rows.select_columns(free);
-        if rows.nrows() < free.len() && diagonal.iter().all(|v| *v > 0.0) {
+        if self.rows.nrows() < free.len() && diagonal.iter().all(|v| *v > 0.0) {
+            let rows = self.rows.select_columns(free);
             // (D + R^T R)^-1 b = D^-1 b - D^-1 R^T (I + R D^-1 R^T)^-1 R D^-1 b
             let mut scaled = rows.clone();
             for (a, mut column) in scaled.column_iter_mut().enumerate() {
@@ -101,7 +127,13 @@ impl Quadratic {
             let inner = small.cholesky()?.solve(&(&rows * &first));
             Some(first - scaled.tr_mul(&inner))
         } else {
-            let mut matrix = rows.tr_mul(&rows);
+            let mut matrix = match &self.gram {
+                Some(gram) => gram.select_columns(free).select_rows(free),
+                None => {
+                    let rows = self.rows.select_columns(free);
+                    rows.tr_mul(&rows)
+                }
+            };
             for a in 0..free.len() {
                 matrix[(a, a)] += diagonal[a];
             }
@@ -127,7 +159,20 @@ mod tests {
             diagonal: DVector::from_fn(m, |_, _| 0.01 + random().abs() * 0.1),
             lower: (0..m).map(|_| -random().abs()).collect(),
             upper: (0..m).map(|_| random().abs()).collect(),
+            gram: None,
         }
+    }
+
+    #[test]
+    fn a_search_ends_when_it_is_told_to() {
+        let mut quadratic = model(30, 20, 7);
+        let damping = DVector::zeros(20);
+        let plain = quadratic.minimise(&damping, &|| false).unwrap();
+        assert!(quadratic.prepare(&|| true).is_none() && quadratic.gram.is_none());
+        assert!(quadratic.minimise(&damping, &|| true).is_none());
+        quadratic.prepare(&|| false).unwrap();
+        let prepared = quadratic.minimise(&damping, &|| false).unwrap();
+        assert!((plain - prepared).norm() < 1e-10);
     }
 
     #[test]
@@ -135,7 +180,7 @@ mod tests {
         for (rows, m, seed) in [(3, 20, 1), (30, 20, 2), (1, 2, 3), (8, 60, 4), (80, 60, 5)] {
             let quadratic = model(rows, m, seed);
             let damping = DVector::zeros(m);
-            let d = quadratic.minimise(&damping);
+            let d = quadratic.minimise(&damping, &|| false).unwrap();
             let (_, gradient) = quadratic.value(&damping, &d);
             for j in 0..m {
                 assert!(d[j] >= quadratic.lower[j] && d[j] <= quadratic.upper[j]);

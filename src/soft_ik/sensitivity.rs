@@ -59,8 +59,17 @@ pub fn gradient_with_factor(question: &mut Question, x: &[f64], contractions: &[
     Gradient { by_contraction, by_activation }
 }
 
-/// `dx/dbeta`, column after column, with tangents `U''` given per element; the exact Hessian at `x` must be factorised.
-pub fn position_jacobian(question: &mut Question, x: &[f64], tangents: &[f64]) -> Vec<f64> {
+/// Columns that are solved for at once: enough for the solves to be fast, few enough to be stopped in between.
+const COLUMNS: usize = 16;
+
+/// `dx/dbeta`, column after column, with tangents `U''` given per element; the exact Hessian at `x` must be factorised. `None`
+/// where `stop` has ended it.
+pub fn position_jacobian(
+    question: &mut Question,
+    x: &[f64],
+    tangents: &[f64],
+    stop: &dyn Fn() -> bool,
+) -> Option<Vec<f64>> {
     let n = x.len();
     let winches = &question.actuation.winches;
     let mut columns = vec![0.0; n * winches.len()];
@@ -72,6 +81,11 @@ pub fn position_jacobian(question: &mut Question, x: &[f64], tangents: &[f64]) -
             }
         }
     }
-    question.model.solve_many(&mut columns, winches.len());
-    columns
+    for some in columns.chunks_mut(COLUMNS * n) {
+        if stop() {
+            return None;
+        }
+        question.model.solve_many(some, some.len() / n);
+    }
+    Some(columns)
 }

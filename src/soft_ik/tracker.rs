@@ -43,8 +43,8 @@ impl Quality {
         }
     }
 
-    /// A frame is done when no node moves further than this part of the body in an iteration. A thousandth of a millimetre in a
-    /// plushie of 100 mm cannot be seen.
+    /// A frame is done when no node moves further than this part of the body in an iteration, or no target would come nearer
+    /// by more than that. A thousandth of a millimetre in a plushie of 100 mm cannot be seen.
     pub fn step_tolerance(self) -> f64 {
         match self {
             Self::Draft => 1e-4,
@@ -146,19 +146,27 @@ const SETTLED: f64 = 1e-10;
 const SMALL: usize = 8;
 /// What must be reached before a pose is shown, whatever the budget.
 const SHOWN: f64 = 1e-3;
-/// Newton steps spent on that at most, before the pose of the last frame stays.
+/// Newton steps spent on that at most, before the pose of the last frame stays: in small scenes, and in large ones, where the
+/// hand would feel them.
 const SETTLING_STEPS: usize = 60;
+const HASTY_STEPS: usize = 8;
 
 impl Tracker {
     /// Starts at a posture in equilibrium. Works out the rest pose (activations zero) too.
     pub fn new(question: &mut Question, start: &Posture) -> Self {
+        Self::within(question, start, &|| false)
+    }
+
+    /// The same; once `stop` says so, the rest pose is left for later.
+    pub fn within(question: &mut Question, start: &Posture, stop: &dyn Fn() -> bool) -> Self {
         let elements = question.model.contractile.elements.len();
         let fibers = question.actuation.is_fibers_only() && !question.actuation.winches.is_empty();
         let fibers = fibers.then(|| {
             let mut zero = vec![0.0; start.beta.len()];
             question.actuation.clamp(&mut zero);
             let coordinates = question.model.rest.clone();
-            let (rest, _) = question.settle(&zero, &coordinates, &|| false);
+            let (rest, _) = question.settle(&zero, &coordinates, stop);
+            let stale = rest.unsettled == Some(Cause::Cancelled);
             let mut work = Workspace::new(question);
             let challenger = Run::new(question, &rest, &mut work);
             let run = Run::new(question, start, &mut work);
@@ -169,7 +177,7 @@ impl Tracker {
                 run,
                 challenger,
                 rest,
-                stale: false,
+                stale,
                 statics,
                 stage,
                 waited: 0,
@@ -255,29 +263,31 @@ impl Tracker {
         question.model.gradient(&self.trial, &mut self.forces);
         let mut residual = statics::norm(&self.forces);
         let mut scale = question.model.force_scale_into(&self.trial, &mut self.forces);
+        let mut cause = None;
         let mut settle = |tolerance: f64, max_iterations: usize, x: &mut [f64]| {
             let settings = StaticsSettings { tolerance, stagnation_tolerance: tolerance.max(1e-8), max_iterations };
             let done = statics::settle(question.model, x, &settings, stop, &mut self.statics);
             frame.factorizations += done.factorizations;
+            cause = done.cause;
             (done.residual, done.force_scale)
         };
         if left > 0 {
             (residual, scale) = settle(SETTLED, left, &mut self.trial);
         }
         if residual > SHOWN * scale {
-            (residual, scale) = settle(SHOWN, SETTLING_STEPS, &mut self.trial);
+            (residual, scale) = settle(SHOWN, if whole { SETTLING_STEPS } else { HASTY_STEPS }, &mut self.trial);
         }
         self.force_scale = scale;
         let settled = residual <= SHOWN * scale;
         let before = objective_of(question, &self.posture.x, &self.posture.beta);
         let after = objective_of(question, &self.trial, &self.beta);
         let margin = if fibers.deciding.is_some() { AS_GOOD } else { NO_WORSE };
-        let taken = !self.posture.in_equilibrium || settled && (pulled || after <= margin * before);
+        let taken = !self.posture.in_equilibrium() || settled && (pulled || after <= margin * before);
         if taken {
             std::mem::swap(&mut self.posture.x, &mut self.trial);
             std::mem::swap(&mut self.posture.beta, &mut self.beta);
             self.posture.residual = residual;
-            self.posture.in_equilibrium = settled;
+            self.posture.unsettled = (!settled).then(|| cause.unwrap_or(Cause::Stalled));
         }
         self.posture.objective = if taken { after } else { before };
         fibers.work.phases.line_search += clock.elapsed().as_secs_f64();
@@ -334,7 +344,7 @@ impl Fibers {
             match self.stage {
                 Stage::Following => {
                     fresh = true;
-                    let converged = self.step(question, frame, false, tolerance);
+                    let converged = self.step(question, frame, false, tolerance, stop);
                     self.ended = converged;
                     if converged || (self.waited > CHALLENGE_AFTER && frame.factorizations >= budget) {
                         if self.stale {
@@ -354,7 +364,7 @@ impl Fibers {
                     }
                 }
                 Stage::Challenging(count) => {
-                    let converged = self.step(question, frame, true, tolerance);
+                    let converged = self.step(question, frame, true, tolerance, stop);
                     self.stage = Stage::Challenging(count + 1);
                     if converged || count >= CHALLENGE_ITERATIONS {
                         // Whether it is as good is seen once it is settled.
@@ -366,7 +376,8 @@ impl Fibers {
                 }
                 Stage::Finishing => {
                     fresh = true;
-                    self.ended = self.step(question, frame, false, tolerance);
+                    // Nobody waits for it: as far as the most accurate would.
+                    self.ended = self.step(question, frame, false, Quality::Accurate.step_tolerance(), stop);
                     if self.ended {
                         self.stage = Stage::Done;
                     }
@@ -393,7 +404,6 @@ impl Fibers {
             (None, None) => self.run.go_on_from(question, &posture.x, &posture.beta, &mut self.work),
         }
         self.stage = match deciding {
-            Some(converged) if converged && shown.is_some() && !snapped => Stage::Done,
             Some(_) => Stage::Finishing,
             None if snapped && self.stage == Stage::Done => Stage::Finishing,
             None if snapped => Stage::Following,
@@ -425,14 +435,21 @@ impl Fibers {
     }
 
     /// One iteration of the run or its challenger; whether it has converged (or cannot go on).
-    fn step(&mut self, question: &mut Question, frame: &mut Frame, challenger: bool, tolerance: f64) -> bool {
+    fn step(
+        &mut self,
+        question: &mut Question,
+        frame: &mut Frame,
+        challenger: bool,
+        tolerance: f64,
+        stop: &dyn Fn() -> bool,
+    ) -> bool {
         let run = if challenger { &mut self.challenger } else { &mut self.run };
         frame.iterations += 1;
-        match run.iterate(question, &mut self.work) {
-            None => true,
+        match run.iterate(question, &mut self.work, stop) {
+            None => !stop(),
             Some(progress) => {
                 frame.factorizations += progress.factorizations;
-                progress.settled && progress.moved <= tolerance
+                progress.settled && progress.moved <= tolerance || progress.gain <= self.work.worth(tolerance)
             }
         }
     }

@@ -16,9 +16,12 @@ impl Session {
         let fits = |shape: &Shape| {
             shape.nodes.len() == nodes && shape.nodes.iter().flatten().all(|coordinate| coordinate.is_finite())
         };
-        let warning =
-            |shape: &Option<Shape>| shape.as_ref().filter(|s| !is_on_its_way(s)).and_then(|s| s.warning.clone());
-        self.warning = warning(&outcome.realizable).or_else(|| warning(&outcome.idealized));
+        let warning = |shape: &Option<Shape>| {
+            let shape = shape.as_ref()?;
+            shape.warning.clone().filter(|warning| !(warning.passes() && is_on_its_way(shape)))
+        };
+        let said = warning(&outcome.realizable).or_else(|| warning(&outcome.idealized));
+        self.warning = said.map(|warning| warning.to_string());
         self.answered_id = Some(outcome.id);
         let refined = outcome.refined;
         for (slot, new) in [

@@ -126,25 +126,15 @@ fn report(judged: &[Judged], short: bool) -> Report {
     }
 }
 
+/// Columns of both tables: what was done, and the state it led to.
+const WORK: [&str; 5] = ["iterations", "factors", "projections", "det F", "residual"];
+
 /// The worst of every row.
 fn summary(judged: &[Judged]) -> Table {
     let mut table = Table::new(
         "extremes",
         "Rows, the worst of their cases",
-        &[
-            "group",
-            "row",
-            "swept",
-            "cases",
-            "iterations",
-            "factors",
-            "projections",
-            "det F",
-            "residual",
-            "lost digits",
-            "condition",
-            "pass",
-        ],
+        &[&["group", "row", "swept", "cases"][..], &WORK, &["lost digits", "condition", "pass"]].concat(),
     );
     for j in judged {
         let most = |of: fn(&Outcome) -> usize| j.outcomes.iter().map(|(o, _)| of(o)).max().unwrap_or(0);
@@ -183,21 +173,7 @@ fn details(judged: &[Judged]) -> Table {
     let mut table = Table::new(
         "cases",
         "Cases",
-        &[
-            "row",
-            "at",
-            "iterations",
-            "factors",
-            "projections",
-            "det F",
-            "residual",
-            "error",
-            "lost digits",
-            "condition",
-            "target error",
-            "ms",
-            "outcome",
-        ],
+        &[&["row", "at"][..], &WORK, &["error", "lost digits", "condition", "target error", "ms", "outcome"]].concat(),
     );
     for j in judged {
         for (case, (o, short)) in j.row.cases.iter().zip(&j.outcomes) {

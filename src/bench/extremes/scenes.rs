@@ -124,7 +124,7 @@ pub fn pin(problem: &mut Problem, node: usize, stiffness: f64) {
 /// Weight downwards: `part` is that of the whole body over `mu` times its length.
 pub fn weigh(mut problem: Problem, part: f64) -> Problem {
     let size = super::measure::size(&problem);
-    let area: f64 = problem.mesh.triangles.iter().map(|t| area(&problem, t)).sum();
+    let area: f64 = problem.mesh.triangles.iter().map(|t| problem.mesh.area(t)).sum();
     problem.gravity = Some([0.0, -10.0]);
     problem.surface_density = Some(part * problem.material.mu * size / (10.0 * area));
     problem
@@ -132,13 +132,8 @@ pub fn weigh(mut problem: Problem, part: f64) -> Problem {
 
 /// Total weight, N.
 pub fn weight(problem: &Problem) -> f64 {
-    let area: f64 = problem.mesh.triangles.iter().map(|t| area(problem, t)).sum();
+    let area: f64 = problem.mesh.triangles.iter().map(|t| problem.mesh.area(t)).sum();
     area * problem.surface_density.unwrap_or(0.0) * problem.gravity.map_or(0.0, |g| -g[1])
-}
-
-fn area(problem: &Problem, t: &[usize; 3]) -> f64 {
-    let [p, q, r] = t.map(|n| problem.mesh.nodes[n]);
-    0.5 * ((q[0] - p[0]) * (r[1] - p[1]) - (r[0] - p[0]) * (q[1] - p[1]))
 }
 
 /// Targets at rest, without any weight towards rest elsewhere but a little.
@@ -151,6 +146,7 @@ pub fn aim(problem: &mut Problem, nodes: &[usize]) {
 pub fn placed(mut problem: Problem, scale: f64, offset: [f64; 2]) -> Problem {
     let point = |p: &mut [f64; 2]| *p = [scale * p[0] + offset[0], scale * p[1] + offset[1]];
     problem.mesh.nodes.iter_mut().for_each(point);
+    problem.start.iter_mut().flatten().for_each(point);
     problem.pins.iter_mut().for_each(|p| point(&mut p.target));
     for e in &mut problem.elements {
         e.epsilon *= scale;
@@ -159,6 +155,18 @@ pub fn placed(mut problem: Problem, scale: f64, offset: [f64; 2]) -> Problem {
     problem.contractions.iter_mut().flatten().for_each(|c| *c *= scale);
     if let Some(density) = &mut problem.surface_density {
         *density /= scale;
+    }
+    if let Some(objective) = &mut problem.objective {
+        objective.targets.iter_mut().for_each(|t| point(&mut t.xy));
+        objective.regulariser *= scale * scale;
+    }
+    if let Some(ik) = &mut problem.soft_ik {
+        for list in [&mut ik.beta_upper, &mut ik.beta_lower] {
+            list.iter_mut().flatten().flatten().for_each(|v| *v *= scale);
+        }
+    }
+    if let Some(drag) = &mut problem.drag {
+        drag.frames.iter_mut().flatten().for_each(point);
     }
     problem
 }

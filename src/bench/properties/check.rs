@@ -132,8 +132,8 @@ fn energy_falls(problem: &Problem, model: &Model, document: &Value) -> Result<()
     let start = given.filter(valid).unwrap_or_else(|| model.rest.clone());
     let before = model.energy(&start);
     // Coordinates that are far from the origin, and springs that feel their rounding, leave this much to chance.
-    let mut rounding = vec![0.0; start.len()];
-    model.rounding_into(&start, &mut rounding);
+    let (mut at_work, mut rounding) = (vec![0.0; start.len()], vec![0.0; start.len()]);
+    model.scales_into(&start, &mut at_work, &mut rounding);
     let jitter: f64 = rounding.iter().zip(&start).map(|(r, x)| 1e-9 * r * (1e-15 * x.abs())).sum();
     let size = crate::bench::extremes::measure::size(problem);
     // An energy of zero carries the rounding of a body at unit strain.

@@ -1,5 +1,6 @@
 //! Random problems: meshes, materials, elements, pins, weights, targets, starts; most are sound, some are not.
 
+use crate::bench::extremes::scenes;
 use crate::bench::random::Random;
 use crate::problem::Problem;
 use crate::problem::file::{
@@ -67,19 +68,16 @@ fn mesh(random: &mut Random) -> Problem {
             }
             let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
             let pair = if chance(random, 0.5) { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] };
-            triangles.extend(pair.into_iter().filter(|t| area(&nodes, t) > 1e-6));
+            triangles.extend(pair);
         }
     }
-    if triangles.is_empty() {
-        nodes = vec![[0.0, 0.0], [1.0, 0.0], [0.2, 0.7]];
-        triangles = vec![[0, 1, 2]];
+    let mut mesh = MeshData { nodes, triangles: Vec::new() };
+    triangles.retain(|t| mesh.area(t) > 1e-6);
+    mesh.triangles = triangles;
+    if mesh.triangles.is_empty() {
+        mesh = MeshData { nodes: vec![[0.0, 0.0], [1.0, 0.0], [0.2, 0.7]], triangles: vec![[0, 1, 2]] };
     }
-    Problem { mesh: MeshData { nodes, triangles }, ..Problem::default() }
-}
-
-fn area(nodes: &[[f64; 2]], t: &[usize; 3]) -> f64 {
-    let [p, q, r] = t.map(|n| nodes[n]);
-    0.5 * ((q[0] - p[0]) * (r[1] - p[1]) - (r[0] - p[0]) * (q[1] - p[1]))
+    Problem { mesh, ..Problem::default() }
 }
 
 fn material(random: &mut Random, problem: &mut Problem) {
@@ -103,7 +101,7 @@ fn elements(random: &mut Random, problem: &mut Problem) {
             let last = routing[routing.len() - 1];
             routing.push((last + 1 + random.index(nodes - 1)) % nodes);
         }
-        let length = super::super::extremes::scenes::rest_length(problem, &routing);
+        let length = scenes::rest_length(problem, &routing);
         let stiffness =
             problem.material.mu * if chance(random, 0.3) { power(random, -3.0, 9.0) } else { random.between(0.0, 5.0) };
         let epsilon = length * if chance(random, 0.3) { power(random, -9.0, -1.0) } else { 1e-2 };
@@ -184,30 +182,7 @@ fn place(random: &mut Random, problem: &mut Problem) {
     let scale = power(random, -6.0, 3.0);
     let far = scale * power(random, 0.0, 5.0);
     let offset = [random.between(-far, far), random.between(-far, far)];
-    let point = |p: &mut [f64; 2]| *p = [scale * p[0] + offset[0], scale * p[1] + offset[1]];
-    problem.mesh.nodes.iter_mut().for_each(point);
-    problem.start.iter_mut().flatten().for_each(point);
-    problem.pins.iter_mut().for_each(|p| point(&mut p.target));
-    for e in &mut problem.elements {
-        e.epsilon *= scale;
-        e.alpha0 *= scale;
-    }
-    problem.contractions.iter_mut().flatten().for_each(|c| *c *= scale);
-    if let Some(density) = &mut problem.surface_density {
-        *density /= scale;
-    }
-    if let Some(objective) = &mut problem.objective {
-        objective.targets.iter_mut().for_each(|t| point(&mut t.xy));
-        objective.regulariser *= scale * scale;
-    }
-    if let Some(ik) = &mut problem.soft_ik {
-        for list in [&mut ik.beta_upper, &mut ik.beta_lower] {
-            list.iter_mut().flatten().flatten().for_each(|v| *v *= scale);
-        }
-    }
-    if let Some(drag) = &mut problem.drag {
-        drag.frames.iter_mut().flatten().for_each(point);
-    }
+    *problem = scenes::placed(std::mem::take(problem), scale, offset);
 }
 
 /// Breaks a problem in one of the ways that a file can be broken.

@@ -36,12 +36,14 @@ pub(super) struct Dual {
 const MAX_STEPS: usize = 60;
 /// Halvings of a Newton step.
 const MAX_HALVINGS: usize = 30;
+/// Rows of the Newton matrix between two questions whether to stop: more than the few targets of a hand have.
+const ROWS: usize = 32;
 /// Largest entry of the gradient at which `q` counts as found, relative to the residuals.
 const TOLERANCE: f64 = 1e-8;
 
 impl Dual {
-    /// Solves from the multipliers `q`; leaves the solution in `q` and `tension`.
-    pub fn solve(&mut self, problem: &Subproblem, q: &mut [f64], tension: &mut [f64]) {
+    /// Solves from the multipliers `q`; leaves the solution in `q` and `tension`. `false` where `stop` has ended the search.
+    pub fn solve(&mut self, problem: &Subproblem, q: &mut [f64], tension: &mut [f64], stop: &dyn Fn() -> bool) -> bool {
         let rows = problem.residual.len();
         for buffer in [&mut self.offset, &mut self.gradient, &mut self.trial_gradient, &mut self.step, &mut self.trial]
         {
@@ -58,7 +60,9 @@ impl Dual {
             if largest(&self.gradient) <= TOLERANCE * (largest(problem.residual) + largest(q)) {
                 break;
             }
-            problem.hessian(tension, &mut self.matrix, &mut self.change);
+            if !problem.hessian(tension, &mut self.matrix, &mut self.change, stop) {
+                return false;
+            }
             for (s, g) in self.step.iter_mut().zip(&self.gradient) {
                 *s = -g;
             }
@@ -88,6 +92,7 @@ impl Dual {
                 break;
             }
         }
+        true
     }
 }
 
@@ -119,18 +124,23 @@ impl Subproblem<'_> {
         0.5 * dot(q, q) - dot(q, offset) + conjugate
     }
 
-    /// `I + J_F J_F^T/(rho + nu)` over the elements `F` between their limits; lower triangle, row by row.
-    fn hessian(&self, tension: &[f64], matrix: &mut [f64], weights: &mut [f64]) {
+    /// `I + J_F J_F^T/(rho + nu)` over the elements `F` between their limits; lower triangle, row by row. `false` where `stop` has
+    /// ended it.
+    fn hessian(&self, tension: &[f64], matrix: &mut [f64], weights: &mut [f64], stop: &dyn Fn() -> bool) -> bool {
         let n = self.residual.len();
         let scale = 1.0 / (self.rho + self.nu);
         for ((w, tau), limits) in weights.iter_mut().zip(tension).zip(self.limits) {
             *w = if *tau > limits[0] && *tau < limits[1] { scale } else { 0.0 };
         }
         for (i, a) in self.rows().enumerate() {
+            if i % ROWS == ROWS - 1 && stop() {
+                return false;
+            }
             for (j, b) in self.rows().take(i + 1).enumerate() {
                 matrix[i * n + j] = dot3(a, b, weights) + (i == j) as usize as f64;
             }
         }
+        true
     }
 }
 
@@ -238,7 +248,7 @@ mod tests {
             nu: 0.4,
         };
         let (mut q, mut tension) = (residual, vec![0.0; m]);
-        Dual::default().solve(&problem, &mut q, &mut tension);
+        assert!(Dual::default().solve(&problem, &mut q, &mut tension, &|| false));
         let mut r = residual;
         for (r, row) in r.iter_mut().zip(jacobian.chunks_exact(m)) {
             *r += dot(row, &tension) - dot(row, &now);

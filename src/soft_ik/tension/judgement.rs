@@ -16,6 +16,13 @@ const EXCELLENT: f64 = 0.2;
 const EXCELLENT_DECAY: f64 = 8.0;
 const PROXIMAL_DECAY: f64 = 2.0;
 const PROXIMAL_GROWTH: f64 = 2.0;
+/// A step is timid where `O` fell by more than this times what its model promised, with nothing left to hold it back: a
+/// quadratic taken for one of `1/c` times its curvature falls by `2 - c` times the promise. What makes the model stiffer than
+/// the scene is the stiffness that stands for that of stiff elements: springs resist a tension while it is chosen. It
+/// shrinks by `c`, not faster than by this factor and not below this part; it grows again where steps fail.
+const TIMID: f64 = 1.3;
+const STEADINESS_DECAY: f64 = 0.25;
+const LEAST_STEADINESS: f64 = 1e-3;
 /// Iterations in a row that end far from equilibrium, after which the run goes back to its best state.
 const PATIENCE: usize = 6;
 /// A state is kept as the best where its Newton step towards equilibrium is at most this part of the body: farther away,
@@ -77,6 +84,10 @@ impl Run {
                 return Verdict::Back;
             }
             if ratio >= GOOD {
+                if ratio > TIMID && verified && self.nu <= LEAST_PROXIMAL * work.rho {
+                    let excess = (2.0 - ratio).max(STEADINESS_DECAY);
+                    self.next_steadiness = (self.steadiness * excess).max(LEAST_STEADINESS);
+                }
                 let decay = if (ratio - 1.0).abs() < EXCELLENT { EXCELLENT_DECAY } else { PROXIMAL_DECAY };
                 self.nu = (self.nu / decay).max(LEAST_PROXIMAL * work.rho);
             } else if ratio < POOR {
@@ -103,16 +114,18 @@ impl Run {
         self.x.copy_from_slice(&self.best.x);
         self.fibers.copy_from_slice(&self.best.fibers);
         self.nu = (self.nu * REJECTION_GROWTH).min(LARGEST_PROXIMAL * work.rho);
+        self.steadiness = (self.steadiness / STEADINESS_DECAY).min(1.0);
+        self.next_steadiness = self.steadiness;
         self.adrift = 0;
         self.returned = true;
         self.before = None;
-        self.set_laws(question, work.softness);
+        self.set_laws(question, work);
         self.gradient_now(question, work);
     }
 
     /// Keeps a state that the last step took close to equilibrium, before the next factorisation.
     pub(super) fn note(&mut self, question: &Question, work: &Workspace) {
-        let forces = self.fibers.iter().fold(work.forces, |m, f| m.max(f.tension));
+        let forces = self.fibers.iter().fold(self.forces, |m, f| m.max(f.tension));
         if statics::norm(&self.gradient) <= NEAR_EQUILIBRIUM * forces {
             let objective = value(&self.x, &self.fibers, question, work.rho);
             if objective < self.best.objective {

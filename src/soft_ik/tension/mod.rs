@@ -14,6 +14,9 @@
 //!    its spring in `H`, `dtau = U'' dalpha_c` at fixed `x`. Where the step moves it off its bound it is freed. So held and
 //!    free elements are decided on together, against the same targets.
 //!
+//! A stiff element whose tension is the unknown keeps a softer spring's stiffness, or the body would buckle where the real cable
+//! does not let it. Such springs resist the choice of tensions, so the stiffness shrinks where steps turn out timid.
+//!
 //! Tension does not vanish from the model where an element is slack, so the slack stall does not exist here. Contractions
 //! follow as `alpha_c = alpha_0 - l + U'^-1(tau)`, and a statics polish ends the work.
 //!
@@ -32,6 +35,7 @@ pub(super) use run::Run;
 pub(super) use workspace::Workspace;
 
 use super::{Answer, Budget, Method, Posture, Question};
+use crate::physics::Cause;
 
 /// Growth of `O`, as a factor and in squared body lengths, when a state is settled, from which on it counts as snapped.
 const SNAPPED: f64 = 1.01;
@@ -72,7 +76,7 @@ impl Method for AllAtOnce {
             answer.converged = false;
             while answer.iterations < budget.iterations && !(budget.stop)() {
                 answer.iterations += 1;
-                let Some(progress) = run.iterate(question, &mut work) else { break };
+                let Some(progress) = run.iterate(question, &mut work, budget.stop) else { break };
                 answer.factorizations += progress.factorizations;
                 if progress.settled && progress.moved <= self.step_tolerance {
                     answer.converged = true;
@@ -81,15 +85,16 @@ impl Method for AllAtOnce {
             }
             let mut beta = start.beta.clone();
             run.best.activations_into(question, &mut beta);
-            let (posture, factorizations) = question.settle(&beta, &run.best.x, &|| false);
+            let (posture, factorizations) = question.settle(&beta, &run.best.x, budget.stop);
             answer.factorizations += factorizations;
-            let snapped = posture.in_equilibrium && snapped(posture.objective, run.best.objective, work.size);
+            let snapped = posture.in_equilibrium() && snapped(posture.objective, run.best.objective, work.size);
             if snapped && answer.converged {
                 run.go_on_from(question, &posture.x, &posture.beta, &mut work);
             }
             let done = !snapped || !answer.converged;
-            let better = posture.objective < answer.posture.objective || !answer.posture.in_equilibrium;
-            if posture.in_equilibrium && better {
+            let better = posture.objective < answer.posture.objective || !answer.posture.in_equilibrium();
+            // Out of time, the best state is what it is.
+            if better && (posture.in_equilibrium() || posture.unsettled == Some(Cause::Cancelled)) {
                 answer.posture = posture;
             }
             if done {

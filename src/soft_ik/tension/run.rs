@@ -39,6 +39,8 @@ pub(in crate::soft_ik) struct Progress {
     /// Whether no limit of pull or of step length, no change of bounds and no large `nu` played a part in it; or nothing is
     /// left to gain.
     pub settled: bool,
+    /// The decrease of `O` that the iteration promised; infinite where the promise is not to be trusted.
+    pub gain: f64,
 }
 
 /// A state between iterations.
@@ -49,6 +51,12 @@ pub(in crate::soft_ik) struct Run {
     pub(super) gradient: Vec<f64>,
     /// Proximal weight.
     pub(super) nu: f64,
+    /// Stiffness that stands for a stiff element's own where its tension is the unknown, as a part of `Workspace::softness`;
+    /// and that of the next iteration.
+    pub(super) steadiness: f64,
+    pub(super) next_steadiness: f64,
+    /// The forces at work where the run began; tensions since then may be larger.
+    pub(super) forces: f64,
     /// Longest step of a node, as a part of the body.
     pub(super) reach: f64,
     /// Present limit on a target's pull, length.
@@ -86,6 +94,9 @@ impl Run {
             x: start.x.clone(),
             gradient: vec![0.0; start.x.len()],
             nu: FIRST_PROXIMAL * work.rho,
+            steadiness: 1.0,
+            next_steadiness: 1.0,
+            forces: 0.0,
             reach: LONGEST_STEP,
             pull: FIRST_PULL * work.size,
             before: None,
@@ -113,6 +124,8 @@ impl Run {
             *fiber = Fiber::new(winch, *beta, elements, x, work.softness);
         }
         self.nu = FIRST_PROXIMAL * work.rho;
+        self.steadiness = 1.0;
+        self.next_steadiness = 1.0;
         self.unverified = 0;
         self.warm = false;
         self.take_best(f64::INFINITY);
@@ -143,19 +156,24 @@ impl Run {
         self.best.objective = value(&self.best.x, &self.best.fibers, question, work.rho);
         if pulled {
             self.returned = true;
-            self.set_laws(question, work.softness);
-            work.forces = question.model.force_scale_into(&self.x, &mut work.trial);
+            self.set_laws(question, work);
+            self.forces = question.model.force_scale_into(&self.x, &mut work.trial);
             self.gradient_now(question, work);
         }
     }
 
     /// Puts the present laws of all elements into the model.
-    pub(super) fn set_laws(&self, question: &mut Question, steady: f64) {
+    pub(super) fn set_laws(&self, question: &mut Question, work: &Workspace) {
+        let steady = self.steady(work);
         let contractile = &mut question.model.contractile;
         contractile.set_contractions(&question.actuation.fixed);
         for fiber in &self.fibers {
             contractile.laws[fiber.element] = fiber.law(steady);
         }
+    }
+
+    pub(super) fn steady(&self, work: &Workspace) -> f64 {
+        self.steadiness * work.softness
     }
 
     pub(super) fn gradient_now(&mut self, question: &Question, work: &mut Workspace) {
@@ -164,32 +182,49 @@ impl Run {
         work.phases.assembly += clock.elapsed().as_secs_f64();
     }
 
-    /// One iteration; `None` where the stiffness matrix cannot be factorised.
-    pub fn iterate(&mut self, question: &mut Question, work: &mut Workspace) -> Option<Progress> {
+    /// One iteration; `None` where the stiffness matrix cannot be factorised, or `stop` has ended it: with many targets it is long.
+    pub fn iterate(
+        &mut self,
+        question: &mut Question,
+        work: &mut Workspace,
+        stop: &dyn Fn() -> bool,
+    ) -> Option<Progress> {
         let clock = Instant::now();
         work.cables.update(&self.x);
         let elements = &question.model.contractile.elements;
         for (fiber, length) in self.fibers.iter_mut().zip(&work.cables.lengths) {
             fiber.release_slack(&elements[fiber.element], *length);
         }
-        self.set_laws(question, work.softness);
+        self.steadiness = self.next_steadiness;
+        self.set_laws(question, work);
         work.phases.assembly += clock.elapsed().as_secs_f64();
-        let form = factorize(question.model, &self.x, &mut work.phases)?;
-        let factorizations = 1 + (form == HessianForm::Projected) as usize;
+        let mut form = factorize(question.model, &self.x, &mut work.phases)?;
+        let mut factorizations = 1 + (form == HessianForm::Projected) as usize;
+        if form == HessianForm::Projected && self.steadiness < 1.0 {
+            self.next_steadiness = 1.0;
+            self.steadiness = 1.0;
+            self.set_laws(question, work);
+            self.gradient_now(question, work);
+            form = factorize(question.model, &self.x, &mut work.phases)?;
+            factorizations += 1 + (form == HessianForm::Projected) as usize;
+        }
 
-        self.solve_sides(question, work);
+        if !self.solve_sides(question, work, stop) {
+            return None;
+        }
         if self.judge(question, work) == Verdict::Back {
             let stuck = self.nu >= LARGEST_PROXIMAL * work.rho;
             self.go_back(question, work);
-            return Some(Progress { factorizations, moved: if stuck { 0.0 } else { f64::INFINITY }, settled: stuck });
+            let moved = if stuck { 0.0 } else { f64::INFINITY };
+            return Some(Progress { factorizations, moved, settled: stuck, gain: f64::INFINITY });
         }
         let limited = self.linearise(question, work);
-        if self.unverified > UNBALANCED {
+        self.before = None;
+        if self.unverified <= UNBALANCED && !self.choose(question, work, stop) {
+            return None;
+        }
+        if self.before.is_none() {
             self.balance(work);
-            self.before = None;
-        } else {
-            self.choose(question, work);
-            self.before = Some((self.now, self.promise(work)));
         }
         let (step, changed) = self.take(question, form, work);
         if limited && step >= 0.5 {
@@ -197,19 +232,26 @@ impl Run {
         }
         self.note(question, work);
         let gentle = self.nu <= LARGEST_FIRST * work.rho;
-        let promised = self.before.map_or(f64::INFINITY, |(now, promised)| promised / now.abs());
-        if !limited && (gentle && promised <= STANDSTILL || self.stagnant > STAGNANT) {
-            return Some(Progress { factorizations, moved: 0.0, settled: true });
+        let promised = self.before.map_or(f64::INFINITY, |(_, promised)| promised);
+        if !limited && (gentle && promised <= STANDSTILL * self.now.abs() || self.stagnant > STAGNANT) {
+            return Some(Progress { factorizations, moved: 0.0, settled: true, gain: promised });
         }
         let moved = step * longest(&work.dx) / work.size;
-        Some(Progress { factorizations, moved, settled: !limited && !changed && step >= 0.5 && gentle })
+        let gain = if gentle && !limited && self.unverified == 0 { promised } else { f64::INFINITY };
+        Some(Progress { factorizations, moved, settled: !limited && !changed && step >= 0.5 && gentle, gain })
     }
 }
 
-/// Assembles and factorises; both count as factorisation in the phases.
+/// The exact Hessian where it is positive definite, else the projected one (whose assembly counts as factorisation).
 fn factorize(model: &mut Model, x: &[f64], phases: &mut Phases) -> Option<HessianForm> {
     let clock = Instant::now();
-    let form = model.factorize_for_descent(x).ok();
+    model.assemble(x, HessianForm::Exact);
+    phases.assembly += clock.elapsed().as_secs_f64();
+    let clock = Instant::now();
+    let form = match model.factorize_assembled() {
+        Ok(()) => Some(HessianForm::Exact),
+        Err(_) => model.factorize_projected(x).ok().map(|()| HessianForm::Projected),
+    };
     phases.factorization += clock.elapsed().as_secs_f64();
     form
 }

@@ -1,7 +1,7 @@
 //! One step of the all-at-once method: the linear solves, the choice of tensions, the motion that follows.
 
 use super::dual::Subproblem;
-use super::run::{LARGEST_PROXIMAL, Run};
+use super::run::{LARGEST_PROXIMAL, Run, STANDSTILL};
 use super::workspace::Workspace;
 use crate::physics::{HessianForm, statics};
 use crate::soft_ik::{PointTarget, Question};
@@ -9,10 +9,13 @@ use std::time::Instant;
 
 /// A Newton step is taken without a line search where at most this part of the unbalanced forces is left after it.
 const BALANCING: f64 = 0.5;
+/// Right-hand sides that are solved for at once, where there are many targets.
+const COLUMNS: usize = 64;
 
 impl Run {
     /// `H [Y, v, u] = [S^T, Q (x - X) + held tensions, g]`, targets scaled by the root of their weight.
-    pub(super) fn solve_sides(&self, question: &mut Question, work: &mut Workspace) {
+    /// `false` where `stop` has ended it.
+    pub(super) fn solve_sides(&self, question: &mut Question, work: &mut Workspace, stop: &dyn Fn() -> bool) -> bool {
         let clock = Instant::now();
         let n = self.x.len();
         let objective = question.objective;
@@ -30,15 +33,23 @@ impl Run {
         self.add_tension_of_springs(question, work, pull);
         g.copy_from_slice(&self.gradient);
         work.solved = solved;
-        question.model.solve_many(&mut work.solved, rows + 2);
+        let mut columns = work.solved.chunks_mut(n * COLUMNS).peekable();
+        while let Some(some) = columns.next() {
+            question.model.solve_many(some, some.len() / n);
+            if columns.peek().is_some() && stop() {
+                return false;
+            }
+        }
         work.phases.solves += clock.elapsed().as_secs_f64();
+        true
     }
 
     /// Adds the derivative by `x` of `rho/2 tau^2` where tension changes with length: `rho tau dtau/dl dl/dx`.
     fn add_tension_of_springs(&self, question: &Question, work: &Workspace, out: &mut [f64]) {
+        let steady = self.steady(work);
         for (k, fiber) in self.fibers.iter().enumerate() {
             let element = &question.model.contractile.elements[fiber.element];
-            let (tau, tangent) = fiber.law(work.softness).tension_and_tangent(element, work.cables.lengths[k]);
+            let (tau, tangent) = fiber.law(steady).tension_and_tangent(element, work.cables.lengths[k]);
             let factor = work.rho * tau * tangent;
             if factor != 0.0 {
                 work.cables.add_gradient(k, factor, out);
@@ -89,7 +100,11 @@ impl Run {
     }
 
     /// The step in tension, and `dx = -u - H^-1 G^T dtau` that follows; shorter by a larger `nu` where it is too long.
-    pub(super) fn choose(&mut self, question: &mut Question, work: &mut Workspace) {
+    ///
+    /// Leaves `O` before it and the decrease that it promises in `before`; nothing where that is an increase: `H` is so near
+    /// to singular that the choice drowns in rounding. `false` where `stop` has ended it.
+    pub(super) fn choose(&mut self, question: &mut Question, work: &mut Workspace, stop: &dyn Fn() -> bool) -> bool {
+        let first = self.nu;
         let n = self.x.len();
         let rows = work.residual.len();
         let most = self.reach * work.size;
@@ -109,7 +124,11 @@ impl Run {
                 rho: work.rho,
                 nu: self.nu,
             };
-            work.dual.solve(&problem, &mut q, &mut work.next);
+            if !work.dual.solve(&problem, &mut q, &mut work.next, stop) {
+                self.warm = false;
+                self.q = q;
+                return false;
+            }
             work.phases.dual += clock.elapsed().as_secs_f64();
             let clock = Instant::now();
             work.dx.fill(0.0);
@@ -132,10 +151,17 @@ impl Run {
             self.nu *= 4.0;
         }
         self.q = q;
+        let promised = self.promise(work);
+        if promised >= -STANDSTILL * self.now.abs() {
+            self.before = Some((self.now, promised));
+        } else {
+            self.nu = first;
+        }
+        true
     }
 
     /// The decrease of `O` that the linearised model promises for the chosen tensions.
-    pub(super) fn promise(&self, work: &mut Workspace) -> f64 {
+    fn promise(&self, work: &mut Workspace) -> f64 {
         let count = work.now.len();
         let mut promised = 0.0;
         for k in 0..count {
@@ -206,13 +232,14 @@ impl Run {
         for (k, fiber) in self.fibers.iter_mut().enumerate() {
             fiber.take(&elements[fiber.element], work.cables.lengths[k], work.next[k], work.limits[k]);
         }
-        self.set_laws(question, work.softness);
+        self.set_laws(question, work);
         let step = self.search(question, form, work);
         let mut changed = false;
+        let steady = self.steady(work);
         work.cables.update(&self.x);
         let elements = &question.model.contractile.elements;
         for (k, fiber) in self.fibers.iter_mut().enumerate() {
-            fiber.follow(&elements[fiber.element], work.cables.lengths[k], work.softness);
+            fiber.follow(&elements[fiber.element], work.cables.lengths[k], steady);
             let (before, prescribed) = (fiber.tension, fiber.held.is_none());
             changed |= fiber.update(&elements[fiber.element], work.cables.lengths[k]);
             if prescribed && fiber.tension != before {

@@ -35,8 +35,8 @@ pub(in crate::soft_ik) struct Workspace {
     pub(super) softness: f64,
     /// Body size: the longer side of the rest box.
     pub size: f64,
-    /// The forces at work where the run began; tensions since then may be larger.
-    pub forces: f64,
+    /// Smallest weight of a target.
+    weight: f64,
     pub phases: Phases,
 }
 
@@ -69,8 +69,13 @@ impl Workspace {
             rho: if weight > 0.0 { weight } else { crate::defaults::TENSION_WEIGHT / (mu * mu) },
             softness: SOFT * mu,
             size: super::extent(&question.model.rest),
-            forces: 0.0,
+            weight: question.objective.targets.iter().map(|t| t.weight).reduce(f64::min).unwrap_or(1.0),
             phases: Phases::default(),
         }
+    }
+
+    /// The decrease of `O` when a target is missed by this part of the body less.
+    pub fn worth(&self, part: f64) -> f64 {
+        0.5 * self.weight * (part * self.size).powi(2)
     }
 }

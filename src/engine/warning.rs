@@ -1,0 +1,95 @@
+//! What the user should know about a shape.
+
+use super::compile::Plushie;
+use crate::outline::Point;
+use crate::physics::Cause;
+use crate::soft_ik::Posture;
+
+/// A triangle of less than this part of its area is pressed flat: stuffing does not go there.
+const PRESSED_FLAT: f64 = 1e-2;
+
+/// Ready to be shown as one line.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Warning {
+    #[error("{}", free(*pinned, *at))]
+    Free {
+        /// Points of the piece that are held: none, or one about which it can turn.
+        pinned: usize,
+        /// A point of the piece at rest, mm, where the body is in several.
+        at: Option<Point>,
+    },
+    #[error("A part of the body is pressed flat: pull less, pull elsewhere, or soften the cables.")]
+    PressedFlat,
+    #[error("Not in equilibrium: {0}.")]
+    Unbalanced(Cause),
+    #[error("{0}")]
+    Solver(String),
+}
+
+fn free(pinned: usize, at: Option<Point>) -> String {
+    let which = at.map_or("The body".to_owned(), |[x, y]| format!("The piece of the body at ({x:.0}, {y:.0}) mm"));
+    match pinned {
+        0 => format!("{which} is free to move: add pins until two points of it are held."),
+        _ => format!("{which} is free to turn about its only pin: hold a second point of it."),
+    }
+}
+
+impl Warning {
+    /// About a plushie in this posture: what is not held comes first, since nothing else means much then.
+    pub(super) fn of(plushie: &Plushie, posture: &Posture) -> Option<Self> {
+        let model = &plushie.model;
+        if let Some(loose) = model.loose().first() {
+            let rest = [model.rest[2 * loose.node], model.rest[2 * loose.node + 1]];
+            return Some(Self::Free { pinned: loose.pinned, at: (model.pieces() > 1).then_some(rest) });
+        }
+        if posture.unsettled == Some(Cause::Collapsed) || model.body.smallest_determinant(&posture.x) < PRESSED_FLAT {
+            return Some(Self::PressedFlat);
+        }
+        posture.unsettled.map(Self::Unbalanced)
+    }
+
+    /// Whether it will go by itself once the solver has had its time.
+    pub fn passes(&self) -> bool {
+        matches!(self, Self::Unbalanced(_))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Question, Request, Solver};
+    use super::*;
+    use crate::design::testing;
+    use crate::soft_ik::Quality;
+    use std::sync::Arc;
+    use std::sync::atomic::AtomicBool;
+
+    #[test]
+    fn what_holds_the_body_is_said_in_words() {
+        let mut design = testing::sample();
+        let held = design.pins.clone();
+        for (pins, expected) in [(0, Some("free to move")), (1, Some("free to turn")), (held.len(), None)] {
+            design.pins = held[..pins].to_vec();
+            let request = Request {
+                id: 0,
+                design: Arc::new(design.clone()),
+                question: Question::Targets(Vec::new()),
+                quality: Quality::Balanced,
+                show_idealized: false,
+                show_realizable: true,
+            };
+            let shape = Solver::default().solve(&request, &AtomicBool::new(false)).realizable.unwrap();
+            let text = shape.warning.map(|warning| warning.to_string());
+            match expected {
+                Some(words) => assert!(text.as_ref().is_some_and(|t| t.contains(words)), "{pins} pins: {text:?}"),
+                None => assert_eq!(text, None),
+            }
+        }
+    }
+
+    #[test]
+    fn a_piece_among_several_is_named_by_its_place() {
+        let text = Warning::Free { pinned: 0, at: Some([12.4, 90.6]) }.to_string();
+        assert!(text.contains("at (12, 91) mm"), "{text}");
+        assert!(Warning::Unbalanced(Cause::Stalled).passes() && !Warning::PressedFlat.passes());
+    }
+}
