@@ -15,6 +15,8 @@ const NEAREST_STEPS: usize = 6;
 /// to 2 %.
 const FEWER: f64 = 0.7;
 const HALVINGS: usize = 4;
+/// Counts above this are not improved upon: one mesh alone takes a tenth of a second and more.
+const LARGE: usize = 5000;
 /// Largest multiple of the asked count that is looked for instead, at first.
 const NEAREST_MOST: usize = 10;
 
@@ -151,6 +153,10 @@ fn finer(whole: &Subject, asked: usize, at: impl Fn(usize, Effort) -> Option<Mes
         count += (count / 12).max(1);
     }
     let (meshed, mut count) = found?;
+    // A mesh of thousands takes as long as the search for one of hundreds: it is taken as it is.
+    if count > LARGE {
+        return Some((meshed, count));
+    }
     without = without.max((FEWER * count as f64) as usize);
     for _ in 0..HALVINGS {
         let between = without.midpoint(count);
