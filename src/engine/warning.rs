@@ -58,7 +58,8 @@ impl Warning {
 mod tests {
     use super::super::{Question, Request, Solver};
     use super::*;
-    use crate::design::testing;
+    use crate::design::{Pin, testing};
+    use crate::mesh::BodyPoint;
     use crate::soft_ik::Quality;
     use std::sync::Arc;
     use std::sync::atomic::AtomicBool;
@@ -66,7 +67,8 @@ mod tests {
     #[test]
     fn what_holds_the_body_is_said_in_words() {
         let mut design = testing::sample();
-        let held = design.pins.clone();
+        let mut held = design.pins.clone();
+        held.push(Pin { at: BodyPoint { triangle: 0, weights: [0.0, 1.0, 0.0] }, ..held[0].clone() });
         for (pins, expected) in [(0, Some("free to move")), (1, Some("free to turn")), (held.len(), None)] {
             design.pins = held[..pins].to_vec();
             let request = Request {

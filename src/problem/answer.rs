@@ -9,6 +9,7 @@ use crate::soft_ik::{
     self, Actuation, Budget, Objective, PointTarget, Quality, Question, Tracker, Winch, default_method, sensitivity,
 };
 use serde_json::{Map, Value, json};
+use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 /// How a problem is to be answered.
@@ -167,8 +168,12 @@ fn objective(problem: &Problem) -> Option<Objective> {
 fn actuation(problem: &Problem, ids: &[i64], fixed: Vec<f64>) -> Actuation {
     let ik = problem.soft_ik.as_ref();
     let bound = |list: Option<&Vec<Option<f64>>>, j: usize| list.and_then(|l| l.get(j).copied().flatten());
+    let mut members: BTreeMap<i64, Vec<(usize, f64)>> = BTreeMap::new();
+    for (e, element) in problem.elements.iter().enumerate() {
+        members.entry(element.winch).or_default().push((e, 1.0));
+    }
     let winches = ids.iter().enumerate().map(|(j, id)| Winch {
-        members: (0..problem.elements.len()).filter(|e| problem.elements[*e].winch == *id).map(|e| (e, 1.0)).collect(),
+        members: members.remove(id).unwrap_or_default(),
         lower: bound(ik.and_then(|s| s.beta_lower.as_ref()), j).unwrap_or(f64::NEG_INFINITY),
         upper: bound(ik.and_then(|s| s.beta_upper.as_ref()), j).unwrap_or(f64::INFINITY),
     });

@@ -3,7 +3,7 @@
 use super::limits;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 pub const FORMAT: &str = "plushwright-problem/1";
 
@@ -272,12 +272,13 @@ impl Problem {
         match self.soft_ik.as_ref().and_then(|s| s.winch_ids.clone()) {
             None => Ok(known.into_iter().filter(|id| !fixed.contains_key(id)).collect()),
             Some(ids) => {
+                let mut seen = BTreeSet::new();
                 for (i, id) in ids.iter().enumerate() {
                     let key = format!("soft_ik.winch_ids[{i}]");
                     if known.binary_search(id).is_err() {
                         return Err(content(&key, format!("no element has winch {id}")));
                     }
-                    if ids[..i].contains(id) {
+                    if !seen.insert(*id) {
                         return Err(content(&key, format!("winch {id} is listed twice")));
                     }
                     if fixed.contains_key(id) {
