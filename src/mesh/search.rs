@@ -231,9 +231,7 @@ impl<'a> Subject<'a> {
             let room = refiner.run(fibers);
             self.spend(refiner.tri.edges());
             if room.is_none() {
-                if near.is_none() {
-                    return None;
-                }
+                near.as_ref()?;
                 continue;
             }
             if refiner.edges() == fibers {

@@ -38,7 +38,7 @@ impl Axis {
         }
     }
 
-    fn from_frame(self, [u, v]: Point) -> Point {
+    fn in_plane(self, [u, v]: Point) -> Point {
         let [x0, y0] = self.origin;
         match self.along {
             [0.0, 1.0] => [x0 - v, u],
@@ -50,7 +50,7 @@ impl Axis {
     /// The mirror image of a point.
     pub fn mirror(self, p: Point) -> Point {
         let [u, v] = self.to_frame(p);
-        self.from_frame([u, -v])
+        self.in_plane([u, -v])
     }
 }
 
@@ -247,12 +247,12 @@ pub(super) fn unfold(half: &Mesh, axis: Axis, size: f64) -> Mesh {
     let unit = rounding(size);
     let mut nodes: Vec<Point> = Vec::with_capacity(2 * half.nodes.len());
     let rounded = |v: f64| if v > 0.0 { ((v / unit).round() * unit).max(unit) } else { 0.0 };
-    nodes.extend(half.nodes.iter().map(|&[u, v]| axis.from_frame([u, rounded(v)])));
+    nodes.extend(half.nodes.iter().map(|&[u, v]| axis.in_plane([u, rounded(v)])));
     let mut image: Vec<usize> = (0..nodes.len()).collect();
     for (i, &[u, v]) in half.nodes.iter().enumerate() {
         if v > 0.0 {
             image[i] = nodes.len();
-            nodes.push(axis.from_frame([u, -rounded(v)]));
+            nodes.push(axis.in_plane([u, -rounded(v)]));
         }
     }
     let mirrored = half.triangles.iter().map(|&[a, b, c]| [image[a], image[c], image[b]]);

@@ -52,7 +52,8 @@ pub(super) fn clean(painting: Painting, import: &Import) -> Result<Imported, Out
     }
     let (low, high) = regions::bounding_box(&shapes);
     let longer = (high[0] - low[0]).max(high[1] - low[1]);
-    if !(regions::area(&shapes) > DEGENERATE_FRACTION * longer * longer) {
+    let has_area = regions::area(&shapes) > DEGENERATE_FRACTION * longer * longer;
+    if !has_area {
         return Err(OutlineError::Degenerate);
     }
     let scale = import.height_mm.map_or(unit_mm, |height| height / (high[1] - low[1]));

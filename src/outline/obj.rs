@@ -102,7 +102,8 @@ fn flat(vertices: &[[f64; 3]], faces: &[[usize; 3]]) -> Result<Triangles, Outlin
     let size = [0, 1, 2].map(|axis| range(axis).1 - range(axis).0);
     let longest = size.iter().copied().fold(0.0, f64::max);
     let thin = (0..3).rev().min_by(|&a, &b| size[a].total_cmp(&size[b])).unwrap_or(2);
-    if size[thin] > FLAT_FRACTION * longest || !(longest > 0.0) {
+    let has_size = longest > 0.0;
+    if !has_size || size[thin] > FLAT_FRACTION * longest {
         let reason = "the mesh is not flat; a plushie's mesh lies in a plane".to_owned();
         return Err(OutlineError::Unreadable { format: "OBJ", reason });
     }

@@ -133,9 +133,9 @@ fn otsu(values: &[f32], most: f64) -> f64 {
     let all = mean(&histogram, 0);
     let (mut count, mut sum) = (0.0, 0.0);
     let (mut best, mut level) = (-1.0, 0.5 * LEVELS as f64);
-    for k in 0..LEVELS - 1 {
-        count += histogram[k];
-        sum += k as f64 * histogram[k];
+    for (k, &bar) in histogram[..LEVELS - 1].iter().enumerate() {
+        count += bar;
+        sum += k as f64 * bar;
         let rest = total - count;
         if count == 0.0 || rest == 0.0 {
             continue;

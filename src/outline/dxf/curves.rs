@@ -200,9 +200,7 @@ fn de_boor(degree: usize, knots: &[f64], points: &[Point], weights: &[f64], t: f
         for j in (r..=degree).rev() {
             let (low, high) = (knots[j + k - degree], knots[j + 1 + k - r]);
             let a = if high > low { (t - low) / (high - low) } else { 0.0 };
-            for axis in 0..3 {
-                d[j][axis] = (1.0 - a) * d[j - 1][axis] + a * d[j][axis];
-            }
+            d[j] = [0, 1, 2].map(|axis| (1.0 - a) * d[j - 1][axis] + a * d[j][axis]);
         }
     }
     let [x, y, w] = d[degree];

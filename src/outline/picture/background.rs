@@ -83,8 +83,9 @@ fn fit(chosen: &[usize], basis: &impl Fn(usize) -> Surface, value: impl Fn(usize
         for r in 0..6 {
             if r != i {
                 let factor = m[r][i] / m[i][i];
-                for c in i..7 {
-                    m[r][c] -= factor * m[i][c];
+                let pivot = m[i];
+                for (value, p) in m[r].iter_mut().zip(pivot).skip(i) {
+                    *value -= factor * p;
                 }
             }
         }
