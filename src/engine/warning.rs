@@ -68,7 +68,7 @@ mod tests {
     fn what_holds_the_body_is_said_in_words() {
         let mut design = testing::sample();
         let mut held = design.pins.clone();
-        held.push(Pin { at: BodyPoint { triangle: 0, weights: [0.0, 1.0, 0.0] }, ..held[0].clone() });
+        held.push(Pin { at: BodyPoint { triangle: 0, weights: [0.0, 1.0, 0.0] }, ..held[0] });
         for (pins, expected) in [(0, Some("free to move")), (1, Some("free to turn")), (held.len(), None)] {
             design.pins = held[..pins].to_vec();
             let request = Request {
