@@ -4,7 +4,7 @@
 use eframe::egui::{self, Key, Modifiers, Pos2, pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
-use plushwright::design::{Design, Network, Pin, Tendon};
+use plushwright::design::{Design, Network, Pin, Tendon, animation};
 use plushwright::discovery::Stages;
 use plushwright::engine::{EQUILIBRIUM, Proposal, Quality, Shape};
 use plushwright::mesh::Mesh;
@@ -377,6 +377,27 @@ fn what_goes_wrong_is_said_and_can_be_dismissed() {
     settle(&mut window);
     click(&mut window, "Open");
     assert!(session(&window).messages().list().iter().any(|m| m.level == Level::Error));
+}
+
+#[test]
+fn a_keyframe_can_be_made_of_the_animation() {
+    let mut window = with_network();
+    click(&mut window, "Add keyframe");
+    click(&mut window, "Rest");
+    click(&mut window, "Add keyframe");
+    let rect = window.get_by_label("Timeline").rect();
+    let between = pos2(rect.left() + 0.3 * rect.width(), rect.top() + 8.0);
+    drag(&mut window, between, between);
+    let time_s = session(&window).playback().time_s;
+    assert!(time_s > 0.0 && time_s != 1.0, "at {time_s} s");
+    let shown = animation::activations_at(session(&window).design(), time_s);
+    click(&mut window, "Add keyframe");
+    let keyframes = &session(&window).design().keyframes;
+    let added = keyframes.iter().find(|k| (k.time_s - time_s).abs() < 1e-9).expect("at the playhead");
+    assert_eq!((keyframes.len(), &added.activations_mm, &added.pose), (3, &shown, &None));
+    // What was wanted of a pose that the eye has left does not turn up later.
+    click(&mut window, "Pose 1");
+    assert_eq!(session(&window).design().keyframes.len(), 3);
 }
 
 #[test]

@@ -54,7 +54,7 @@ pub enum Action {
     Pause,
     SetLooping(bool),
     Scrub(f64),
-    /// Puts the realizable activations of the current pose on the timeline.
+    /// Puts what the realizable plushie shows, the pose or the animation, on the timeline.
     AddKeyframe,
     SetParameters(Parameters),
     Propose,

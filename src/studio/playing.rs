@@ -16,6 +16,7 @@ impl Session {
             self.playback.time_s = 0.0;
         }
         self.mode = Mode::Animation;
+        self.key_wanted = false;
         self.discovery.shown = None;
         self.playback.playing = true;
     }
@@ -36,14 +37,34 @@ impl Session {
     pub(super) fn scrub(&mut self, time_s: f64) {
         self.playback.playing = false;
         self.playback.time_s = time_s.max(0.0);
+        self.key_wanted = false;
         self.discovery.shown = None;
         self.mode = if self.design().keyframes.is_empty() { Mode::Pose } else { Mode::Animation };
     }
 
-    /// At the playhead, or a step after the last keyframe where the playhead has one already.
-    pub(super) fn set_keyframe(&mut self) {
-        let design = self.design().clone();
+    /// What is seen becomes a keyframe: the animation at the playhead at once, a pose as soon as it has settled.
+    pub(super) fn add_keyframe(&mut self) {
+        match self.mode {
+            Mode::Pose => self.key_wanted = true,
+            Mode::Animation => {
+                self.playback.playing = false;
+                let activations_mm = animation::activations_at(self.design(), self.playback.time_s);
+                self.set_keyframe(activations_mm, None);
+            }
+        }
+    }
+
+    /// The settled pose as a keyframe.
+    pub(super) fn key_pose(&mut self) {
         let Some(shape) = &self.shapes.realizable else { return };
+        let activations_mm = shape.activations_mm.clone();
+        let pose = self.pose.and_then(|p| self.design().poses.get(p)).map(|p| p.name.clone());
+        self.set_keyframe(activations_mm, pose);
+    }
+
+    /// At the playhead, or a step after the last keyframe where the playhead has one already.
+    fn set_keyframe(&mut self, mut activations_mm: Vec<f64>, pose: Option<String>) {
+        let design = self.design().clone();
         if design.networks.is_empty() {
             self.messages.warning("Without networks there is nothing to animate: propose and accept one first.");
             return;
@@ -52,9 +73,7 @@ impl Session {
         if edit::keyframe_at(&design, time_s).is_some() {
             time_s = animation::duration_s(&design) + defaults::KEYFRAME_SPACING_S;
         }
-        let mut activations_mm = shape.activations_mm.clone();
         activations_mm.resize(design.networks.len(), 0.0);
-        let pose = self.pose.and_then(|p| design.poses.get(p)).map(|p| p.name.clone());
         let easing = Default::default();
         self.change(Change::SetKeyframe(Keyframe { time_s, activations_mm, pose, easing }));
         self.playback.time_s = time_s;

@@ -246,7 +246,7 @@ impl Session {
             Action::Pause => self.playback.playing = false,
             Action::SetLooping(looping) => self.playback.looping = looping,
             Action::Scrub(time_s) => self.scrub(time_s),
-            Action::AddKeyframe => self.key_wanted = true,
+            Action::AddKeyframe => self.add_keyframe(),
             Action::SetParameters(parameters) => self.discovery.parameters = parameters,
             Action::Propose => self.start_propose(),
             Action::CancelPropose => self.cancel_propose(),
@@ -276,7 +276,7 @@ impl Session {
         let winches_asked = self.asked.as_ref().is_some_and(|request| request.show_realizable);
         if self.key_wanted && self.mode == Mode::Pose && winches_asked && self.is_settled() {
             self.key_wanted = false;
-            self.set_keyframe();
+            self.key_pose();
         }
         self.clamp();
         self.ask();

@@ -54,7 +54,7 @@ fn controls(ui: &mut Ui, session: &Session, actions: &mut Actions) {
         ui.add_space(4.0);
         ui.label(RichText::new(time).monospace());
         ui.add_space(8.0);
-        let tip = "Put the realizable activations of this pose on the timeline (K)";
+        let tip = "Put what the realizable plushie shows on the timeline (K)";
         if ui.button("Add keyframe").on_hover_text(tip).clicked() {
             actions.push(Action::AddKeyframe);
         }
