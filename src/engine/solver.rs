@@ -187,7 +187,7 @@ impl Compiled {
             let beside = beside.map(|x| question.settle(from, x, &stop).0);
             pull_thoroughly(&mut question, beside.as_ref().unwrap_or(&start), &stop)
         } else {
-            wind_thoroughly(&mut question, &start, &beta, &stop)
+            wind_from_all(&mut question, last.is_some().then_some(&start), &beta, &stop)
         };
         answer.factorizations += factorizations;
         self.last = Some(answer.posture.clone());
@@ -204,13 +204,40 @@ fn answered(tracker: &Tracker, frame: &soft_ik::Frame) -> Answer {
     }
 }
 
+/// The winches from rest, and from where the hand has left them: the best of what both lead to and of what the hand has found.
+fn wind_from_all(
+    question: &mut soft_ik::Question,
+    hand: Option<&Posture>,
+    zero: &[f64],
+    stop: &dyn Fn() -> bool,
+) -> Answer {
+    let rest = question.model.rest.clone();
+    let (rest, _) = question.settle(zero, &rest, stop);
+    let mut answer = wind_thoroughly(question, &rest, stop);
+    if let Some(hand) = hand {
+        let onwards = wind_thoroughly(question, hand, stop);
+        let found = Answer { posture: hand.clone(), ..answer.clone() };
+        let factorizations = answer.factorizations + onwards.factorizations;
+        for other in [onwards, found] {
+            let (new, old) = (&other.posture, &answer.posture);
+            if new.in_equilibrium() && (new.objective < old.objective || !old.in_equilibrium()) {
+                answer = other;
+            }
+        }
+        answer.factorizations = factorizations;
+    }
+    let contractions = question.actuation.contractions(&answer.posture.beta);
+    question.model.contractile.set_contractions(&contractions);
+    answer
+}
+
 /// The winches from several starts, ending in a state that winding from rest leads to.
-fn wind_thoroughly(question: &mut soft_ik::Question, start: &Posture, zero: &[f64], stop: &dyn Fn() -> bool) -> Answer {
+fn wind_thoroughly(question: &mut soft_ik::Question, start: &Posture, stop: &dyn Fn() -> bool) -> Answer {
     let budget = Budget { iterations: THOROUGH_ITERATIONS, stop };
     let mut answer = default_method::Default.solve(question, start, &budget);
     // A state that winding from rest does not lead to is not one to promise.
     let rest = question.model.rest.clone();
-    let (zero, _) = question.settle(zero, &rest, stop);
+    let (zero, _) = question.settle(&vec![0.0; start.beta.len()], &rest, stop);
     let (wound, factorizations) = question.wind(&zero, &answer.posture.beta, WINDING_STEPS, stop);
     answer.factorizations += factorizations;
     if wound.objective > SAME_STATE * answer.posture.objective {
@@ -399,6 +426,40 @@ mod tests {
             for (p, q) in together.nodes.iter().flatten().zip(alone.nodes.iter().flatten()) {
                 assert!((p - q).abs() < 1e-6, "{p} {q}");
             }
+        }
+    }
+
+    #[test]
+    fn all_effort_makes_neither_view_worse() {
+        // Held by one pin the body turns freely: the winches alone leave it turned as the hand did.
+        let mut design = testing::sample();
+        design.pins.truncate(1);
+        let home = design.poses[0].targets.clone();
+        let design = Arc::new(design);
+        let mut solver = Solver::default();
+        let mut ask = |targets: &[Target], effort| {
+            let question = Question::Targets(targets.to_vec());
+            let quality = Quality::Balanced;
+            let request = Request {
+                id: 0,
+                design: design.clone(),
+                question,
+                quality,
+                show_idealized: true,
+                show_realizable: true,
+            };
+            let outcome = solver.solve_with(&request, effort, &AtomicBool::new(false));
+            [outcome.idealized.unwrap(), outcome.realizable.unwrap()].map(|shape| shape.target_error)
+        };
+        let size = design.body_length_mm();
+        for turn in 0..8 {
+            let (sin, cos) = (0.8 * f64::from(turn)).sin_cos();
+            let mut away = home.clone();
+            away[0].to = [3.0 * size * cos, 3.0 * size * sin];
+            ask(&away, Effort::Interactive);
+            let hand = ask(&home, Effort::Interactive);
+            let all = ask(&home, Effort::Thorough);
+            assert!(all[0] <= hand[0] + 1e-6 && all[1] <= hand[1] + 1e-6, "turn {turn}: {all:?} after {hand:?}");
         }
     }
 
