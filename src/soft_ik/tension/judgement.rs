@@ -23,13 +23,14 @@ const PROXIMAL_GROWTH: f64 = 2.0;
 const TIMID: f64 = 1.3;
 const STEADINESS_DECAY: f64 = 0.25;
 const LEAST_STEADINESS: f64 = 1e-3;
-/// Iterations in a row that end far from equilibrium, after which the run goes back to its best state.
+/// Iterations in a row that end far from equilibrium, after which the run goes back to its best state; at once where they
+/// seem to lead to a worse one.
 const PATIENCE: usize = 6;
 /// A state is kept as the best where its Newton step towards equilibrium is at most this part of the body: farther away,
 /// another equilibrium may be nearer than the one expected.
 const VERIFIED: f64 = 8e-3;
 /// `O` at an equilibrium is told from a state whose Newton step towards it is at most this part of the body.
-const WITHIN_SIGHT: f64 = 0.012;
+const WITHIN_SIGHT: f64 = 0.02;
 /// To this it shrinks, by halves, where iterations end far from equilibrium.
 const SHORTEST_STEP: f64 = 0.05;
 /// Residual, as a part of the forces at work, up to which `O` of a state is taken for that of the equilibrium nearby.
@@ -69,7 +70,9 @@ impl Run {
             self.reach = (self.reach * 0.5).max(SHORTEST_STEP);
             self.adrift += 1;
             self.nu = (self.nu * PROXIMAL_GROWTH).min(most);
-            return if self.adrift > PATIENCE && self.best.objective.is_finite() { Verdict::Back } else { Verdict::On };
+            let astray = self.now > self.best.objective && !self.returned;
+            let lost = self.best.objective.is_finite() && (astray || self.adrift > PATIENCE);
+            return if lost { Verdict::Back } else { Verdict::On };
         }
         self.adrift = 0;
         if self.returned {
