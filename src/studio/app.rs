@@ -2,6 +2,7 @@
 
 use super::action::Action;
 use super::files::desktop_has_dialogs;
+use super::pacing::Pacing;
 use super::panels::{self, Tab};
 use super::session::{Services, Session};
 use super::{shortcuts, style, viewport};
@@ -16,6 +17,7 @@ pub struct Studio {
     session: Session,
     panels: panels::State,
     views: viewport::State,
+    pacing: Pacing,
     title: String,
 }
 
@@ -26,7 +28,13 @@ impl Studio {
         let wake = ctx.clone();
         let session = Session::new(design, path, Arc::new(move || wake.request_repaint()), services);
         style::set_theme(ctx, session.look.theme);
-        Self { session, panels: panels::State::default(), views: viewport::State::default(), title: String::new() }
+        Self {
+            session,
+            panels: panels::State::default(),
+            views: viewport::State::default(),
+            pacing: Pacing::default(),
+            title: String::new(),
+        }
     }
 
     /// Lets the views draw with the window's renderer, and lets the desktop's dialogs appear.
@@ -160,6 +168,12 @@ fn inspect(ui: &mut egui::Ui, session: &Session, state: &mut panels::State, acti
 impl eframe::App for Studio {
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
         self.update(ui);
+    }
+
+    fn raw_input_hook(&mut self, ctx: &egui::Context, raw_input: &mut egui::RawInput) {
+        if self.pacing.pace(&mut raw_input.events) {
+            ctx.request_repaint();
+        }
     }
 
     fn clear_color(&self, _visuals: &egui::Visuals) -> [f32; 4] {

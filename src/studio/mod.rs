@@ -18,6 +18,7 @@ pub mod files;
 pub mod icons;
 pub mod jobs;
 pub mod messages;
+mod pacing;
 pub mod panels;
 mod playing;
 mod reading;
