@@ -1,11 +1,12 @@
-//! Input at the pace of the frames: a press belongs to what lies under it, however far the pointer has gone on since.
+//! Input at the pace of the frames: what a hand did within one long frame is seen step by step.
 //!
-//! egui looks for the widget under the pointer once a frame, at the pointer's last position. Where a frame takes long, a quick
-//! hand presses and moves on within one, and the press would go to whatever lies under the end of that way, or to nothing.
+//! egui looks for the widget under the pointer once a frame, at the pointer's last position, and tells a drag from a click by
+//! what moved while a button was down. Where a frame takes long, a quick hand presses, moves on and lets go within one: the
+//! press would go to whatever lies under the end of that way, and the drag would be none.
 
 use eframe::egui::Event;
 
-/// Keeps the moves that follow a press for the next frame.
+/// Keeps for the next frame the moves that follow a press, and a release that follows moves.
 #[derive(Default)]
 pub struct Pacing {
     held: Vec<Event>,
@@ -16,13 +17,24 @@ impl Pacing {
     pub fn pace(&mut self, events: &mut Vec<Event>) -> bool {
         self.held.append(events);
         std::mem::swap(&mut self.held, events);
-        let press = events.iter().position(|event| matches!(event, Event::PointerButton { pressed: true, .. }));
-        if let Some(press) = press {
-            let moved = events[press..].iter().position(|event| matches!(event, Event::PointerMoved(_)));
-            self.held.extend(moved.into_iter().flat_map(|moved| events.split_off(press + moved)));
-        }
+        self.held.extend(cut(events).into_iter().flat_map(|at| events.split_off(at)));
         !self.held.is_empty()
     }
+}
+
+/// Where the next frame's events begin.
+fn cut(events: &[Event]) -> Option<usize> {
+    let (mut pressed, mut moved) = (false, false);
+    for (at, event) in events.iter().enumerate() {
+        match event {
+            Event::PointerMoved(_) if pressed => return Some(at),
+            Event::PointerMoved(_) => moved = true,
+            Event::PointerButton { pressed: true, .. } => pressed = true,
+            Event::PointerButton { pressed: false, .. } if moved && !pressed => return Some(at),
+            _ => {}
+        }
+    }
+    None
 }
 
 #[cfg(test)]
@@ -47,7 +59,10 @@ mod tests {
         let mut events = vec![Event::PointerMoved(a), button(a, true), button(a, false), Event::PointerMoved(b)];
         let last = events.clone();
         assert!(pacing.pace(&mut events));
-        assert_eq!(events, [&all[2..], &last[..3]].concat());
+        assert_eq!(events, all[2..4], "the drag before its end");
+        let mut events = Vec::new();
+        assert!(pacing.pace(&mut events));
+        assert_eq!(events, [&all[4..], &last[..3]].concat());
         let mut events = Vec::new();
         assert!(!pacing.pace(&mut events));
         assert_eq!(events, last[3..]);
