@@ -94,7 +94,9 @@ fn session(window: &Window) -> &Session {
 
 /// Runs frames until the solver has answered and no thread is busy.
 fn settle(window: &mut Window) {
-    wait(window, |s| s.is_settled() && s.discovery().running.is_none() && !s.is_working());
+    wait(window, |s| {
+        s.is_settled() && s.discovery().running.is_none() && !s.is_working() && s.meshing().running.is_none()
+    });
     window.run();
 }
 
@@ -177,6 +179,7 @@ fn everything_has_an_accessible_name() {
         "Idealized view",
         "Realizable view",
         "Networks",
+        "Mesh",
         "Settings",
         "Propose networks",
         "Play",
@@ -585,6 +588,45 @@ fn type_path(window: &mut Window, path: &std::path::Path) {
     window.step();
     window.get_by_label("Path").type_text(&path.to_string_lossy());
     settle(window);
+}
+
+#[test]
+fn another_resolution_can_be_had_and_undone() {
+    let mut window = with_network();
+    let before = session(&window).design().clone();
+    click(&mut window, "Mesh");
+    for name in ["Muscle fibres", "Finer body"] {
+        window.get_by_role_and_label(egui::accesskit::Role::SpinButton, name);
+    }
+    window.get_by_label_contains("Histogram of smallest angles");
+    let value = window.get_by_role_and_label(egui::accesskit::Role::SpinButton, "Muscle fibres").rect().center();
+    drag(&mut window, value, value + vec2(120.0, 0.0));
+    let asked = session(&window).resolution().fibers;
+    assert!(asked > before.mesh.edges().len() + 20, "{asked}");
+    assert_eq!(*session(&window).design(), before, "nothing has changed yet");
+    click(&mut window, "Remesh");
+    let after = session(&window).design().clone();
+    let fibers = after.mesh.edges().len();
+    assert!(fibers.abs_diff(asked) * 100 <= 3 * asked, "{fibers} for {asked}");
+    assert_eq!((after.pins.len(), after.networks.len(), after.poses.len()), (3, 1, 1));
+    let shape = session(&window).shapes().idealized.clone().expect("solved on the new mesh");
+    assert_eq!(shape.nodes.len(), after.mesh.nodes.len());
+    assert_eq!(session(&window).history().undo_label(), Some("Remesh"));
+    // Undo brings back the old mesh, and shapes that belong to it.
+    click(&mut window, "Undo");
+    assert_eq!(*session(&window).design(), before);
+    let shape = session(&window).shapes().idealized.clone().expect("solved on the old mesh");
+    assert_eq!(shape.nodes.len(), before.mesh.nodes.len());
+    click(&mut window, "Redo");
+    assert_eq!(session(&window).design().mesh, after.mesh);
+    // A mesh that nobody waits for any more changes nothing.
+    window.get_by_label("Remesh").click();
+    window.step();
+    window.step();
+    if session(&window).meshing().running.is_some() {
+        window.get_by_label("Cancel meshing").click();
+    }
+    settle(&mut window);
 }
 
 #[test]

@@ -3,11 +3,11 @@
 use super::error::CommandError;
 use super::output::{say, say_json, write_file};
 use super::{document, render};
-use crate::mesh::quality::{Fit, HISTOGRAM_STEP_DEG, Quality};
+use crate::design::MeshFigures;
+use crate::mesh::quality::HISTOGRAM_STEP_DEG;
 use crate::picture::palette::{Palette, Theme};
 use crate::picture::{quality, raster};
 use clap::Args;
-use serde::Serialize;
 use std::io::Write;
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
@@ -35,31 +35,12 @@ pub struct MeshCommand {
     pub json: bool,
 }
 
-/// What `--json` prints.
-#[derive(Serialize)]
-struct Figures {
-    fibers: usize,
-    quality: Quality,
-    fit: Fit,
-    /// Whether outline and mesh are their own mirror images.
-    symmetric_outline: bool,
-    symmetric_mesh: bool,
-}
-
 impl MeshCommand {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
         let design = document::load(&self.design)?;
-        let mesh = &design.mesh;
-        let axis = crate::mesh::axis(&design.outline);
-        let figures = Figures {
-            fibers: design.fiber_routings().len(),
-            quality: Quality::of(mesh),
-            fit: Fit::of(mesh, &design.outline),
-            symmetric_outline: axis.is_some(),
-            symmetric_mesh: axis.is_some_and(|(axis, _)| crate::mesh::is_mirrored(mesh, axis)),
-        };
+        let figures = MeshFigures::of(&design);
         if let Some(path) = &self.output {
-            let [left, right] = quality::scenes(mesh, Theme::Light);
+            let [left, right] = quality::scenes(&design.mesh, Theme::Light);
             let background = Palette::of(Theme::Light).background;
             let bytes =
                 raster::png(&left, &right, self.size, background).map_err(|e| CommandError::Failed(e.to_string()))?;
@@ -69,41 +50,14 @@ impl MeshCommand {
     }
 }
 
-fn print(figures: &Figures, out: &mut dyn Write) -> Result<(), CommandError> {
-    let Figures { fibers, quality: q, fit, .. } = figures;
-    let percent = |part: usize| 100.0 * part as f64 / q.triangles.max(1) as f64;
-    let symmetry = match (figures.symmetric_outline, figures.symmetric_mesh) {
-        (true, true) => "outline and mesh are mirror images of themselves",
-        (true, false) => "the outline is its own mirror image, the mesh is not",
-        (false, _) => "none",
-    };
-    for (name, value) in [
-        ("fibers", format!("{fibers}")),
-        ("nodes, edges, triangles", format!("{}, {}, {}", q.nodes, q.edges, q.triangles)),
-        (
-            "smallest angle",
-            format!("{:.1} degrees; mean over the triangles {:.1}", q.min_angle_deg, q.mean_min_angle_deg),
-        ),
-        ("below 20 degrees", format!("{} triangles ({:.2} %)", q.below_20_deg, percent(q.below_20_deg))),
-        ("edges", format!("{:.2} to {:.2} mm, mean {:.2}", q.min_edge, q.max_edge, q.mean_edge)),
-        ("triangles", format!("{:.2} to {:.2} mm^2", q.min_area, q.max_area)),
-        ("one triangle across", format!("{} places", q.bridges)),
-        ("area", format!("{:+.2} % of the outline's", 100.0 * fit.area_error)),
-        (
-            "boundary",
-            format!(
-                "within {:.2} mm of the outline, {:.2} % of its height",
-                fit.boundary_mm,
-                100.0 * fit.boundary_fraction
-            ),
-        ),
-        ("symmetry", symmetry.to_owned()),
-    ] {
+fn print(figures: &MeshFigures, out: &mut dyn Write) -> Result<(), CommandError> {
+    for (name, value) in figures.rows() {
         say(out, &format!("{name:<24} {value}"))?;
     }
     say(out, "smallest angles")?;
-    let most = q.histogram.iter().copied().max().unwrap_or(0).max(1);
-    for (k, &count) in q.histogram.iter().enumerate() {
+    let histogram = &figures.quality.histogram;
+    let most = histogram.iter().copied().max().unwrap_or(0).max(1);
+    for (k, &count) in histogram.iter().enumerate() {
         let from = k as f64 * HISTOGRAM_STEP_DEG;
         let bar = "#".repeat((count * BAR).div_ceil(most));
         say(out, format!("{from:>4.0} to {:<3.0} {count:>6} {bar}", from + HISTOGRAM_STEP_DEG).trim_end())?;

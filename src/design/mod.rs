@@ -7,6 +7,7 @@
 pub mod animation;
 pub mod bundled;
 pub mod edit;
+mod figures;
 pub mod file;
 pub mod history;
 mod problem;
@@ -17,6 +18,7 @@ pub(crate) mod testing;
 mod validate;
 
 pub use edit::EditError;
+pub use figures::MeshFigures;
 pub use file::{FORMAT_VERSION, FileError};
 pub use history::History;
 pub use problem::{DesignError, Problem};

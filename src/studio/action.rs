@@ -2,6 +2,7 @@
 
 use super::change::Change;
 use super::files::PathDialog;
+use super::meshing::Resolution;
 use super::session::{Selection, Tool};
 use super::viewport::Plushie;
 use super::viewport::camera::Camera;
@@ -57,6 +58,10 @@ pub enum Action {
     /// Puts what the realizable plushie shows, the pose or the animation, on the timeline.
     AddKeyframe,
     SetParameters(Parameters),
+    SetResolution(Resolution),
+    /// Makes a mesh of that resolution; one undo step when it is there.
+    Remesh,
+    CancelRemesh,
     Propose,
     CancelPropose,
     ShowProposal(Option<usize>),

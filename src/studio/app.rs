@@ -146,7 +146,7 @@ impl Studio {
 
 fn inspect(ui: &mut egui::Ui, session: &Session, state: &mut panels::State, actions: &mut Vec<Action>) {
     ui.horizontal(|ui| {
-        for (tab, name) in [(Tab::Networks, "Networks"), (Tab::Settings, "Settings")] {
+        for (tab, name) in [(Tab::Networks, "Networks"), (Tab::Mesh, "Mesh"), (Tab::Settings, "Settings")] {
             if ui.selectable_label(state.tab == tab, name).clicked() {
                 state.tab = tab;
             }
@@ -161,6 +161,7 @@ fn inspect(ui: &mut egui::Ui, session: &Session, state: &mut panels::State, acti
                 panels::discovery::show(ui, session, state, actions);
             });
         }
+        Tab::Mesh => panels::mesh::show(ui, session, &mut state.mesh, actions),
         Tab::Settings => panels::settings::show(ui, session, actions),
     }
 }

@@ -201,7 +201,7 @@ impl Session {
                     Err(why) => self.messages.error(format!("The export failed: {why}")),
                 }
             }
-            Report::Proposed { .. } | Report::Broken { .. } => {}
+            Report::Proposed { .. } | Report::Meshed { .. } | Report::Broken { .. } => {}
         }
     }
 

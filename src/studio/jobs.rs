@@ -1,7 +1,8 @@
 //! Work that takes too long for a frame, each on a thread that reports back once.
 
-use crate::design::Design;
+use crate::design::{Design, FiberSet};
 use crate::engine::Proposal;
+use crate::mesh::Mesh;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -17,6 +18,10 @@ pub enum Report {
     Picked {
         path: Option<PathBuf>,
         at_once: bool,
+    },
+    Meshed {
+        serial: u64,
+        body: Result<Box<(Mesh, FiberSet)>, String>,
     },
     Imported(Result<Box<Design>, String>),
     Exported {

@@ -17,6 +17,7 @@ mod dragging;
 pub mod files;
 pub mod icons;
 pub mod jobs;
+pub mod meshing;
 pub mod messages;
 mod pacing;
 pub mod panels;

@@ -4,6 +4,7 @@ use super::action::{Action, FileAction};
 use super::change::{Change, Made};
 use super::files::Files;
 use super::jobs::{Jobs, Report, Wake};
+use super::meshing::Meshing;
 use super::messages::Messages;
 use super::viewport::Plushie;
 use super::viewport::camera::Camera;
@@ -142,6 +143,9 @@ pub struct Session {
     /// Of the user's, not of the document.
     pub(super) quality: Quality,
     pub(super) discovery: Discovery,
+    pub(super) meshing: Meshing,
+    /// The design whose mesh the shapes and proposals belong to.
+    pub(super) meshed: Arc<Design>,
     pub(super) shapes: Shapes,
     pub(super) messages: Messages,
     pub(super) files: Files,
@@ -164,7 +168,7 @@ impl Session {
         let on_outcome = wake.clone();
         Self {
             pose: first_pose(&design),
-            history: History::new(design),
+            history: History::new(design.clone()),
             path,
             selection: Selection::Nothing,
             tool: Tool::Drag,
@@ -180,6 +184,8 @@ impl Session {
                 stage: Stage::Result,
                 serial: 0,
             },
+            meshing: Meshing::default(),
+            meshed: Arc::new(design.clone()),
             shapes: Shapes::default(),
             messages: Messages::default(),
             files: Files::default(),
@@ -198,6 +204,8 @@ impl Session {
     /// Replaces the document; undo starts anew.
     pub(super) fn open(&mut self, design: Design, path: Option<PathBuf>) {
         self.cancel_propose();
+        self.cancel_remesh();
+        self.meshing.wanted = None;
         self.pose = first_pose(&design);
         self.history = History::new(design);
         self.path = path;
@@ -248,6 +256,9 @@ impl Session {
             Action::Scrub(time_s) => self.scrub(time_s),
             Action::AddKeyframe => self.add_keyframe(),
             Action::SetParameters(parameters) => self.discovery.parameters = parameters,
+            Action::SetResolution(resolution) => self.meshing.wanted = Some(resolution),
+            Action::Remesh => self.start_remesh(),
+            Action::CancelRemesh => self.cancel_remesh(),
             Action::Propose => self.start_propose(),
             Action::CancelPropose => self.cancel_propose(),
             Action::ShowProposal(index) => self.discovery.shown = index,
@@ -328,6 +339,7 @@ impl Session {
 
     /// After any change of the document: nothing may point beyond it.
     pub(super) fn clamp(&mut self) {
+        self.follow_mesh();
         let design = self.history.current();
         if self.pose.is_some_and(|pose| pose >= design.poses.len()) {
             self.pose = design.poses.len().checked_sub(1);
@@ -395,8 +407,10 @@ impl Session {
                 self.discovery.shown = if self.discovery.proposals.is_empty() { None } else { Some(0) };
                 self.discovery.stage = Stage::Result;
             }
+            Report::Meshed { serial, body } => self.take_mesh(serial, body),
             Report::Broken { job, why } => {
                 self.discovery.running = None;
+                self.cancel_remesh();
                 self.files.working = None;
                 self.messages.error(format!("{job} failed: {why}"));
             }

@@ -2,6 +2,7 @@
 
 pub mod dialogs;
 pub mod discovery;
+pub mod mesh;
 pub mod messages;
 pub mod networks;
 pub mod poses;
@@ -23,6 +24,7 @@ pub struct State {
     /// A name being typed, and what it is for.
     pub renaming: Option<(Renamed, String)>,
     pub timeline: timeline::State,
+    pub mesh: mesh::State,
     pub thumbnails: Thumbnails,
     /// Whether pictures can be drawn.
     pub gpu: bool,
@@ -32,6 +34,7 @@ pub struct State {
 pub enum Tab {
     #[default]
     Networks,
+    Mesh,
     Settings,
 }
 

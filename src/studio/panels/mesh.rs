@@ -1,0 +1,139 @@
+//! The mesh: how good it is, and another resolution for it.
+
+use super::{Actions, heading, primary};
+use crate::design::MeshFigures;
+use crate::mesh::quality::{HISTOGRAM_BARS, HISTOGRAM_STEP_DEG, Quality};
+use crate::mesh::{MAX_FIBERS, Mesh};
+use crate::studio::action::Action;
+use crate::studio::meshing::FINEST;
+use crate::studio::session::Session;
+use crate::studio::style;
+use eframe::egui::{
+    Align2, DragValue, FontId, Grid, Rect, RichText, Role, ScrollArea, Sense, Spinner, Ui, WidgetInfo, pos2, vec2,
+};
+
+/// Below this angle a triangle is poor, degrees.
+const POOR_DEG: f64 = 20.0;
+/// Size of the histogram, logical pixels.
+const HISTOGRAM_HEIGHT: f32 = 84.0;
+const LEGEND_HEIGHT: f32 = 16.0;
+
+/// The figures, worked out once a mesh.
+#[derive(Default)]
+pub struct State {
+    figures: Option<(Mesh, MeshFigures)>,
+}
+
+pub fn show(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actions) {
+    let design = session.design();
+    let known = state.figures.as_ref().is_some_and(|(mesh, _)| *mesh == design.mesh);
+    if !known {
+        state.figures = Some((design.mesh.clone(), MeshFigures::of(design)));
+    }
+    ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
+        heading(ui, "Resolution");
+        resolution(ui, session, actions);
+        ui.add_space(10.0);
+        let Some((_, figures)) = &state.figures else { return };
+        heading(ui, "Smallest angles of the triangles");
+        histogram(ui, &figures.quality);
+        ui.add_space(10.0);
+        heading(ui, "Mesh");
+        Grid::new("mesh figures").num_columns(2).min_col_width(84.0).spacing([8.0, 4.0]).show(ui, |ui| {
+            for (name, value) in figures.rows() {
+                ui.label(RichText::new(capitalised(name)).weak());
+                ui.label(value);
+                ui.end_row();
+            }
+        });
+    });
+}
+
+fn resolution(ui: &mut Ui, session: &Session, actions: &mut Actions) {
+    let mut wanted = session.resolution();
+    Grid::new("resolution").num_columns(2).min_col_width(116.0).spacing([8.0, 4.0]).show(ui, |ui| {
+        for (name, tip, value, range) in [
+            ("Muscle fibres", "How many edges the mesh of the fibres shall have", &mut wanted.fibers, 3..=MAX_FIBERS),
+            (
+                "Finer body",
+                "Simulate on a mesh this many times finer than the fibres' own",
+                &mut wanted.finer,
+                1..=FINEST,
+            ),
+        ] {
+            let label = ui.label(name).on_hover_text(tip);
+            let speed = (*value as f64 * 0.01).max(0.05);
+            let drag = DragValue::new(value).range(range).speed(speed);
+            ui.add_sized([130.0, 24.0], drag).labelled_by(label.id).on_hover_text(tip);
+            ui.end_row();
+        }
+    });
+    if wanted != session.resolution() {
+        actions.push(Action::SetResolution(wanted));
+    }
+    ui.add_space(2.0);
+    match session.meshing().running {
+        None => {
+            let tip = "Make a new mesh of the outline; pins, poses, networks and keyframes stay";
+            if primary(ui, true, "Remesh", ui.available_width()).on_hover_text(tip).clicked() {
+                actions.push(Action::Remesh);
+            }
+        }
+        Some(_) => {
+            ui.horizontal(|ui| {
+                ui.add(Spinner::new());
+                ui.label("Meshing");
+                if ui.button("Cancel meshing").on_hover_text("Keep the present mesh").clicked() {
+                    actions.push(Action::CancelRemesh);
+                }
+            });
+        }
+    }
+}
+
+/// Bars of triangles by their smallest angle, 0 to 60 degrees.
+fn histogram(ui: &mut Ui, quality: &Quality) {
+    let size = vec2(ui.available_width(), HISTOGRAM_HEIGHT + LEGEND_HEIGHT);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    let text = format!("Histogram of smallest angles, least {:.1} degrees", quality.min_angle_deg);
+    response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &text));
+    let bars = Rect::from_min_size(rect.min, vec2(rect.width(), HISTOGRAM_HEIGHT));
+    let width = bars.width() / HISTOGRAM_BARS as f32;
+    let most = quality.histogram.iter().copied().max().unwrap_or(0).max(1) as f32;
+    let theme = style::theme_of(ui.visuals());
+    let (good, poor) = (style::accent(theme), ui.visuals().warn_fg_color);
+    let weak = ui.visuals().weak_text_color();
+    let painter = ui.painter();
+    for (k, &count) in quality.histogram.iter().enumerate() {
+        let left = bars.left() + k as f32 * width;
+        // One triangle among thousands can still be seen.
+        let height = if count == 0 { 0.0 } else { (count as f32 / most * bars.height()).max(1.5) };
+        let bar = Rect::from_min_max(pos2(left + 1.0, bars.bottom() - height), pos2(left + width - 1.0, bars.bottom()));
+        let color = if (k as f64) * HISTOGRAM_STEP_DEG < POOR_DEG { poor } else { good };
+        painter.rect_filled(bar, 1.0, color);
+    }
+    painter.hline(bars.x_range(), bars.bottom(), (1.0, weak));
+    for k in (0..=HISTOGRAM_BARS).step_by(4) {
+        let align = match k {
+            0 => Align2::LEFT_TOP,
+            HISTOGRAM_BARS => Align2::RIGHT_TOP,
+            _ => Align2::CENTER_TOP,
+        };
+        let at = pos2(bars.left() + k as f32 * width, bars.bottom() + 2.0);
+        painter.text(at, align, format!("{}°", k as f64 * HISTOGRAM_STEP_DEG), FontId::proportional(11.0), weak);
+    }
+    if let Some(pointer) = response.hover_pos() {
+        let k = (((pointer.x - bars.left()) / width) as usize).min(HISTOGRAM_BARS - 1);
+        let from = k as f64 * HISTOGRAM_STEP_DEG;
+        response.on_hover_text(format!(
+            "{} triangles from {from:.0} to {:.0} degrees",
+            quality.histogram[k],
+            from + HISTOGRAM_STEP_DEG
+        ));
+    }
+}
+
+fn capitalised(name: &str) -> String {
+    let mut letters = name.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
