@@ -50,8 +50,33 @@ impl MeshCommand {
     }
 }
 
+/// Every figure with its name.
+fn rows(figures: &MeshFigures) -> [(&'static str, String); 10] {
+    let MeshFigures { fibers, quality: q, fit, .. } = figures;
+    let percent = 100.0 * q.below_20_deg as f64 / q.triangles.max(1) as f64;
+    let symmetry = match (figures.symmetric_outline, figures.symmetric_mesh) {
+        (true, true) => "outline and mesh are mirror images of themselves",
+        (true, false) => "the outline is its own mirror image, the mesh is not",
+        (false, _) => "none",
+    };
+    let angles = format!("{:.1} degrees; mean over the triangles {:.1}", q.min_angle_deg, q.mean_min_angle_deg);
+    let [millimetres, part] = [fit.boundary_mm, 100.0 * fit.boundary_fraction];
+    [
+        ("fibers", format!("{fibers}")),
+        ("nodes, edges, triangles", format!("{}, {}, {}", q.nodes, q.edges, q.triangles)),
+        ("smallest angle", angles),
+        ("below 20 degrees", format!("{} triangles ({percent:.2} %)", q.below_20_deg)),
+        ("edges", format!("{:.2} to {:.2} mm, mean {:.2}", q.min_edge, q.max_edge, q.mean_edge)),
+        ("triangles", format!("{:.2} to {:.2} mm^2", q.min_area, q.max_area)),
+        ("one triangle across", format!("{} places", q.bridges)),
+        ("area", format!("{:+.2} % of the outline's", 100.0 * fit.area_error)),
+        ("boundary", format!("within {millimetres:.2} mm of the outline, {part:.2} % of its height")),
+        ("symmetry", symmetry.to_owned()),
+    ]
+}
+
 fn print(figures: &MeshFigures, out: &mut dyn Write) -> Result<(), CommandError> {
-    for (name, value) in figures.rows() {
+    for (name, value) in rows(figures) {
         say(out, &format!("{name:<24} {value}"))?;
     }
     say(out, "smallest angles")?;

@@ -14,6 +14,8 @@ use eframe::egui::{
 
 /// Below this angle a triangle is poor, degrees.
 const POOR_DEG: f64 = 20.0;
+/// As wide as the longest name, so that all values stand in one column, logical pixels.
+const NAME_WIDTH: f32 = 116.0;
 /// Size of the histogram, logical pixels.
 const HISTOGRAM_HEIGHT: f32 = 84.0;
 const LEGEND_HEIGHT: f32 = 16.0;
@@ -39,10 +41,10 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Act
         histogram(ui, &figures.quality);
         ui.add_space(10.0);
         heading(ui, "Mesh");
-        Grid::new("mesh figures").num_columns(2).min_col_width(84.0).spacing([8.0, 4.0]).show(ui, |ui| {
-            for (name, value) in figures.rows() {
-                ui.label(RichText::new(capitalised(name)).weak());
-                ui.label(value);
+        Grid::new("mesh figures").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
+            for (name, tip, value) in rows(figures) {
+                ui.label(RichText::new(name).weak()).on_hover_text(tip);
+                ui.label(value).on_hover_text(tip);
                 ui.end_row();
             }
         });
@@ -51,7 +53,7 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Act
 
 fn resolution(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     let mut wanted = session.resolution();
-    Grid::new("resolution").num_columns(2).min_col_width(116.0).spacing([8.0, 4.0]).show(ui, |ui| {
+    Grid::new("resolution").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
         for (name, tip, value, range) in [
             ("Muscle fibres", "How many edges the mesh of the fibres shall have", &mut wanted.fibers, 3..=MAX_FIBERS),
             (
@@ -133,7 +135,25 @@ fn histogram(ui: &mut Ui, quality: &Quality) {
     }
 }
 
-fn capitalised(name: &str) -> String {
-    let mut letters = name.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+/// Every figure with its name and what it means, short enough for the panel.
+fn rows(figures: &MeshFigures) -> [(&'static str, &'static str, String); 9] {
+    let MeshFigures { quality: q, fit, .. } = figures;
+    let percent = 100.0 * q.below_20_deg as f64 / q.triangles.max(1) as f64;
+    let symmetric = match (figures.symmetric_outline, figures.symmetric_mesh) {
+        (true, true) => "outline and mesh",
+        (true, false) => "outline only",
+        (false, _) => "no",
+    };
+    let boundary = format!("{:.2} mm, {:.2} %", fit.boundary_mm, 100.0 * fit.boundary_fraction);
+    [
+        ("Nodes", "Corners of the triangles", q.nodes.to_string()),
+        ("Triangles", "Of the body that is simulated", q.triangles.to_string()),
+        ("Smallest angle", "Of any triangle", format!("{:.1}°, mean {:.1}°", q.min_angle_deg, q.mean_min_angle_deg)),
+        ("Below 20°", "Triangles with an angle that sharp", format!("{}, {percent:.2} %", q.below_20_deg)),
+        ("Edges", "Shortest and longest", format!("{:.1} to {:.1} mm", q.min_edge, q.max_edge)),
+        ("One triangle across", "Places where the body is too stiff, one triangle thick", q.bridges.to_string()),
+        ("Area off", "From that of the outline", format!("{:+.2} %", 100.0 * fit.area_error)),
+        ("Boundary off", "Farthest from the outline, and as a part of its height", boundary),
+        ("Symmetric", "Whether it is its own mirror image", symmetric.to_owned()),
+    ]
 }
