@@ -22,10 +22,14 @@ const SPACINGS: [f64; 18] =
 /// How the nodes inside are shared out, tried in turn while the body is one triangle across somewhere: a coarser trunk leaves
 /// more nodes for the limbs.
 const FILLS: [Fill; 3] = [
-    Fill { coarsest: 1.25, limbs: 1.35, narrow: 1.0 },
-    Fill { coarsest: 1.25, limbs: 1.35, narrow: 1.5 },
-    Fill { coarsest: 1.6, limbs: 1.8, narrow: 1.25 },
+    Fill { coarsest: 1.25, limbs: 1.35, narrow: 1.0, poor_deg: 23.0 },
+    Fill { coarsest: 1.25, limbs: 1.35, narrow: 1.5, poor_deg: 23.0 },
+    Fill { coarsest: 1.6, limbs: 1.8, narrow: 1.25, poor_deg: 23.0 },
 ];
+/// The same where the boundary takes so many that none are left for better angles than must be.
+const SPARING: Fill = Fill { poor_deg: 20.3, ..FILLS[0] };
+/// Number of spacings tried with it, from the even one to coarser ones.
+const SPARING_TRIES: i32 = 5;
 /// Attempts times fibres after which the best mesh so far is taken if it is good, and the fewest and most attempts: some
 /// tens of milliseconds.
 const PATIENCE: usize = 24_000;
@@ -277,6 +281,12 @@ impl<'a> Subject<'a> {
                 break;
             }
             found.extend(self.attempt(&self.bends(even * COARSENING.powi(k)), FILLS[0], fibers, close));
+        }
+        for k in 0..SPARING_TRIES {
+            if over() || good(found) {
+                break;
+            }
+            found.extend(self.attempt(&self.bends(even * COARSENING.powi(k)), SPARING, fibers, close));
         }
         good(found)
     }
