@@ -21,16 +21,22 @@ impl Mesh {
         let mut sides: Vec<[usize; 2]> =
             self.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
         sides.sort_unstable();
-        let mut rim: Vec<[usize; 2]> =
+        let rim: Vec<[usize; 2]> =
             sides.iter().filter(|&&[a, b]| sides.binary_search(&[b, a]).is_err()).copied().collect();
         let mut loops = Vec::new();
-        while let Some(&[start, mut next]) = rim.first() {
-            rim.remove(0);
+        let mut used = vec![false; rim.len()];
+        for first in 0..rim.len() {
+            if std::mem::replace(&mut used[first], true) {
+                continue;
+            }
+            let [start, mut next] = rim[first];
             let mut ring = vec![start];
             while next != start {
                 ring.push(next);
-                let Some(k) = rim.iter().position(|side| side[0] == next) else { break };
-                next = rim.remove(k)[1];
+                let leaving = rim.partition_point(|side| side[0] < next)..rim.partition_point(|side| side[0] <= next);
+                let Some(k) = leaving.into_iter().find(|&k| !used[k]) else { break };
+                used[k] = true;
+                next = rim[k][1];
             }
             loops.push(ring);
         }

@@ -94,12 +94,15 @@ impl<'a> Curve<'a> {
         candidates.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.total_cmp(&b.1)));
         let gap = |a: f64, b: f64| (a - b).abs().min(self.length() - (a - b).abs());
         let mut corners: Vec<f64> = forced.iter().map(|&i| self.s[i]).collect();
+        corners.sort_by(f64::total_cmp);
         for (_, s) in candidates {
-            if corners.iter().all(|&c| gap(c, s) > CORNER_GAP * h) {
-                corners.push(s);
+            // Around the ring the nearest is the one before or the one after.
+            let place = corners.partition_point(|&c| c < s);
+            let beside = [corners.get(place).or(corners.first()), corners[..place].last().or(corners.last())];
+            if beside.into_iter().flatten().all(|&c| gap(c, s) > CORNER_GAP * h) {
+                corners.insert(place, s);
             }
         }
-        corners.sort_by(f64::total_cmp);
         corners.dedup();
         corners
     }

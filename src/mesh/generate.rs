@@ -62,7 +62,7 @@ pub struct Meshed {
 ///
 /// # Errors
 /// [`MeshError::Unreachable`] names the least count found possible where the outline needs more edges than asked for;
-/// [`MeshError::TooFine`] where none was found.
+/// [`MeshError::TooFine`] where there is none, [`MeshError::TooIntricate`] where none was found within a bound on work.
 pub fn generate(outline: &Outline, fibers: usize) -> Result<Mesh, MeshError> {
     build(outline, &Request::fibers(fibers)).map(|meshed| meshed.mesh)
 }
@@ -100,9 +100,9 @@ pub fn build_or_finer(outline: &Outline, request: &Request) -> Result<(Meshed, u
     let half = axis.and_then(|(axis, off)| Some((axis, off, symmetry::half(outline, axis)?)));
     let half_pool = half.as_ref().map(|(_, _, half)| Pool::of(&half.outline));
     let half = half.as_ref().zip(half_pool.as_ref());
-    let half = half.map(|((axis, off, half), pool)| (*axis, Subject::half(outline, half, pool, *axis, *off)));
+    let half = half.map(|((axis, off, half), pool)| (*axis, Subject::half(outline, half, pool, (*axis, *off), fibers)));
     let pool = Pool::of(outline);
-    let whole = Subject::whole(outline, &pool, &request.tracks);
+    let whole = Subject::whole(outline, &pool, &request.tracks, fibers);
     // One half and its image, unless the whole gives better angles.
     let at = |fibers: usize, effort: Effort| {
         let even = whole.even(fibers);
@@ -115,10 +115,11 @@ pub fn build_or_finer(outline: &Outline, request: &Request) -> Result<(Meshed, u
             Some(Meshed { mesh, quality, axis: None })
         })
     };
-    match at(fibers, Effort::Full) {
-        Some(meshed) => Ok((meshed, fibers)),
-        None => finer(&whole, fibers, at).ok_or(MeshError::TooFine { most: MAX_FIBERS }),
+    if let Some(meshed) = at(fibers, Effort::Full) {
+        return Ok((meshed, fibers));
     }
+    let too_fine = MeshError::TooFine { most: MAX_FIBERS };
+    finer(&whole, fibers, at).ok_or(if whole.has_given_up() { MeshError::TooIntricate } else { too_fine })
 }
 
 /// About how many edges a mesh with edges of this length has.
@@ -146,7 +147,7 @@ fn finer(whole: &Subject, asked: usize, at: impl Fn(usize, Effort) -> Option<Mes
     let mut found = None;
     for _ in 0..NEAREST_STEPS {
         found = if count > MAX_FIBERS { None } else { at(count, Effort::Little).map(|meshed| (meshed, count)) };
-        if found.is_some() {
+        if found.is_some() || whole.is_exhausted() {
             break;
         }
         without = count;
@@ -160,7 +161,7 @@ fn finer(whole: &Subject, asked: usize, at: impl Fn(usize, Effort) -> Option<Mes
     without = without.max((FEWER * count as f64) as usize);
     for _ in 0..HALVINGS {
         let between = without.midpoint(count);
-        if between <= without {
+        if between <= without || whole.is_exhausted() {
             break;
         }
         if at(between, Effort::Little).is_some() {

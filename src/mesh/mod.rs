@@ -53,6 +53,10 @@ pub enum MeshError {
     Unreachable { asked: usize, nearest: usize },
     #[error("the outline is too fine to be meshed: not even {most} muscle fibres give good triangles")]
     TooFine { most: usize },
+    #[error(
+        "the outline is too intricate: no mesh with good triangles was found within the work allowed; fill its holes or widen its thin parts"
+    )]
+    TooIntricate,
     #[error("the mesh has no triangles")]
     Empty,
     #[error("node {node} of the mesh is not finite")]

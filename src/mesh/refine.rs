@@ -16,9 +16,6 @@ use crate::outline::{Point, polygon};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// Triangles with a smaller angle are split, degrees: the refinement ends well for a little more than 20, smoothing then
-/// adds some ten.
-const POOR_DEG: f64 = 23.0;
 /// Triangles with a smaller angle may be preferred when nodes are shared out, degrees.
 const NARROW_DEG: f64 = 30.0;
 /// A fixed edge is split where it is seen under more than this angle, degrees: 90 is Ruppert's circle, 180 none at all. More
@@ -48,6 +45,9 @@ pub(super) struct Fill {
     pub limbs: f64,
     /// The same for triangles with an angle below [`NARROW_DEG`].
     pub narrow: f64,
+    /// Triangles with a smaller angle are split, degrees: the refinement ends well for a little more than 20, smoothing then
+    /// adds some ten. Less spares nodes.
+    pub poor_deg: f64,
 }
 
 /// Where a node lies.
@@ -196,7 +196,7 @@ impl<'a> Refiner<'a> {
         let places = self.tri.places(t);
         let angle = min_angle(places);
         let ratio = self.ratio(t);
-        let poor = angle < POOR_DEG && !self.is_given(t);
+        let poor = angle < self.fill.poor_deg && !self.is_given(t);
         let mut put = |why, weight| self.queue.push(Entry { why, weight, corners, triangle: t });
         // A triangle that finds no room for its size may still be improved for its angle.
         if ratio > LARGE_RATIO {

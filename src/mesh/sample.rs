@@ -6,6 +6,7 @@
 //! keep the area.
 
 use super::curve::Curve;
+use super::search::Budget;
 use crate::outline::{Outline, Point, polygon};
 
 /// Weights `a` of curvature in the density, tried in turn until the area is kept.
@@ -38,6 +39,7 @@ pub(super) struct Closeness {
 }
 
 /// The boundary to sample.
+#[derive(Clone, Copy)]
 pub(super) struct Rim<'a> {
     pub outline: &'a Outline,
     /// One for each polygon.
@@ -53,44 +55,96 @@ pub(super) struct Extra {
     pub axis: usize,
 }
 
-/// Samples all polygons of the outline at spacing `h`. `None` where no choice of at most `most` nodes gives a boundary
-/// free of crossings.
-pub(super) fn sample(rim: &Rim, h: f64, extra: Extra, close: Closeness, most: usize) -> Option<Boundary> {
-    let Rim { outline, curves, on_axis } = *rim;
-    let area = outline.area();
-    let stray = (STRAY * h).min(close.stray);
+/// The bends of a boundary as they are seen at a spacing: the same for all numbers of nodes.
+pub(super) struct Bends<'a> {
+    rim: Rim<'a>,
+    pub h: f64,
+    /// One for each polygon.
+    rings: Vec<RingBends>,
+    area: f64,
+    vertices: usize,
+}
+
+struct RingBends {
+    /// Where sections start: the corners, or one place.
+    starts: Vec<f64>,
+    /// The stretches of all sections: length, curvature.
+    stretches: Vec<(f64, f64)>,
+    /// First stretch of each section, and the number of all.
+    firsts: Vec<usize>,
+}
+
+impl<'a> Bends<'a> {
+    pub fn new(rim: Rim<'a>, h: f64) -> Self {
+        let ring = |(k, curve): (usize, &Curve)| {
+            let corners = curve.corners(h, if k == 0 { rim.on_axis } else { &[] });
+            let starts = if corners.is_empty() { vec![0.0] } else { corners };
+            let mut stretches = Vec::new();
+            let mut firsts = Vec::with_capacity(starts.len() + 1);
+            for i in 0..starts.len() {
+                firsts.push(stretches.len());
+                stretches.extend(section(curve, curve.arc(&starts, i), h));
+            }
+            firsts.push(stretches.len());
+            RingBends { starts, stretches, firsts }
+        };
+        let rings = rim.curves.iter().enumerate().map(ring).collect();
+        let vertices = rim.outline.polygons().map(<[Point]>::len).sum();
+        Self { area: rim.outline.area(), rim, h, rings, vertices }
+    }
+
+    /// Number of stretches.
+    pub fn size(&self) -> usize {
+        self.rings.iter().map(|ring| ring.stretches.len()).sum()
+    }
+}
+
+/// Samples all polygons of the outline. `None` where no choice of at most `most` nodes gives a boundary free of crossings.
+/// Nor where the budget does not suffice.
+pub(super) fn sample(bends: &Bends, extra: Extra, close: Closeness, most: usize, budget: &Budget) -> Option<Boundary> {
+    let Rim { curves, on_axis, .. } = bends.rim;
+    let stray = (STRAY * bends.h).min(close.stray);
     let lost = |rings: &[Vec<f64>]| {
         let sampled: f64 = curves.iter().zip(rings).map(|(c, ring)| polygon::signed_area(&c.points(ring))).sum();
-        1.0 - sampled / area
+        1.0 - sampled / bends.area
     };
-    // The outer polygon takes the extra nodes.
-    let corners: Vec<Vec<f64>> =
-        curves.iter().enumerate().map(|(k, c)| c.corners(h, if k == 0 { on_axis } else { &[] })).collect();
+    let count = |rings: &[Vec<f64>]| rings.iter().map(Vec::len).sum::<usize>();
     let mut rings = Vec::new();
     for weight in CURVATURE_WEIGHTS {
+        // The outer polygon takes the extra nodes.
         let ring = |(k, c): (usize, &Curve)| match k {
-            0 => along(c, &corners[k], on_axis, h, weight, stray, extra),
-            _ => along(c, &corners[k], &[], h, weight, stray, Extra::default()),
+            0 => along(c, bends, k, on_axis, weight, stray, extra),
+            _ => along(c, bends, k, &[], weight, stray, Extra::default()),
         };
         rings = curves.iter().enumerate().map(ring).collect();
+        budget.spend(bends.size() / 2 + 8 * count(&rings) + bends.vertices);
+        // More weight gives more nodes.
+        if count(&rings) > most {
+            return None;
+        }
         if lost(&rings).abs() < close.area {
             break;
         }
     }
     loop {
         let lost = lost(&rings);
-        if rings.iter().map(Vec::len).sum::<usize>() > most {
+        if count(&rings) > most {
             return None;
         }
         if lost.abs() <= close.area {
             break;
         }
+        budget.spend(2 * count(&rings) + bends.vertices);
         split_widest(curves, &mut rings, lost.signum())?;
     }
     // Chords across narrow gaps may cross: halve what does until nothing is left to halve.
     loop {
+        if count(&rings) > most || budget.is_exhausted() {
+            return None;
+        }
+        budget.spend(20 * count(&rings));
         let boundary = join(curves, &rings);
-        let crossing = super::triangulate::crossings(&boundary);
+        let crossing = super::triangulate::crossings(&boundary, budget)?;
         if crossing.is_empty() {
             return Some(boundary);
         }
@@ -139,19 +193,22 @@ fn join(curves: &[Curve], rings: &[Vec<f64>]) -> Boundary {
     boundary
 }
 
-/// Ascending arc lengths of a ring's nodes, its `corners` among them.
-fn along(curve: &Curve, corners: &[f64], on_axis: &[usize], h: f64, weight: f64, stray: f64, extra: Extra) -> Vec<f64> {
-    let starts = if corners.is_empty() { vec![0.0] } else { corners.to_vec() };
+/// Ascending arc lengths of the nodes of ring `k`, its corners among them.
+///
+/// The spacing is that of the density, and short enough for the chords of an arc of the local curvature to stray no more
+/// than `stray`: `l = sqrt(8 stray / kappa)`.
+fn along(curve: &Curve, bends: &Bends, k: usize, on_axis: &[usize], weight: f64, stray: f64, extra: Extra) -> Vec<f64> {
+    let RingBends { starts, stretches, firsts } = &bends.rings[k];
+    let h = bends.h;
     // A ring without corners still needs a few nodes to be round.
     let least = if starts.len() == 1 { 5 } else { 1 };
-    let mut steps: Vec<Step> = Vec::new();
-    let mut firsts = Vec::new();
-    for i in 0..starts.len() {
-        firsts.push(steps.len());
-        steps.extend(section(curve, curve.arc(&starts, i), h, weight, stray));
-    }
+    let step = |&(length, curvature): &(f64, f64)| {
+        let bend = weight * h * curvature;
+        let chord = (8.0 * stray / curvature).sqrt();
+        Step { length, spacing: (h / (1.0 + bend * bend).sqrt()).min(chord) }
+    };
+    let mut steps: Vec<Step> = stretches.iter().map(step).collect();
     grade(&mut steps);
-    firsts.push(steps.len());
     let mut sections: Vec<(&[Step], f64, usize)> = firsts
         .windows(2)
         .map(|w| {
@@ -161,7 +218,7 @@ fn along(curve: &Curve, corners: &[f64], on_axis: &[usize], h: f64, weight: f64,
         })
         .collect();
     let is_axis = |k: usize| {
-        let (from, to) = curve.arc(&starts, k);
+        let (from, to) = curve.arc(starts, k);
         !on_axis.is_empty() && curve.at(from)[1] == 0.0 && curve.at(0.5 * (from + to))[1] == 0.0
     };
     for (axis, extra) in [(false, extra.rim), (true, extra.axis)] {
@@ -175,7 +232,7 @@ fn along(curve: &Curve, corners: &[f64], on_axis: &[usize], h: f64, weight: f64,
     }
     let mut nodes = Vec::new();
     for (i, (section, total, n)) in sections.iter().enumerate() {
-        let (from, to) = curve.arc(&starts, i);
+        let (from, to) = curve.arc(starts, i);
         nodes.push(from);
         let (mut k, mut mass, mut s) = (0, 0.0, from);
         for j in 1..*n {
@@ -203,34 +260,30 @@ struct Step {
     spacing: f64,
 }
 
-/// The stretches between two corners. The spacing is that of the density, and short enough for the chords of an arc of
-/// the local curvature to stray no more than `stray`: `l = sqrt(8 stray / kappa)`.
-fn section(curve: &Curve, (from, to): (f64, f64), h: f64, weight: f64, stray: f64) -> Vec<Step> {
+/// The stretches between two corners: length and curvature.
+fn section(curve: &Curve, (from, to): (f64, f64), h: f64) -> impl Iterator<Item = (f64, f64)> {
     let window = curve.window(h);
     let count = ((to - from) / (0.08 * h)).ceil().max(8.0) as usize;
     let length = (to - from) / count as f64;
-    let step = |k: usize| {
+    (0..count).map(move |k| {
         let s = from + (k as f64 + 0.5) * length;
         // A corner is a node already: its turning must not crowd the nodes beside it.
         let (a, b) = ((s - window).max(from + 1e-9 * h), (s + window).min(to - 1e-9 * h));
-        let curvature = curve.turning(a, b).abs() / (2.0 * window);
-        let bend = weight * h * curvature;
-        let chord = (8.0 * stray / curvature).sqrt();
-        Step { length, spacing: (h / (1.0 + bend * bend).sqrt()).min(chord) }
-    };
-    (0..count).map(step).collect()
+        (length, curve.turning(a, b).abs() / (2.0 * window))
+    })
 }
 
 /// Lets the spacing change along a closed ring by no more than [`GRADATION`] a length.
 fn grade(steps: &mut [Step]) {
     let n = steps.len();
-    for round in 0..2 * n {
-        let (i, j) = (round % n, (round + 1) % n);
+    let next = |i: usize| if i + 1 == n { 0 } else { i + 1 };
+    for i in (0..n).chain(0..n) {
+        let j = next(i);
         let most = steps[i].spacing + GRADATION * 0.5 * (steps[i].length + steps[j].length);
         steps[j].spacing = steps[j].spacing.min(most);
     }
-    for round in (0..2 * n).rev() {
-        let (i, j) = ((round + 1) % n, round % n);
+    for j in (0..n).rev().chain((0..n).rev()) {
+        let i = next(j);
         let most = steps[i].spacing + GRADATION * 0.5 * (steps[i].length + steps[j].length);
         steps[j].spacing = steps[j].spacing.min(most);
     }

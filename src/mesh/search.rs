@@ -9,7 +9,7 @@
 use super::curve::Curve;
 use super::quality::Quality;
 use super::refine::{Fill, Refiner};
-use super::sample::{Closeness, Extra, Rim, sample};
+use super::sample::{Bends, Boundary, Closeness, Extra, Rim, sample};
 use super::smooth::Sliding;
 use super::symmetry::{Axis, Half, unfold};
 use super::{Mesh, generate, smooth, tracks};
@@ -22,10 +22,14 @@ const SPACINGS: [f64; 18] =
 /// How the nodes inside are shared out, tried in turn while the body is one triangle across somewhere: a coarser trunk leaves
 /// more nodes for the limbs.
 const FILLS: [Fill; 3] = [
-    Fill { coarsest: 1.25, limbs: 1.35, narrow: 1.0 },
-    Fill { coarsest: 1.25, limbs: 1.35, narrow: 1.5 },
-    Fill { coarsest: 1.6, limbs: 1.8, narrow: 1.25 },
+    Fill { coarsest: 1.25, limbs: 1.35, narrow: 1.0, poor_deg: 23.0 },
+    Fill { coarsest: 1.25, limbs: 1.35, narrow: 1.5, poor_deg: 23.0 },
+    Fill { coarsest: 1.6, limbs: 1.8, narrow: 1.25, poor_deg: 23.0 },
 ];
+/// The same where the boundary takes so many that none are left for better angles than must be.
+const SPARING: Fill = Fill { poor_deg: 20.3, ..FILLS[0] };
+/// Number of spacings tried with it, from the even one to coarser ones.
+const SPARING_TRIES: i32 = 5;
 /// Attempts times fibres after which the best mesh so far is taken if it is good, and the fewest and most attempts: some
 /// tens of milliseconds.
 const PATIENCE: usize = 24_000;
@@ -38,6 +42,18 @@ const EFFORT: usize = 300_000;
 const LEAST_SAMPLINGS: usize = 12;
 /// Edges that smoothing and measuring a mesh weigh, for each that it has.
 const SMOOTHING: usize = 3;
+/// Most work for all that is tried of an outline, the search for a possible count included, in units of about 0.1 us: a
+/// second or two. Then what was found is taken, or the outline is refused. [`EFFORT`] weighs neither how finely the
+/// boundary is sampled nor how often a count is tried; this does.
+const WORK: usize = 24_000_000;
+/// The same for each fibre asked for.
+const WORK_PER_FIBER: usize = 1000;
+/// The part of it for finding out how many edges good angles need.
+const LEAST_SHARE: f64 = 0.4;
+/// Units for a vertex of the outline when bends are looked for, for an edge that is refined, and one that is smoothed.
+const VERTEX_WORK: usize = 4;
+const REFINE_WORK: usize = 20;
+const SMOOTH_WORK: usize = 40;
 /// A mesh without bridges and with no angle below this is taken at once, degrees.
 const FINE_DEG: f64 = 30.5;
 /// Farthest that a chord may stray from the outline, as fractions of its height, tried in turn: with few fibres fine features
@@ -78,6 +94,28 @@ pub(super) struct Subject<'a> {
     vertices: usize,
     /// Work done for the mesh that is sought.
     spent: Cell<usize>,
+    budget: Budget,
+}
+
+/// Work done altogether, and the most of it, in the units of [`WORK`].
+pub(super) struct Budget {
+    done: Cell<usize>,
+    most: usize,
+    /// Whether something was given up for it.
+    missed: Cell<bool>,
+}
+
+impl Budget {
+    pub fn spend(&self, work: usize) {
+        self.done.set(self.done.get().saturating_add(work));
+    }
+
+    /// Whether no more work is allowed.
+    pub fn is_exhausted(&self) -> bool {
+        let exhausted = self.done.get() > self.most;
+        self.missed.set(self.missed.get() || exhausted);
+        exhausted
+    }
 }
 
 /// How much work a search may take.
@@ -107,7 +145,8 @@ impl Candidate {
 }
 
 impl<'a> Subject<'a> {
-    pub fn whole(outline: &'a Outline, pool: &'a Pool<'a>, tracks: &'a [Vec<Point>]) -> Self {
+    /// `fibers` are those asked for at first.
+    pub fn whole(outline: &'a Outline, pool: &'a Pool<'a>, tracks: &'a [Vec<Point>], fibers: usize) -> Self {
         let rim = Rim { outline, curves: &pool.0, on_axis: &[] };
         let vertices = vertices(outline);
         Self {
@@ -119,14 +158,30 @@ impl<'a> Subject<'a> {
             off: 0.0,
             vertices,
             spent: Cell::new(0),
+            budget: Budget { done: Cell::new(0), most: WORK + WORK_PER_FIBER * fibers, missed: Cell::new(false) },
         }
     }
 
-    pub fn half(outline: &'a Outline, half: &'a Half, pool: &'a Pool<'a>, axis: Axis, off: f64) -> Self {
+    pub fn half(
+        outline: &'a Outline,
+        half: &'a Half,
+        pool: &'a Pool<'a>,
+        (axis, off): (Axis, f64),
+        fibers: usize,
+    ) -> Self {
         let rim = Rim { outline: &half.outline, curves: &pool.0, on_axis: &half.on_axis };
         let vertices = vertices(&half.outline);
-        let height = height(outline);
-        Self { whole: outline, rim, tracks: &[], axis: Some(axis), height, off, vertices, spent: Cell::new(0) }
+        Self { rim, axis: Some(axis), off, vertices, ..Self::whole(outline, pool, &[], fibers) }
+    }
+
+    /// Whether no more work is allowed.
+    pub fn is_exhausted(&self) -> bool {
+        self.budget.is_exhausted()
+    }
+
+    /// Whether more work might have given more.
+    pub fn has_given_up(&self) -> bool {
+        self.budget.missed.get()
     }
 
     /// The spacing at which boundary and interior are equally dense.
@@ -147,6 +202,9 @@ impl<'a> Subject<'a> {
             // Each has its share, and what those before left.
             let effort = effort * (k + 1) / STRAYS.len();
             let good = self.search(even, fibers, close, effort, &mut found);
+            if self.is_exhausted() {
+                break;
+            }
             if good && (fibers >= CLOSE_FROM || found.iter().any(|c| c.quality.bridges == 0)) {
                 break;
             }
@@ -155,15 +213,20 @@ impl<'a> Subject<'a> {
     }
 
     /// The fewest edges that good angles need, of those at a few spacings; at most `most`. Once some are found, no more
-    /// than [`EFFORT`] is spent on fewer.
+    /// than [`EFFORT`] is spent on fewer, and no more than a part of all work on any.
     pub fn least_edges(&self, asked: usize, most: usize) -> Option<usize> {
         let mut least = None;
         self.spent.set(0);
+        let enough = self.budget.done.get() + (LEAST_SHARE * self.budget.most as f64) as usize;
         // From a coarse following of the outline, which needs the fewest, to a close one.
         for (stray, area) in STRAYS.into_iter().zip(AREAS).rev() {
             let close = Closeness { stray: stray * self.height, area };
             // From a spacing that is far too coarse for the count to the even one of many times as many.
             for k in (-7..4).rev() {
+                if self.budget.done.get() > enough {
+                    self.budget.missed.set(true);
+                    return least;
+                }
                 if least.is_some() && self.spent.get() > EFFORT {
                     return least;
                 }
@@ -171,10 +234,12 @@ impl<'a> Subject<'a> {
                 let limit = least.unwrap_or(most);
                 self.spend(self.vertices);
                 let Some(nodes) = most_nodes(self.rim.outline, limit) else { return least };
-                let Some(boundary) = sample(&self.rim, h, Extra::default(), close, nodes) else { continue };
+                let bends = self.bends(h);
+                let Some(boundary) = self.sample(&bends, Extra::default(), close, nodes) else { continue };
                 let Some(mut refiner) = self.refiner(&boundary, h, FILLS[0]) else { continue };
                 let good = refiner.run_angles(limit).is_some();
                 self.spend(refiner.edges());
+                self.budget.spend(REFINE_WORK * refiner.edges());
                 if good {
                     least = Some(least.unwrap_or(usize::MAX).min(refiner.edges()));
                 }
@@ -190,13 +255,16 @@ impl<'a> Subject<'a> {
         let mut patience = (PATIENCE / fibers.max(1)).clamp(LEAST_TRIES, MOST_TRIES);
         let good = |found: &[Candidate]| found.iter().any(Candidate::is_good);
         let before = found.len();
+        let over = || self.spent.get() > effort || self.is_exhausted();
         'tried: for factor in SPACINGS {
+            let mut bends = None;
             for fill in FILLS {
-                if self.spent.get() > effort || (patience == 0 && good(found)) {
+                if over() || (patience == 0 && good(found)) {
                     return good(found);
                 }
                 patience = patience.saturating_sub(1);
-                let candidate = self.attempt(factor * even, fill, fibers, close);
+                let bends = bends.get_or_insert_with(|| self.bends(factor * even));
+                let candidate = self.attempt(bends, fill, fibers, close);
                 if candidate.is_none() && found.len() == before {
                     // Not even at the spacing meant for it: there is no need to look closely.
                     break 'tried;
@@ -209,16 +277,22 @@ impl<'a> Subject<'a> {
             }
         }
         for k in 1..=COARSER {
-            if self.spent.get() > effort || good(found) {
+            if over() || good(found) {
                 break;
             }
-            found.extend(self.attempt(even * COARSENING.powi(k), FILLS[0], fibers, close));
+            found.extend(self.attempt(&self.bends(even * COARSENING.powi(k)), FILLS[0], fibers, close));
+        }
+        for k in 0..SPARING_TRIES {
+            if over() || good(found) {
+                break;
+            }
+            found.extend(self.attempt(&self.bends(even * COARSENING.powi(k)), SPARING, fibers, close));
         }
         good(found)
     }
 
-    /// A mesh at boundary spacing `h`, if there is one with the asked count, or nearly.
-    fn attempt(&self, h: f64, fill: Fill, fibers: usize, close: Closeness) -> Option<Candidate> {
+    /// A mesh at a boundary spacing, if there is one with the asked count, or nearly.
+    fn attempt(&self, bends: &Bends, fill: Fill, fibers: usize, close: Closeness) -> Option<Candidate> {
         let mut near: Option<Refiner> = None;
         let own = if self.axis.is_some() { fibers / 2 + fibers / 4 } else { fibers };
         let most = most_nodes(self.rim.outline, own)?;
@@ -226,10 +300,11 @@ impl<'a> Subject<'a> {
             .map(|k| if self.axis.is_some() { Extra { rim: k / 2, axis: k % 2 } } else { Extra { rim: k, axis: 0 } });
         for extra in extras {
             self.spend(self.vertices);
-            let boundary = sample(&self.rim, h, extra, close, most)?;
-            let mut refiner = self.refiner(&boundary, h, fill)?;
+            let boundary = self.sample(bends, extra, close, most)?;
+            let mut refiner = self.refiner(&boundary, bends.h, fill)?;
             let room = refiner.run(fibers);
             self.spend(refiner.tri.edges());
+            self.budget.spend(REFINE_WORK * refiner.tri.edges());
             if room.is_none() {
                 near.as_ref()?;
                 continue;
@@ -246,7 +321,17 @@ impl<'a> Subject<'a> {
         self.spent.set(self.spent.get().saturating_add(work));
     }
 
-    fn refiner(&self, boundary: &super::sample::Boundary, h: f64, fill: Fill) -> Option<Refiner<'a>> {
+    fn bends(&self, h: f64) -> Bends<'a> {
+        let bends = Bends::new(self.rim, h);
+        self.budget.spend(VERTEX_WORK * self.vertices + bends.size());
+        bends
+    }
+
+    fn sample(&self, bends: &Bends, extra: Extra, close: Closeness, most: usize) -> Option<Boundary> {
+        sample(bends, extra, close, most, &self.budget)
+    }
+
+    fn refiner(&self, boundary: &Boundary, h: f64, fill: Fill) -> Option<Refiner<'a>> {
         let tracks = tracks::sample(self.tracks, self.whole, h);
         Refiner::new(boundary, &tracks, self.rim.curves, self.axis.is_some(), h, fill)
     }
@@ -255,6 +340,7 @@ impl<'a> Subject<'a> {
     fn finish(&self, refiner: Refiner, close: Closeness) -> Option<Candidate> {
         let Refiner { mut tri, places, .. } = refiner;
         self.spend(SMOOTHING * tri.edges());
+        self.budget.spend(SMOOTH_WORK * tri.edges());
         let mirror = self.axis.is_some();
         let mut rim = Sliding { places, curves: self.rim.curves, stray: close.stray, mirror };
         smooth::smooth(&mut tri, &mut rim);

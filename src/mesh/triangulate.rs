@@ -1,8 +1,9 @@
 //! Constrained Delaunay triangulation of nodes and boundary segments.
 
 use super::sample::Boundary;
+use super::search::Budget;
 use crate::outline::Point;
-use spade::handles::FixedFaceHandle;
+use spade::handles::{FixedFaceHandle, FixedVertexHandle};
 use spade::handles::{InnerTag, UndirectedEdgeHandle};
 use spade::{CdtEdge, ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
@@ -17,18 +18,26 @@ fn cdt(nodes: &[Point], segments: &[[usize; 2]]) -> Option<Cdt> {
     (!conflict && cdt.num_vertices() == nodes.len()).then_some(cdt)
 }
 
-/// Numbers of the segments that cross others or run through other nodes, ascending.
-pub(super) fn crossings(boundary: &Boundary) -> Vec<usize> {
+/// Numbers of the segments that cross others or run through other nodes, ascending; `None` where nodes coincide, which
+/// no further node can cure.
+pub(super) fn crossings(boundary: &Boundary, budget: &Budget) -> Option<Vec<usize>> {
     let vertices: Vec<Point2<f64>> = boundary.nodes.iter().map(|p| Point2::new(p[0], p[1])).collect();
     let mut bad = Vec::new();
-    let loaded = Cdt::try_bulk_load_cdt(vertices, boundary.segments.clone(), |e| bad.push(e));
-    let n = boundary.segments.len();
-    let all_there = loaded.as_ref().is_ok_and(|cdt| {
-        cdt.num_vertices() == boundary.nodes.len() && (bad.is_empty() && cdt.num_constraints() == n || !bad.is_empty())
-    });
-    if !all_there {
-        return (0..n).collect();
+    let cdt = Cdt::try_bulk_load_cdt(vertices, boundary.segments.clone(), |e| bad.push(e)).ok()?;
+    if cdt.num_vertices() != boundary.nodes.len() {
+        return None;
     }
+    if bad.is_empty() && cdt.num_constraints() != boundary.segments.len() {
+        // A segment through a node comes as two.
+        let whole = |[a, b]: [usize; 2]| {
+            cdt.exists_constraint(FixedVertexHandle::from_index(a), FixedVertexHandle::from_index(b))
+        };
+        let all = 0..boundary.segments.len();
+        let through: Vec<usize> = all.clone().filter(|&k| !whole(boundary.segments[k])).collect();
+        return Some(if through.is_empty() { all.collect() } else { through });
+    }
+    // Some 2 ns for each pair.
+    budget.spend(bad.len() * boundary.segments.len() / 40);
     let mut crossing: Vec<usize> = Vec::new();
     for pair in bad {
         let [a, b] = pair.map(|node| boundary.nodes[node]);
@@ -41,7 +50,7 @@ pub(super) fn crossings(boundary: &Boundary) -> Vec<usize> {
     }
     crossing.sort_unstable();
     crossing.dedup();
-    crossing
+    Some(crossing)
 }
 
 fn cross(a: Point, b: Point, c: Point, d: Point) -> bool {
