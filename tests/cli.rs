@@ -4,8 +4,10 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-const COMMANDS: [&str; 13] =
-    ["demo", "new", "mesh", "remesh", "pose", "rig", "key", "check", "export", "render", "solve", "discover", "bench"];
+const COMMANDS: [&str; 15] = [
+    "demo", "new", "mesh", "remesh", "reshape", "drawing", "pose", "rig", "key", "check", "export", "render", "solve",
+    "discover", "bench",
+];
 
 /// A bar that is wide enough for a few dozen fibres.
 const OUTLINE: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" width="120mm" height="40mm" viewBox="0 0 120 40">
@@ -364,6 +366,42 @@ fn studies_print_tables_and_leave_csv_and_plots() {
     let line = fail(here, 2, &["bench", "cold", "--shapes", "cow", "--out", "cold"]);
     assert!(line.contains("cow") && line.contains("pig"), "{line}");
     assert_eq!(names(here), ["linear"]);
+}
+
+#[test]
+fn an_outline_is_drawn_changed_and_put_under_a_finished_design() {
+    let folder = bar();
+    let here = folder.path();
+    succeed(
+        here,
+        &["pose", "bar.plush", "-o", "bar.plush", "--name", "up", "--target", "110,20=110,60", "--pin", "5,20"],
+    );
+    assert!(succeed(here, &["drawing", "bar.plush"]).contains("Path(points"));
+    succeed(here, &["drawing", "bar.plush", "-o", "bar.ron"]);
+    let text = fs::read_to_string(here.join("bar.ron")).unwrap();
+    // A head on the left end, which moves the corner of the box by 20 mm and 10 mm.
+    let head = "(parts: [(primitive: Circle(center: (10, 20), radius: 30)),";
+    fs::write(here.join("bar.ron"), text.replacen("(\n    parts: [", head, 1)).unwrap();
+    let said = succeed(here, &["reshape", "bar.plush", "bar.ron", "-o", "head.plush", "--fibers", "150"]);
+    assert!(said.contains("fibers 60 -> 15") && said.contains("parts carried over"), "{said}");
+    let design = plushwright::design::file::read(&here.join("head.plush")).unwrap();
+    let (low, high) = design.outline.bounding_box();
+    assert!(low == [0.0; 2] && (high[0] - 140.0).abs() < 0.1 && (high[1] - 60.0).abs() < 0.1, "{high:?}");
+    let to = design.poses[0].targets[0].to;
+    assert!((to[0] - 130.0).abs() < 0.1 && (to[1] - 70.0).abs() < 0.1, "{to:?}");
+    assert_eq!(design.drawing.as_ref().unwrap().parts.len(), 2);
+    // The same parts make a design of their own, at another size too.
+    let said = succeed(here, &["new", "bar.ron", "-o", "own.plush", "--fibers", "150", "--height", "120"]);
+    assert!(said.contains("280.0 mm long") || said.contains("279.9 mm long"), "{said}");
+    fs::write(
+        here.join("two.ron"),
+        "(parts: [(primitive: Circle(center: (0, 0), radius: 30)), (primitive: Circle(center: (99, 0), radius: 30))])",
+    )
+    .unwrap();
+    assert!(fail(here, 2, &["reshape", "bar.plush", "two.ron", "-o", "no.plush"]).contains("2 separate pieces"));
+    fs::write(here.join("bad.ron"), "(parts: [(primitive: Circle(center: (0, 0), radius: 0))])").unwrap();
+    assert!(fail(here, 2, &["new", "bad.ron", "-o", "no.plush"]).contains("parts[0].radius"));
+    assert!(!here.join("no.plush").exists());
 }
 
 #[test]

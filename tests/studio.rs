@@ -9,11 +9,13 @@ use plushwright::discovery::Stages;
 use plushwright::engine::{EQUILIBRIUM, Proposal, Quality, Shape};
 use plushwright::mesh::Mesh;
 use plushwright::outline::Outline;
+use plushwright::outline::drawing::{Part, Primitive};
 use plushwright::picture::palette::Theme;
 use plushwright::studio::app::Studio;
 use plushwright::studio::messages::Level;
 use plushwright::studio::session::{Selection, Services, Session, Views};
 use plushwright::studio::viewport::Plushie;
+use plushwright::studio::viewport::camera::Camera;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
@@ -627,6 +629,120 @@ fn another_resolution_can_be_had_and_undone() {
         window.get_by_label("Cancel meshing").click();
     }
     settle(&mut window);
+}
+
+/// Where a place of the drawing is on the screen, while the sheet shows the box from `low` to `high`.
+fn on_sheet(window: &Window, (low, high): ([f64; 2], [f64; 2]), p: [f64; 2]) -> Pos2 {
+    let rect = window.get_by_label("Drawing sheet").rect();
+    Camera::fit(low, high, rect.size()).to_screen(rect, p)
+}
+
+const BAR: ([f64; 2], [f64; 2]) = ([0.0, 0.0], [120.0, 40.0]);
+
+fn parts(window: &Window) -> &[Part] {
+    &session(window).drawing().parts
+}
+
+#[test]
+fn the_outline_is_drawn_with_the_mouse_and_becomes_a_body() {
+    let mut window = with_network();
+    let before = session(&window).design().clone();
+    press(&mut window, Modifiers::NONE, Key::O);
+    // The outline as it is, traced: nothing is in the document yet.
+    assert!(
+        matches!(parts(&window), [Part { primitive: Primitive::Path { points }, cut: false }] if points.len() == 4)
+    );
+    assert_eq!(*session(&window).design(), before);
+    // A head on the free end.
+    click(&mut window, "Circle");
+    let [from, to] = [[100.0, 20.0], [100.0, 50.0]].map(|p| on_sheet(&window, BAR, p));
+    drag(&mut window, from, to);
+    let Primitive::Circle { center, radius } = parts(&window)[1].primitive else { panic!("{:?}", parts(&window)) };
+    assert!((center[0] - 100.0).abs() < 0.5 && (center[1] - 20.0).abs() < 0.5 && (radius - 30.0).abs() < 0.5);
+    assert_eq!(session(&window).history().undo_label(), Some("Draw a circle"));
+    assert_eq!(session(&window).design().mesh, before.mesh, "the body is the old one until a new one is made");
+    // Its rim, pulled in by hand, is one step of undo.
+    press(&mut window, Modifiers::NONE, Key::V);
+    let [rim, pulled] = [center[0] + radius, center[0] + 25.0].map(|x| on_sheet(&window, BAR, [x, center[1]]));
+    drag(&mut window, rim, pulled);
+    let Primitive::Circle { radius, .. } = parts(&window)[1].primitive else { panic!() };
+    assert!((radius - 25.0).abs() < 0.5, "{radius}");
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    assert!(matches!(parts(&window)[1].primitive, Primitive::Circle { radius, .. } if (radius - 30.0).abs() < 0.5));
+    click(&mut window, "Make the body");
+    let after = session(&window).design().clone();
+    assert!(!session(&window).sketching().open, "the plushie is shown again");
+    let (_, high) = after.outline.bounding_box();
+    assert!((high[0] - 130.0).abs() < 1.0 && (high[1] - 60.0).abs() < 1.0, "{high:?}");
+    assert_eq!((after.pins.len(), after.networks.len(), after.poses.len()), (3, 1, 1));
+    after.validate().unwrap();
+    settle(&mut window);
+    let shape = session(&window).shapes().realizable.clone().expect("solved on the new body");
+    assert_eq!(shape.nodes.len(), after.mesh.nodes.len());
+    // Undo takes it all back.
+    assert_eq!(session(&window).history().undo_label(), Some("New body"));
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(*session(&window).design(), before);
+}
+
+#[test]
+fn a_new_plushie_is_drawn_on_an_empty_sheet() {
+    let mut window = window(bar());
+    click(&mut window, "File");
+    window.get_by_label_contains("New drawing").click();
+    settle(&mut window);
+    assert!(parts(&window).is_empty() && session(&window).sketching().open);
+    let sheet = ([0.0, 0.0], [300.0, 240.0]);
+    let at = |window: &Window, p: [f64; 2]| on_sheet(window, sheet, p);
+    // A freehand line around, its ends not quite together.
+    let round: Vec<Pos2> = (0..=40)
+        .map(|i| {
+            let (sin, cos) = (0.15 * f64::from(i)).sin_cos();
+            at(&window, [150.0 + 90.0 * cos, 120.0 + 70.0 * sin])
+        })
+        .collect();
+    window.hover_at(round[0]);
+    window.step();
+    window.drag_at(round[0]);
+    for &p in &round {
+        window.hover_at(p);
+        window.step();
+    }
+    window.drop_at(round[40]);
+    settle(&mut window);
+    assert!(matches!(&parts(&window)[0].primitive, Primitive::Path { points } if (4..40).contains(&points.len())));
+    let area: f64 = plushwright::outline::polygon::signed_area(&parts(&window)[0].primitive.polygon());
+    assert!((area / (std::f64::consts::PI * 90.0 * 70.0) - 1.0).abs() < 0.03, "{area}");
+    // A triangle is cut out of it, corner by corner, closed on the first one.
+    press(&mut window, Modifiers::NONE, Key::P);
+    press(&mut window, Modifiers::NONE, Key::X);
+    let corners = [[140.0, 100.0], [180.0, 100.0], [160.0, 140.0], [140.0, 100.0]];
+    for p in corners {
+        let p = at(&window, p);
+        window.hover_at(p);
+        window.step();
+        window.drag_at(p);
+        window.step();
+        window.drop_at(p);
+        settle(&mut window);
+        // Clicks in quick succession would be a double click.
+        window.run_steps(30);
+    }
+    assert_eq!(parts(&window).len(), 2, "{:?}", parts(&window));
+    assert!(parts(&window)[1].cut && parts(&window)[1].primitive.handles().len() == 3);
+    // A part by its name, a point by hand, and both deleted.
+    press(&mut window, Modifiers::NONE, Key::V);
+    click(&mut window, "2 Polygon, cut out");
+    press(&mut window, Modifiers::NONE, Key::Delete);
+    assert_eq!(parts(&window).len(), 1);
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(parts(&window).len(), 2);
+    click(&mut window, "Make the body");
+    let design = session(&window).design().clone();
+    assert_eq!(design.outline.holes.len(), 1);
+    assert!((design.outline.area() - (area - 800.0)).abs() < 0.02 * area, "{}", design.outline.area());
+    design.validate().unwrap();
 }
 
 #[test]

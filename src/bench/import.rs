@@ -72,7 +72,7 @@ impl Imports {
         }
         if files.is_empty() {
             let folder = self.folder.display();
-            return Err(BenchError::Nothing(format!("{folder}: no SVG, PNG, JPEG, DXF or OBJ files")));
+            return Err(BenchError::Nothing(format!("{folder}: no SVG, PNG, JPEG, DXF, OBJ or drawing files")));
         }
         let mut outcomes = Vec::with_capacity(files.len());
         for (k, path) in files.iter().enumerate() {

@@ -129,7 +129,7 @@ enum Study {
     },
     /// Outlines that nobody here drew: what becomes of every file of a folder, mesh quality, times
     Import {
-        /// Folder of SVG, PNG, JPEG, DXF and OBJ files, searched with all its folders
+        /// Folder of SVG, PNG, JPEG, DXF, OBJ and drawing files, searched with all its folders
         dir: PathBuf,
         /// Numbers of muscle fibres; 0 for import alone
         #[arg(long, value_delimiter = ',', default_values_t = [414, 2000, 10_000])]

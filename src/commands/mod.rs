@@ -9,6 +9,7 @@ mod check;
 mod demo;
 mod discover;
 pub mod document;
+mod drawing;
 pub mod error;
 mod export;
 mod key;
@@ -19,6 +20,7 @@ mod place;
 mod pose;
 mod remesh;
 mod render;
+mod reshape;
 mod rig;
 mod solve;
 mod table;
@@ -59,6 +61,8 @@ pub enum Command {
     New(new::New),
     Mesh(mesh::MeshCommand),
     Remesh(remesh::Remesh),
+    Reshape(reshape::Reshape),
+    Drawing(drawing::DrawingCommand),
     Pose(pose::Pose),
     Rig(rig::Rig),
     Key(key::Key),
@@ -82,6 +86,8 @@ pub fn run(command: &Command, out: &mut dyn Write, cancel: &AtomicBool) -> Resul
         Command::New(command) => command.run(out, cancel),
         Command::Mesh(command) => command.run(out, cancel),
         Command::Remesh(command) => command.run(out, cancel),
+        Command::Reshape(command) => command.run(out, cancel),
+        Command::Drawing(command) => command.run(out, cancel),
         Command::Pose(command) => command.run(out, cancel),
         Command::Rig(command) => command.run(out, cancel),
         Command::Key(command) => command.run(out, cancel),

@@ -13,11 +13,12 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
-/// Make a meshed design from an outline (SVG, PNG, JPEG, DXF or OBJ)
+/// Make a meshed design from an outline (SVG, PNG, JPEG, DXF, OBJ, or a drawing of parts)
 #[derive(Debug, Args)]
 #[command(after_help = "Example: plushwright new assets/pig.svg -o pig.plush --height 250 --fibers 571")]
 pub struct New {
-    /// Outline to read: an SVG, PNG, JPEG or DXF file, or a flat OBJ mesh; all that it paints is joined to one silhouette
+    /// Outline to read: an SVG, PNG, JPEG or DXF file, a flat OBJ mesh, or a drawing of parts (RON, see `drawing`); all that
+    /// it paints is joined to one silhouette
     pub outline: PathBuf,
     /// Design file to write (*.plush)
     #[arg(short, long, value_name = "DESIGN")]
@@ -181,7 +182,7 @@ impl New {
 /// A design with default settings around an outline. Without a number of fibres, the default one or, where the outline
 /// needs more, the smallest possible.
 pub fn design(imported: Imported, fibers: Option<usize>, name: &str) -> Result<(Design, Changes), String> {
-    let Imported { outline, mesh, mut changes } = imported;
+    let Imported { outline, mesh, mut changes, drawing } = imported;
     // A file's own mesh stays as it is, unless another number of fibres is asked for.
     if let (Some((nodes, triangles)), None) = (mesh, fibers) {
         let mesh = Mesh { nodes, triangles };
@@ -196,7 +197,7 @@ pub fn design(imported: Imported, fibers: Option<usize>, name: &str) -> Result<(
         }
         changes.notes.push(format!("the outline needs more than {asked} fibers; it has {count}"));
     }
-    Ok((Design::new(name, outline, meshed.mesh), changes))
+    Ok((Design { drawing, ..Design::new(name, outline, meshed.mesh) }, changes))
 }
 
 fn stem(path: &Path) -> String {

@@ -9,7 +9,7 @@ use crate::mesh::{Request, Size};
 use crate::outline::Point;
 use clap::Args;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
 /// How many of the parts that moved farthest are named.
@@ -66,38 +66,36 @@ impl Remesh {
             .edit("Remesh", |design| remesh(design, &request, usize::from(self.finer)))
             .map_err(|e| CommandError::input(&self.design, e))?;
         document::save(&self.output, history.current(), cancel)?;
-        if self.json { say_json(out, &report) } else { self.print(&report, out) }
+        if self.json { say_json(out, &report) } else { print(&self.output, &report, out) }
     }
+}
 
-    fn print(&self, report: &Report, out: &mut dyn Write) -> Result<(), CommandError> {
-        let from_to = |[a, b]: [usize; 2]| format!("{a} -> {b}");
-        say(
-            out,
-            &format!(
-                "{}: fibers {}, nodes {}, triangles {}",
-                self.output.display(),
-                from_to(report.fibers),
-                from_to(report.nodes),
-                from_to(report.triangles)
-            ),
-        )?;
-        let mut moved: Vec<_> = report.moved.iter().collect();
-        moved.sort_by(|a, b| b.distance_mm.total_cmp(&a.distance_mm));
-        say(out, &format!("{} parts carried over, the farthest by {:.2} mm", moved.len(), report.farthest_mm()))?;
-        for part in moved.iter().take(NAMED) {
-            say(out, &format!("  {:<36} {:.2} mm", part.what, part.distance_mm))?;
-        }
-        if report.merged + report.added > 0 {
-            say(out, &format!("via points: {} fell together, {} put in", report.merged, report.added))?;
-        }
-        for [network, tendon] in &report.lost_tendons {
-            say(
-                out,
-                &format!("networks[{network}].tendons[{tendon}] is too short for this mesh; it has one edge now"),
-            )?;
-        }
-        Ok(())
+/// A report of what was carried over, in lines.
+pub fn print(output: &Path, report: &Report, out: &mut dyn Write) -> Result<(), CommandError> {
+    let from_to = |[a, b]: [usize; 2]| format!("{a} -> {b}");
+    say(
+        out,
+        &format!(
+            "{}: fibers {}, nodes {}, triangles {}",
+            output.display(),
+            from_to(report.fibers),
+            from_to(report.nodes),
+            from_to(report.triangles)
+        ),
+    )?;
+    let mut moved: Vec<_> = report.moved.iter().collect();
+    moved.sort_by(|a, b| b.distance_mm.total_cmp(&a.distance_mm));
+    say(out, &format!("{} parts carried over, the farthest by {:.2} mm", moved.len(), report.farthest_mm()))?;
+    for part in moved.iter().take(NAMED) {
+        say(out, &format!("  {:<36} {:.2} mm", part.what, part.distance_mm))?;
     }
+    if report.merged + report.added > 0 {
+        say(out, &format!("via points: {} fell together, {} put in", report.merged, report.added))?;
+    }
+    for [network, tendon] in &report.lost_tendons {
+        say(out, &format!("networks[{network}].tendons[{tendon}] is too short for this mesh; it has one edge now"))?;
+    }
+    Ok(())
 }
 
 fn parse_length(text: &str) -> Result<f64, String> {

@@ -9,7 +9,7 @@ use super::{
     Pin, Pose, Target, TendonSettings, validate,
 };
 use crate::mesh::MeshError;
-use crate::outline::Point;
+use crate::outline::{Drawing, Point};
 use thiserror::Error;
 
 /// Why a change was refused.
@@ -209,6 +209,10 @@ pub fn set_gravity(design: &mut Design, gravity: Option<Gravity>) -> Result<(), 
 
 pub fn set_texture(design: &mut Design, texture: Option<String>) -> Result<(), EditError> {
     set(design, |d| std::mem::replace(&mut d.texture, texture), |d, old| d.texture = old)
+}
+
+pub fn set_drawing(design: &mut Design, drawing: Option<Drawing>) -> Result<(), EditError> {
+    set(design, |d| std::mem::replace(&mut d.drawing, drawing), |d, old| d.drawing = old)
 }
 
 pub fn set_stiffness_map(design: &mut Design, map: Option<Vec<f64>>) -> Result<(), EditError> {

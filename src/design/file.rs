@@ -90,6 +90,7 @@ pub fn to_text(design: &Design) -> Result<String, ron::Error> {
         keyframes,
         fabrication,
         controller,
+        drawing,
         texture,
         gravity,
         stiffness_map,
@@ -113,6 +114,9 @@ pub fn to_text(design: &Design) -> Result<String, ron::Error> {
     field(out, "poses", poses, 3)?;
     field(out, "networks", networks, 3)?;
     field(out, "keyframes", keyframes, 1)?;
+    if drawing.is_some() {
+        field(out, "drawing", drawing, 3)?;
+    }
     field(out, "outline", outline, 3)?;
     field(out, "mesh", mesh, 2)?;
     if stiffness_map.is_some() {

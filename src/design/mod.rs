@@ -12,6 +12,7 @@ pub mod file;
 pub mod history;
 mod problem;
 pub mod remesh;
+pub mod reshape;
 mod settings;
 #[cfg(test)]
 pub(crate) mod testing;
@@ -28,7 +29,7 @@ pub use settings::{
 
 use crate::defaults;
 use crate::mesh::{BodyPoint, Mesh};
-use crate::outline::{Outline, Point};
+use crate::outline::{Drawing, Outline, Point};
 use serde::{Deserialize, Serialize};
 
 /// A plushie: body, actuation, poses, animation, and how it is made. Stored as RON in `*.plush` files.
@@ -58,6 +59,9 @@ pub struct Design {
     pub fabrication: FabricationSettings,
     #[serde(default)]
     pub controller: ControllerSettings,
+    /// The parts that the outline was, or will be, drawn from; in its coordinates.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub drawing: Option<Drawing>,
     /// Picture stretched over the rest silhouette's box, a path relative to the design file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub texture: Option<String>,
@@ -173,6 +177,7 @@ impl Design {
             keyframes: Vec::new(),
             fabrication: FabricationSettings::default(),
             controller: ControllerSettings::default(),
+            drawing: None,
             texture: None,
             gravity: None,
             stiffness_map: None,

@@ -48,6 +48,8 @@ pub enum Problem {
     NotAscending { time: f64, before: f64 },
     #[error("is empty")]
     Empty,
+    #[error("{0}")]
+    Drawing(&'static str),
     #[error("there is another {what} named {name:?}")]
     Duplicate { what: &'static str, name: String },
     #[error("there is no pose named {0:?}")]

@@ -127,6 +127,9 @@ pub(super) fn settings(design: &Design) -> Check {
             positive(&format!("stiffness_map[{i}]"), factor)?;
         }
     }
+    if let Some(drawing) = &design.drawing {
+        drawing.check().or_else(|(at, why)| fail(format!("drawing.{at}"), Problem::Drawing(why)))?;
+    }
     match &design.texture {
         Some(path) if path.is_empty() => fail("texture", Problem::Empty),
         _ => Ok(()),

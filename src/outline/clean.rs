@@ -81,7 +81,7 @@ pub(super) fn clean(painting: Painting, import: &Import) -> Result<Imported, Out
     changes.unasked += regions::unlike(&reference, &shapes) / area;
     let outline = outline(shapes, import.height_mm)?;
     changes.outline_mm2 = outline.area();
-    Ok(Imported { outline, changes, mesh: None })
+    Ok(Imported { outline, changes, mesh: None, drawing: None })
 }
 
 /// Drops the smallest islands and fills the smallest holes.

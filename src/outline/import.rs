@@ -1,7 +1,7 @@
 //! From the bytes of a file to one clean outline.
 
 use super::changes::Changes;
-use super::{Outline, OutlineError, Painting, Point, clean, dxf, obj, picture, svg};
+use super::{Drawing, Outline, OutlineError, Painting, Point, clean, drawing, dxf, obj, picture, svg};
 use std::io::Read;
 use std::ops::RangeInclusive;
 use std::path::Path;
@@ -12,7 +12,7 @@ pub const MAX_FILE_BYTES: usize = 48 << 20;
 const SMALL_MM: f64 = 60.0;
 
 /// How files with outlines are called; what they are is told by their first bytes.
-pub const EXTENSIONS: [&str; 6] = ["svg", "png", "jpg", "jpeg", "dxf", "obj"];
+pub const EXTENSIONS: [&str; 7] = ["svg", "png", "jpg", "jpeg", "dxf", "obj", "ron"];
 /// Sizes that a plushie can have, mm. Others are slips, and their squares and cubes would lose digits.
 const SIZES_MM: RangeInclusive<f64> = 1e-2..=1e6;
 
@@ -66,6 +66,8 @@ pub struct Imported {
     pub changes: Changes,
     /// The triangles of a file that brings its own mesh, mm, counter-clockwise.
     pub mesh: Option<(Vec<Point>, Vec<[usize; 3]>)>,
+    /// The parts that it was drawn from, in the coordinates of `outline`.
+    pub drawing: Option<Drawing>,
 }
 
 /// The kinds of file that can be read.
@@ -76,6 +78,8 @@ pub enum Format {
     Picture,
     Dxf,
     Obj,
+    /// Parts, as text.
+    Drawing,
 }
 
 impl Format {
@@ -94,6 +98,8 @@ impl Format {
             .starts_with(b"<")
         {
             Some(Self::Svg)
+        } else if drawing::is_drawing(head) {
+            Some(Self::Drawing)
         } else if obj::is_obj(head) {
             Some(Self::Obj)
         } else {
@@ -116,6 +122,7 @@ pub fn import(bytes: &[u8], import: &Import) -> Result<Imported, OutlineError> {
         Format::Picture => picture::painting(bytes, import)?,
         Format::Dxf => dxf::painting(bytes, import)?,
         Format::Obj => return obj::read(bytes, import),
+        Format::Drawing => return Drawing::read(bytes)?.import(import),
     };
     finish(painting, import)
 }

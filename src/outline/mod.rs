@@ -1,10 +1,11 @@
 //! A silhouette as polygons: reading, clean-up, measures.
 //!
-//! A reader turns a file into painted areas (SVG, PNG and JPEG, DXF, OBJ); the clean-up makes one outline of them and says what it
+//! A reader turns a file into painted areas (SVG, PNG and JPEG, DXF, OBJ, drawings); the clean-up makes one outline of them and says what it
 //! changed. [`import`] does both.
 
 mod changes;
 mod clean;
+pub mod drawing;
 mod dxf;
 mod grid;
 mod import;
@@ -19,6 +20,7 @@ mod thin;
 mod trace;
 
 pub use changes::{Change, Changes, What};
+pub use drawing::Drawing;
 pub use import::{
     Background, EXTENSIONS, Format, Holes, Import, Imported, MAX_FILE_BYTES, Pieces, import, import_file,
 };
@@ -47,7 +49,7 @@ pub struct Outline {
 pub enum OutlineError {
     #[error("{0}")]
     Unopened(String),
-    #[error("neither an SVG, PNG, JPEG, DXF nor OBJ file")]
+    #[error("neither an SVG, PNG, JPEG, DXF, OBJ nor drawing file")]
     UnknownFormat,
     #[error("not a readable {format}: {reason}")]
     Unreadable { format: &'static str, reason: String },

@@ -1,9 +1,10 @@
 //! What panels and viewports ask for. They borrow the session, read only, and return these; the session alone acts.
 
 use super::change::Change;
-use super::files::PathDialog;
+use super::files::{ImportChoice, PathDialog};
 use super::meshing::Resolution;
 use super::session::{Selection, Tool};
+use super::sketching::Sketch;
 use super::viewport::Plushie;
 use super::viewport::camera::Camera;
 use crate::discovery::Parameters;
@@ -68,6 +69,8 @@ pub enum Action {
     ShowStage(Stage),
     Accept(usize),
     Reject(usize),
+    /// Of the outline.
+    Sketch(Sketch),
     File(FileAction),
     DismissMessage(u64),
 }
@@ -85,6 +88,8 @@ pub enum FileAction {
     /// Asks where.
     Open,
     Import,
+    /// An empty sheet.
+    NewDrawing,
     SaveAs,
     Export,
     /// To where it came from, or asks.
@@ -93,8 +98,7 @@ pub enum FileAction {
     OpenExample(usize),
     ImportPath {
         path: PathBuf,
-        height_mm: f64,
-        fibers: usize,
+        choice: ImportChoice,
     },
     SavePath(PathBuf),
     ExportPath(PathBuf),

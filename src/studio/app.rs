@@ -5,7 +5,7 @@ use super::files::desktop_has_dialogs;
 use super::pacing::Pacing;
 use super::panels::{self, Tab};
 use super::session::{Services, Session};
-use super::{shortcuts, style, viewport};
+use super::{paper, shortcuts, style, viewport};
 use crate::design::Design;
 use crate::picture::palette::{Palette, Theme};
 use eframe::egui::{self, CentralPanel, Frame, Margin, Panel, ViewportCommand};
@@ -17,6 +17,7 @@ pub struct Studio {
     session: Session,
     panels: panels::State,
     views: viewport::State,
+    paper: paper::State,
     pacing: Pacing,
     title: String,
 }
@@ -32,6 +33,7 @@ impl Studio {
             session,
             panels: panels::State::default(),
             views: viewport::State::default(),
+            paper: paper::State::default(),
             pacing: Pacing::default(),
             title: String::new(),
         }
@@ -94,6 +96,14 @@ impl Studio {
             .show(ui, |ui| {
                 panels::status::show(ui, session);
             });
+        if session.sketching().open {
+            let outline = Panel::right("outline").frame(panels::frame()).default_size(288.0).size_range(288.0..=420.0);
+            outline.show(ui, |ui| panels::outline::show(ui, session, &mut self.paper, actions));
+            CentralPanel::no_frame().show(ui, |ui| paper::show(ui, session, &mut self.paper, actions));
+            panels::messages::show(ui.ctx(), session, status.response.rect.height(), actions);
+            panels::dialogs::show(ui.ctx(), session, actions);
+            return;
+        }
         let timeline =
             Panel::bottom("timeline").frame(bar).default_size(132.0).size_range(96.0..=320.0).resizable(true);
         let timeline = timeline.show(ui, |ui| {

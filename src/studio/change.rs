@@ -6,7 +6,7 @@ use crate::design::{
     Target, TendonSettings,
 };
 use crate::mesh::BodyPoint;
-use crate::outline::Point;
+use crate::outline::{Drawing, Point};
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Change {
@@ -52,6 +52,11 @@ pub enum Change {
     Tendons(TendonSettings),
     Fabrication(FabricationSettings),
     Controller(ControllerSettings),
+    /// Another drawing of the outline, and what was done to it.
+    Draw {
+        what: &'static str,
+        drawing: Drawing,
+    },
 }
 
 /// What a change brought about and should be picked out now.
@@ -92,6 +97,7 @@ impl Change {
             Self::Tendons(_) => "Tendon settings",
             Self::Fabrication(_) => "Fabrication settings",
             Self::Controller(_) => "Controller settings",
+            Self::Draw { what, .. } => what,
         }
     }
 
@@ -143,6 +149,7 @@ impl Change {
             Self::Tendons(tendons) => nothing(edit::set_tendons(design, tendons)?),
             Self::Fabrication(fabrication) => nothing(edit::set_fabrication(design, fabrication)?),
             Self::Controller(controller) => nothing(edit::set_controller(design, controller)?),
+            Self::Draw { drawing, .. } => nothing(edit::set_drawing(design, Some(drawing))?),
         })
     }
 }

@@ -6,9 +6,11 @@
 use super::action::FileAction;
 use super::jobs::Report;
 use super::session::Session;
+use super::sketching::{self, Pencil, Sketch};
 use crate::defaults;
 use crate::design::{Design, bundled, file};
-use crate::{mesh, outline};
+use crate::mesh::{self, Request};
+use crate::outline::{self, Changes, Holes, Import, Pieces};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -34,10 +36,18 @@ pub enum Dialog {
 pub struct PathDialog {
     pub purpose: Purpose,
     pub path: String,
-    /// Of an imported outline, mm.
+    pub import: ImportChoice,
+}
+
+/// How an outline is read and meshed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ImportChoice {
+    /// mm.
     pub height_mm: f64,
-    /// Of an imported outline.
     pub fibers: usize,
+    /// Of several pieces; otherwise they are refused.
+    pub largest_piece: bool,
+    pub fill_holes: bool,
 }
 
 #[derive(Default)]
@@ -81,7 +91,7 @@ impl PathDialog {
         let path = PathBuf::from(self.path.trim());
         match self.purpose {
             Purpose::Open => FileAction::OpenPath(path),
-            Purpose::Import => FileAction::ImportPath { path, height_mm: self.height_mm, fibers: self.fibers },
+            Purpose::Import => FileAction::ImportPath { path, choice: self.import.clone() },
             Purpose::SaveAs => FileAction::SavePath(path),
             Purpose::Export => FileAction::ExportPath(path),
         }
@@ -103,6 +113,7 @@ impl Session {
             action,
             FileAction::Open
                 | FileAction::Import
+                | FileAction::NewDrawing
                 | FileAction::OpenPath(_)
                 | FileAction::OpenExample(_)
                 | FileAction::ImportPath { .. }
@@ -120,6 +131,11 @@ impl Session {
         match action {
             FileAction::Open => self.ask_path(Purpose::Open),
             FileAction::Import => self.show_path_dialog(Purpose::Import),
+            FileAction::NewDrawing => {
+                self.open(sketching::sheet(), None);
+                self.sketch(Sketch::Open(true));
+                self.sketch(Sketch::Take(Pencil::Sketch));
+            }
             FileAction::SaveAs => self.ask_path(Purpose::SaveAs),
             FileAction::Export if self.design().networks.is_empty() => {
                 self.messages.warning("There is nothing to export yet: propose and accept a network first.");
@@ -131,7 +147,7 @@ impl Session {
             },
             FileAction::OpenPath(path) => self.open_path(path),
             FileAction::OpenExample(index) => self.open_example(index),
-            FileAction::ImportPath { path, height_mm, fibers } => self.import(path, height_mm, fibers),
+            FileAction::ImportPath { path, choice } => self.import(path, choice),
             FileAction::SavePath(path) => self.save(path),
             FileAction::ExportPath(folder) => self.export(folder),
             FileAction::CloseDialog => {
@@ -186,8 +202,12 @@ impl Session {
             Report::Imported(result) => {
                 self.files.working = None;
                 match result {
-                    Ok(design) => {
-                        self.open(*design, None);
+                    Ok(imported) => {
+                        let (design, changes) = *imported;
+                        self.open(design, None);
+                        for line in changes.lines() {
+                            self.messages.info(line);
+                        }
                         // It is nowhere but here.
                         self.history.mark_unsaved();
                     }
@@ -219,8 +239,12 @@ impl Session {
         self.files.dialog = Some(Dialog::Path(PathDialog {
             purpose,
             path: path.to_string_lossy().into_owned(),
-            height_mm: defaults::HEIGHT_MM,
-            fibers: defaults::FIBERS,
+            import: ImportChoice {
+                height_mm: defaults::HEIGHT_MM,
+                fibers: defaults::FIBERS,
+                largest_piece: false,
+                fill_holes: false,
+            },
         }));
     }
 
@@ -270,11 +294,11 @@ impl Session {
         }
     }
 
-    fn import(&mut self, path: PathBuf, height_mm: f64, fibers: usize) {
+    fn import(&mut self, path: PathBuf, choice: ImportChoice) {
         self.files.dialog = None;
         self.files.working = Some("Meshing the outline");
         self.jobs.start("Import", move || {
-            let design = read_outline(&path, height_mm, fibers);
+            let design = read_outline(&path, &choice);
             Report::Imported(design.map(Box::new).map_err(|why| format!("{}: {why}", path.display())))
         });
     }
@@ -326,10 +350,21 @@ fn plain(name: &str) -> String {
     if name.is_empty() { "plushie".to_owned() } else { name.to_lowercase() }
 }
 
-fn read_outline(path: &Path, height_mm: f64, fibers: usize) -> Result<Design, String> {
-    let import = outline::Import { height_mm: Some(height_mm), ..outline::Import::default() };
-    let outline = outline::import_file(path, &import).map_err(|e| e.to_string())?.outline;
-    let mesh = mesh::generate(&outline, fibers).map_err(|e| e.to_string())?;
+fn read_outline(path: &Path, choice: &ImportChoice) -> Result<(Design, Changes), String> {
+    let import = Import {
+        height_mm: Some(choice.height_mm),
+        pieces: if choice.largest_piece { Pieces::Largest } else { Pieces::Refuse },
+        holes: if choice.fill_holes { Holes::Fill } else { Holes::Keep },
+        ..Import::default()
+    };
+    let mut imported = outline::import_file(path, &import).map_err(|e| e.to_string())?;
+    let fibers = choice.fibers;
+    let meshed = mesh::build_or_finer(&imported.outline, &Request::fibers(fibers)).map_err(|e| e.to_string())?;
+    let (meshed, count) = meshed;
+    if count != fibers {
+        imported.changes.notes.push(format!("the outline needs more than {fibers} fibres; it has {count}"));
+    }
     let name = path.file_stem().map_or_else(|| "plushie".to_owned(), |s| s.to_string_lossy().into_owned());
-    Ok(Design::new(name, outline, mesh))
+    let design = Design { drawing: imported.drawing, ..Design::new(name, imported.outline, meshed.mesh) };
+    Ok((design, imported.changes))
 }

@@ -1,8 +1,10 @@
 //! Work that takes too long for a frame, each on a thread that reports back once.
 
+use crate::design::reshape::Body;
 use crate::design::{Design, FiberSet};
 use crate::engine::Proposal;
 use crate::mesh::Mesh;
+use crate::outline::Changes;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -21,9 +23,10 @@ pub enum Report {
     },
     Meshed {
         serial: u64,
-        body: Result<Box<(Mesh, FiberSet)>, String>,
+        made: Result<Box<Made>, String>,
     },
-    Imported(Result<Box<Design>, String>),
+    /// With what was changed to get a clean outline.
+    Imported(Result<Box<(Design, Changes)>, String>),
     Exported {
         folder: PathBuf,
         result: Result<(), String>,
@@ -33,6 +36,14 @@ pub enum Report {
         job: &'static str,
         why: String,
     },
+}
+
+/// What was meshed.
+pub enum Made {
+    /// Another resolution.
+    Mesh(Mesh, FiberSet),
+    /// Another silhouette, and what was changed to get it.
+    Body(Body, Changes),
 }
 
 pub type Wake = Arc<dyn Fn() + Send + Sync>;

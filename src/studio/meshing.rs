@@ -1,10 +1,10 @@
 //! Another resolution under the plushie, worked out on a thread of its own; and what a new mesh makes stale.
 
-use super::jobs::Report;
+use super::jobs::{Made, Report};
 use super::session::{Session, Shapes};
 use crate::design::edit::EditError;
-use crate::design::{FiberSet, remesh};
-use crate::mesh::{Mesh, Request, Size};
+use crate::design::remesh;
+use crate::mesh::{Request, Size};
 use std::time::Instant;
 
 /// Largest `finer`.
@@ -48,14 +48,20 @@ impl Session {
             return;
         }
         let Resolution { fibers, finer } = self.resolution();
-        self.meshing.running = Some(Instant::now());
-        self.meshing.serial += 1;
-        let (serial, outline) = (self.meshing.serial, self.design().outline.clone());
+        let (serial, outline) = (self.begin_meshing(), self.design().outline.clone());
         self.jobs.start("Meshing", move || {
             let request = Request { size: Size::Fibers(fibers), tracks: Vec::new(), mirror: true };
-            let body = remesh::body(&outline, &request, finer).map(Box::new).map_err(|e| e.to_string());
-            Report::Meshed { serial, body }
+            let body = remesh::body(&outline, &request, finer);
+            let made = body.map(|(mesh, set)| Box::new(Made::Mesh(mesh, set))).map_err(|e| e.to_string());
+            Report::Meshed { serial, made }
         });
+    }
+
+    /// The number under which the run reports.
+    pub(super) fn begin_meshing(&mut self) -> u64 {
+        self.meshing.running = Some(Instant::now());
+        self.meshing.serial += 1;
+        self.meshing.serial
     }
 
     pub(super) fn cancel_remesh(&mut self) {
@@ -65,13 +71,14 @@ impl Session {
     }
 
     /// Puts the mesh under the design as it is by now: what was changed meanwhile stays.
-    pub(super) fn take_mesh(&mut self, serial: u64, body: Result<Box<(Mesh, FiberSet)>, String>) {
+    pub(super) fn take_mesh(&mut self, serial: u64, made: Result<Box<Made>, String>) {
         if serial != self.meshing.serial || self.meshing.running.take().is_none() {
             return;
         }
-        let (mesh, set) = match body {
-            Ok(body) => *body,
-            Err(why) => return self.messages.error(format!("Remesh: {why}")),
+        let (mesh, set) = match made.map(|made| *made) {
+            Ok(Made::Mesh(mesh, set)) => (mesh, set),
+            Ok(Made::Body(body, changes)) => return self.take_body(body, &changes),
+            Err(why) => return self.messages.error(format!("Meshing: {why}")),
         };
         let carried = self.history.edit("Remesh", |design| Ok::<_, EditError>(remesh::carry(design, mesh, set)));
         let report = match carried {
@@ -79,6 +86,10 @@ impl Session {
             Err(error) => return self.messages.error(format!("Remesh: {error}")),
         };
         self.meshing.wanted = None;
+        self.tell_carried(&report);
+    }
+
+    pub(super) fn tell_carried(&mut self, report: &remesh::Report) {
         let [before, after] = report.fibers;
         let farthest = report.farthest_mm();
         let text =

@@ -3,6 +3,7 @@
 //! - [`app`] holds the state and updates it once a frame;
 //! - [`panels`] and [`viewport`] borrow the [`session`], read only, and return [`action`]s;
 //! - the session alone acts on them; it changes the document only by a [`change`], through the undo history;
+//! - [`paper`] is the sheet on which the outline is drawn;
 //! - [`viewport::renderer`] draws a neutral scene and knows nothing of the rest.
 //!
 //! Whatever takes long runs on a thread: the solver on its worker, the rest as [`jobs`].
@@ -21,10 +22,12 @@ pub mod meshing;
 pub mod messages;
 mod pacing;
 pub mod panels;
+pub mod paper;
 mod playing;
 mod reading;
 pub mod session;
 mod shortcuts;
+pub mod sketching;
 pub mod style;
 pub mod viewport;
 

@@ -63,8 +63,11 @@ impl Session {
         self.drag.is_some()
     }
 
-    /// Whether the shapes answer the newest question.
+    /// Whether the shapes answer the newest question; while the outline is drawn none is asked.
     pub fn is_settled(&self) -> bool {
+        if self.sketching.open {
+            return true;
+        }
         let resting = !self.worker.is_busy();
         resting && self.asked.as_ref().is_some_and(|asked| self.answered_id == Some(asked.id))
     }

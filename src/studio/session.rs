@@ -6,6 +6,7 @@ use super::files::Files;
 use super::jobs::{Jobs, Report, Wake};
 use super::meshing::Meshing;
 use super::messages::Messages;
+use super::sketching::{Sketch, Sketching};
 use super::viewport::Plushie;
 use super::viewport::camera::Camera;
 use crate::design::history::History;
@@ -144,6 +145,7 @@ pub struct Session {
     pub(super) quality: Quality,
     pub(super) discovery: Discovery,
     pub(super) meshing: Meshing,
+    pub(super) sketching: Sketching,
     /// The design whose mesh the shapes and proposals belong to.
     pub(super) meshed: Arc<Design>,
     pub(super) shapes: Shapes,
@@ -185,6 +187,7 @@ impl Session {
                 serial: 0,
             },
             meshing: Meshing::default(),
+            sketching: Sketching::default(),
             meshed: Arc::new(design.clone()),
             shapes: Shapes::default(),
             messages: Messages::default(),
@@ -206,6 +209,7 @@ impl Session {
         self.cancel_propose();
         self.cancel_remesh();
         self.meshing.wanted = None;
+        self.sketching = Sketching::default();
         self.pose = first_pose(&design);
         self.history = History::new(design);
         self.path = path;
@@ -265,6 +269,7 @@ impl Session {
             Action::ShowStage(stage) => self.discovery.stage = stage,
             Action::Accept(index) => self.accept(index),
             Action::Reject(index) => self.reject(index),
+            Action::Sketch(sketch) => self.sketch(sketch),
             Action::File(action) => self.file(action),
             Action::DismissMessage(id) => self.messages.dismiss(id),
         }
@@ -290,7 +295,10 @@ impl Session {
             self.key_pose();
         }
         self.clamp();
-        self.ask();
+        // Nobody sees the plushies while the outline is drawn.
+        if !self.sketching.open {
+            self.ask();
+        }
     }
 
     pub(super) fn change(&mut self, change: Change) {
@@ -340,6 +348,7 @@ impl Session {
     /// After any change of the document: nothing may point beyond it.
     pub(super) fn clamp(&mut self) {
         self.follow_mesh();
+        self.clamp_sketch();
         let design = self.history.current();
         if self.pose.is_some_and(|pose| pose >= design.poses.len()) {
             self.pose = design.poses.len().checked_sub(1);
@@ -367,6 +376,9 @@ impl Session {
     }
 
     fn delete_selected(&mut self) {
+        if self.sketching.open {
+            return self.delete_drawn();
+        }
         match (self.selection, self.pose) {
             (Selection::Target(index), Some(pose)) => self.change(Change::RemoveTarget { pose, index }),
             (Selection::Pin(index), _) => self.change(Change::RemovePin(index)),
@@ -382,6 +394,8 @@ impl Session {
             self.history.cancel();
         } else if self.files.dialog.is_some() {
             self.file(FileAction::CloseDialog);
+        } else if self.sketching.open {
+            self.sketch(Sketch::Select(None, None));
         } else if self.mode == Mode::Animation {
             self.playback.playing = false;
             self.mode = Mode::Pose;
@@ -407,7 +421,7 @@ impl Session {
                 self.discovery.shown = if self.discovery.proposals.is_empty() { None } else { Some(0) };
                 self.discovery.stage = Stage::Result;
             }
-            Report::Meshed { serial, body } => self.take_mesh(serial, body),
+            Report::Meshed { serial, made } => self.take_mesh(serial, made),
             Report::Broken { job, why } => {
                 self.discovery.running = None;
                 self.cancel_remesh();

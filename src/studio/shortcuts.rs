@@ -3,7 +3,9 @@
 use super::action::{Action, FileAction};
 use super::panels::{self, poses, quality};
 use super::session::{Session, Tool};
+use super::sketching::{Pencil, Sketch};
 use super::viewport::Plushie;
+use crate::outline::drawing::Primitive;
 use crate::picture::palette::Theme;
 use eframe::egui::{Context, Key, KeyboardShortcut, Modifiers, Popup};
 
@@ -20,6 +22,7 @@ pub fn collect(ctx: &Context, session: &Session, panels: &mut panels::State, typ
     // The longer ones first: a shortcut also matches with more modifiers held.
     for (modifiers, key, action) in [
         (both, Key::S, Action::File(FileAction::SaveAs)),
+        (both, Key::O, Action::File(FileAction::NewDrawing)),
         (command, Key::S, Action::File(FileAction::Save)),
         (command, Key::O, Action::File(FileAction::Open)),
         (command, Key::E, Action::File(FileAction::Export)),
@@ -45,7 +48,49 @@ pub fn collect(ctx: &Context, session: &Session, panels: &mut panels::State, typ
     if let Some(pose) = session.pose.filter(|_| pressed(command, Key::D)) {
         actions.push(Action::Change(super::change::Change::DuplicatePose(pose)));
     }
-    plain_keys(ctx, session, panels, actions);
+    if session.sketching().open {
+        sketch_keys(ctx, session, actions);
+    } else {
+        plain_keys(ctx, session, panels, actions);
+    }
+}
+
+/// Single keys while the outline is drawn. Those that end a line, Enter and Escape, are the sheet's own while there is one.
+fn sketch_keys(ctx: &Context, session: &Session, actions: &mut Vec<Action>) {
+    let pressed = |key| ctx.input_mut(|i| i.modifiers.is_none() && i.consume_key(Modifiers::NONE, key));
+    let sketching = session.sketching();
+    for (key, action) in [
+        (Key::Delete, Action::DeleteSelected),
+        (Key::Backspace, Action::DeleteSelected),
+        (Key::V, Action::Sketch(Sketch::Take(Pencil::Select))),
+        (Key::S, Action::Sketch(Sketch::Take(Pencil::Sketch))),
+        (Key::P, Action::Sketch(Sketch::Take(Pencil::Polygon))),
+        (Key::C, Action::Sketch(Sketch::Take(Pencil::Circle))),
+        (Key::L, Action::Sketch(Sketch::Take(Pencil::Capsule))),
+        (Key::X, Action::Sketch(Sketch::Cut(!sketching.cut))),
+        (Key::F, Action::Sketch(Sketch::Camera(None))),
+        (Key::O, Action::Sketch(Sketch::Open(false))),
+    ] {
+        if pressed(key) {
+            actions.push(action);
+        }
+    }
+    if let (Some(part), Some(point)) = (sketching.part, sketching.point)
+        && pressed(Key::K)
+    {
+        actions.extend(sharpened(session, part, point));
+    }
+}
+
+/// The point of a path made a corner, or round again.
+fn sharpened(session: &Session, part: usize, point: usize) -> Option<Action> {
+    let mut drawing = session.drawing().clone();
+    let primitive = &mut drawing.parts.get_mut(part)?.primitive;
+    let Primitive::Path { points } = &*primitive else { return None };
+    let corner = !points.get(point)?.corner;
+    *primitive = primitive.with_corner(point, corner);
+    let what = if corner { "Sharpen point" } else { "Round point" };
+    Some(Action::Change(super::change::Change::Draw { what, drawing }))
 }
 
 /// Single keys, while nothing is typed.
@@ -59,6 +104,7 @@ fn plain_keys(ctx: &Context, session: &Session, panels: &mut panels::State, acti
     let space = if session.playback.playing { Action::Pause } else { Action::Play };
     for (key, action) in [
         (Key::Delete, Action::DeleteSelected),
+        (Key::O, Action::Sketch(Sketch::Open(true))),
         (Key::V, Action::SetTool(Tool::Drag)),
         (Key::P, Action::SetTool(Tool::Pin)),
         (Key::F, Action::Fit),

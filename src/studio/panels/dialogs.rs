@@ -47,7 +47,7 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, actions: &mut Actio
         let width = ui.available_width() - if session.files.native_dialogs { 84.0 } else { 0.0 };
         let hint = match dialog.purpose {
             Purpose::Open | Purpose::SaveAs => "Path of a .plush file",
-            Purpose::Import => "Path of an SVG, PNG, JPEG, DXF or OBJ file",
+            Purpose::Import => "Path of an SVG, PNG, JPEG, DXF, OBJ or drawing (RON) file",
             Purpose::Export => "Path of a new folder",
         };
         let field = ui.add(TextEdit::singleline(&mut edited.path).hint_text(hint).desired_width(width));
@@ -95,9 +95,17 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, actions: &mut Actio
 fn import_settings(ui: &mut Ui, edited: &mut PathDialog) {
     ui.horizontal(|ui| {
         let label = ui.label("Height");
-        ui.add(DragValue::new(&mut edited.height_mm).range(10.0..=5000.0).suffix(" mm")).labelled_by(label.id);
+        let import = &mut edited.import;
+        ui.add(DragValue::new(&mut import.height_mm).range(10.0..=5000.0).suffix(" mm")).labelled_by(label.id);
         ui.add_space(12.0);
         let label = ui.label("Muscle fibres");
-        ui.add(DragValue::new(&mut edited.fibers).range(20..=20_000)).labelled_by(label.id);
+        ui.add(DragValue::new(&mut import.fibers).range(20..=20_000)).labelled_by(label.id);
+    });
+    ui.horizontal(|ui| {
+        let import = &mut edited.import;
+        ui.checkbox(&mut import.largest_piece, "Largest piece only")
+            .on_hover_text("Of a drawing in several pieces, which is refused otherwise");
+        ui.add_space(12.0);
+        ui.checkbox(&mut import.fill_holes, "Fill holes").on_hover_text("Make a solid body of it");
     });
 }

@@ -5,6 +5,7 @@ pub mod discovery;
 pub mod mesh;
 pub mod messages;
 pub mod networks;
+pub mod outline;
 pub mod poses;
 pub mod quality;
 pub mod settings;

@@ -6,6 +6,7 @@ use crate::picture::palette::Theme;
 use crate::studio::action::{Action, FileAction};
 use crate::studio::icons::{self, Icon};
 use crate::studio::session::{Session, Tool};
+use crate::studio::sketching::Sketch;
 use crate::studio::viewport::Plushie;
 use eframe::egui::{Align, Button, Layout, RichText, Ui, menu};
 
@@ -50,6 +51,7 @@ fn gap(ui: &mut Ui) {
 fn file_menu(ui: &mut Ui, actions: &mut Actions) {
     let entries = [
         ("New from outline…", "Ctrl+N", FileAction::Import),
+        ("New drawing", "Ctrl+Shift+O", FileAction::NewDrawing),
         ("Open…", "Ctrl+O", FileAction::Open),
         ("Save", "Ctrl+S", FileAction::Save),
         ("Save as…", "Ctrl+Shift+S", FileAction::SaveAs),
@@ -107,6 +109,11 @@ fn tools(ui: &mut Ui, session: &Session, actions: &mut Actions) {
         if icons::toggle(ui, icon, name, tip, session.tool == tool).clicked() {
             actions.push(Action::SetTool(tool));
         }
+    }
+    let open = session.sketching().open;
+    let tip = "Draw the outline, change its points, build it from parts (O)";
+    if icons::toggle(ui, Icon::Pen, "Edit outline", tip, open).clicked() {
+        actions.push(Action::Sketch(Sketch::Open(!open)));
     }
 }
 

@@ -1,0 +1,35 @@
+//! `drawing`: the parts that a design's outline is drawn from, as text to be edited.
+
+use super::document;
+use super::error::CommandError;
+use super::output::{say, write_file};
+use crate::outline::Drawing;
+use clap::Args;
+use std::io::Write;
+use std::path::PathBuf;
+use std::sync::atomic::AtomicBool;
+
+/// Print the drawing of a design's outline: circles, capsules and paths, to be edited and given to `reshape` or `new`
+///
+/// A design that was not drawn from parts gets a drawing of its outline, with few points.
+#[derive(Debug, Args)]
+#[command(after_help = "Example: plushwright drawing pig.plush -o pig.ron")]
+pub struct DrawingCommand {
+    /// Design file to read
+    pub design: PathBuf,
+    /// File to write [default: standard output]
+    #[arg(short, long, value_name = "DRAWING")]
+    pub output: Option<PathBuf>,
+}
+
+impl DrawingCommand {
+    pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
+        let design = document::load(&self.design)?;
+        let drawing = design.drawing.unwrap_or_else(|| Drawing::of(&design.outline));
+        let text = drawing.to_text().map_err(|e| CommandError::Failed(e.to_string()))?;
+        match &self.output {
+            Some(path) => write_file(path, text.as_bytes(), cancel),
+            None => say(out, text.trim_end()),
+        }
+    }
+}

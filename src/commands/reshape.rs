@@ -1,0 +1,84 @@
+//! `reshape`: another silhouette for a design that is already posed and rigged.
+
+use super::document;
+use super::error::CommandError;
+use super::new::Reading;
+use super::output::{say, say_json};
+use super::remesh;
+use crate::design::edit::EditError;
+use crate::design::history::History;
+use crate::design::remesh::Report;
+use crate::design::reshape::{Body, reshape};
+use crate::mesh::{Request, Size};
+use crate::outline::{self, Changes, Drawing};
+use clap::Args;
+use serde::Serialize;
+use std::io::Write;
+use std::path::PathBuf;
+use std::sync::atomic::AtomicBool;
+
+/// Give a design another silhouette; keep its pins, poses, networks and keyframes
+///
+/// A drawing (RON, see `drawing`) is in the design's own coordinates. Any other outline is laid with its lower left corner on
+/// that of the old one. Everything is carried over by where it lies at rest, and how far each part moved is reported.
+#[derive(Debug, Args)]
+#[command(after_help = "Example: plushwright reshape pig.plush pig.ron -o pig2.plush")]
+pub struct Reshape {
+    /// Design file to read
+    pub design: PathBuf,
+    /// Outline to read: any that `new` reads
+    pub outline: PathBuf,
+    /// Design file to write; may be the one read
+    #[arg(short, long, value_name = "DESIGN")]
+    pub output: PathBuf,
+    /// Muscle fibres (mesh edges) to aim for [default: as many as the design has]
+    #[arg(long, value_name = "N")]
+    pub fibers: Option<usize>,
+    /// Simulate on a mesh this many times finer than the fibres' own
+    #[arg(long, value_name = "K", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=16))]
+    pub finer: u16,
+    #[command(flatten)]
+    pub reading: Reading,
+    /// Print the report as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// What `reshape --json` prints.
+#[derive(Serialize)]
+struct Summary<'a> {
+    clean_up: &'a Changes,
+    #[serde(flatten)]
+    report: &'a Report,
+}
+
+impl Reshape {
+    pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
+        let mut history = History::new(document::load(&self.design)?);
+        let import = self.reading.import(self.reading.height);
+        let refuse = |reason: String| CommandError::input(&self.outline, reason);
+        let imported = outline::import_file(&self.outline, &import).map_err(|e| refuse(e.to_string()))?;
+        // Where a height is asked for the drawing's own coordinates do not count.
+        let own_place = imported.drawing.is_some() && import.height_mm.is_none();
+        let corner = if own_place { self.corner()? } else { [0.0; 2] };
+        let changes = imported.changes.clone();
+        let fibers = self.fibers.unwrap_or_else(|| history.current().fiber_routings().len());
+        let request = Request { size: Size::Fibers(fibers), tracks: Vec::new(), mirror: true };
+        let body = Body::new(imported, &request, usize::from(self.finer), corner).map_err(|e| refuse(e.to_string()))?;
+        let report = history
+            .edit("Reshape", |design| Ok::<_, EditError>(reshape(design, body)))
+            .map_err(|e| CommandError::input(&self.design, e))?;
+        document::save(&self.output, history.current(), cancel)?;
+        if self.json {
+            return say_json(out, &Summary { clean_up: &changes, report: &report });
+        }
+        remesh::print(&self.output, &report, out)?;
+        changes.lines().into_iter().try_for_each(|line| say(out, &format!("note: {line}")))
+    }
+
+    /// Where the corner of a drawing is in its own coordinates.
+    fn corner(&self) -> Result<[f64; 2], CommandError> {
+        let bytes = std::fs::read(&self.outline).map_err(|e| CommandError::input(&self.outline, e))?;
+        Ok(Drawing::read(&bytes).map_err(|e| CommandError::input(&self.outline, e))?.corner())
+    }
+}

@@ -1,0 +1,192 @@
+//! Drawing the outline: pencils, parts, the numbers of the part that is picked out, and the body that comes of it.
+
+use super::{Actions, heading, primary, wide};
+use crate::mesh::MAX_FIBERS;
+use crate::outline::drawing::Primitive;
+use crate::outline::{Drawing, Point};
+use crate::studio::action::Action;
+use crate::studio::change::Change;
+use crate::studio::icons::{self, Icon};
+use crate::studio::meshing::Resolution;
+use crate::studio::paper;
+use crate::studio::session::Session;
+use crate::studio::sketching::{Pencil, Sketch};
+use eframe::egui::{Align, Button, DragValue, Grid, Layout, RichText, ScrollArea, Spinner, Ui};
+
+/// Least radius, mm.
+const LEAST_MM: f64 = 0.5;
+
+pub const PENCILS: [(Pencil, &str, &str); 5] = [
+    (Pencil::Select, "Select", "Pick parts out, move them and their points (V)"),
+    (Pencil::Sketch, "Sketch", "Draw a line around with the mouse; it becomes a curve with few points (S)"),
+    (Pencil::Polygon, "Polygon", "Click the corners; Enter or a click on the first one closes it (P)"),
+    (Pencil::Circle, "Circle", "Drag from the middle (C)"),
+    (Pencil::Capsule, "Capsule", "A limb: drag from one end to the other (L)"),
+];
+
+pub fn show(ui: &mut Ui, session: &Session, state: &mut paper::State, actions: &mut Actions) {
+    let sketching = session.sketching();
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 2.0;
+        for (pencil, name, tip) in PENCILS {
+            if ui.selectable_label(sketching.pencil == pencil, name).on_hover_text(tip).clicked() {
+                actions.push(Action::Sketch(Sketch::Take(pencil)));
+            }
+        }
+    });
+    let mut cut = sketching.cut;
+    let tip = "New parts are cut out of what was drawn before, not joined to it (X)";
+    if ui.checkbox(&mut cut, "Cut out what is drawn").on_hover_text(tip).changed() {
+        actions.push(Action::Sketch(Sketch::Cut(cut)));
+    }
+    ui.separator();
+    heading(ui, "Parts");
+    let rest = 240.0_f32.min(0.45 * ui.available_height());
+    ScrollArea::vertical().auto_shrink([false, true]).max_height(rest).show(ui, |ui| parts(ui, session, actions));
+    ui.add_space(6.0);
+    if let Some(index) = sketching.part {
+        numbers(ui, session, index, actions);
+        ui.add_space(6.0);
+    }
+    heading(ui, "Body");
+    body(ui, session, state, actions);
+}
+
+fn parts(ui: &mut Ui, session: &Session, actions: &mut Actions) {
+    let drawing = session.drawing();
+    if drawing.parts.is_empty() {
+        ui.label(RichText::new("Nothing drawn yet").weak());
+    }
+    for (k, part) in drawing.parts.iter().enumerate() {
+        let name = format!("{} {}{}", k + 1, part.primitive.name(), if part.cut { ", cut out" } else { "" });
+        ui.horizontal(|ui| {
+            let selected = session.sketching().part == Some(k);
+            if ui.selectable_label(selected, &name).clicked() {
+                actions.push(Action::Sketch(Sketch::Select(Some(k), None)));
+            }
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                let remove = format!("Delete part {}", k + 1);
+                if icons::small_button(ui, Icon::Trash, &remove, "Delete this part (Delete)").clicked() {
+                    let mut drawing = drawing.clone();
+                    drawing.parts.remove(k);
+                    actions.push(Action::Change(Change::Draw { what: "Delete part", drawing }));
+                }
+            });
+        });
+    }
+}
+
+/// Everything about a part as numbers.
+fn numbers(ui: &mut Ui, session: &Session, index: usize, actions: &mut Actions) {
+    let Some(part) = session.drawing().parts.get(index) else { return };
+    let mut changed = part.clone();
+    heading(ui, &format!("Part {}", index + 1));
+    let place = |ui: &mut Ui, name: &str, p: &mut Point| {
+        let label = ui.label(name);
+        ui.horizontal(|ui| {
+            for value in p {
+                ui.add(DragValue::new(value).speed(0.5).max_decimals(1).suffix(" mm")).labelled_by(label.id);
+            }
+        });
+        ui.end_row();
+    };
+    let radius = |ui: &mut Ui, name: &str, r: &mut f64| {
+        let label = ui.label(name);
+        let drag = DragValue::new(r).speed(0.5).max_decimals(1).range(LEAST_MM..=1e6).suffix(" mm");
+        ui.add(drag).labelled_by(label.id);
+        ui.end_row();
+    };
+    Grid::new("part").num_columns(2).spacing([8.0, 4.0]).show(ui, |ui| match &mut changed.primitive {
+        Primitive::Circle { center, radius: r } => {
+            place(ui, "Centre", center);
+            radius(ui, "Radius", r);
+        }
+        Primitive::Capsule { ends: [a, b], radii: [r, s] } => {
+            place(ui, "From", a);
+            radius(ui, "Radius there", r);
+            place(ui, "To", b);
+            radius(ui, "Radius here", s);
+        }
+        Primitive::Path { points } => {
+            if let Some(point) = session.sketching().point.and_then(|k| points.get_mut(k)) {
+                place(ui, "Point", &mut point.at);
+                ui.label("");
+                ui.checkbox(&mut point.corner, "Corner").on_hover_text("Sharp, not round (K)");
+                ui.end_row();
+            } else {
+                ui.label("Points");
+                ui.label(points.len().to_string());
+                ui.end_row();
+            }
+        }
+    });
+    let tip = "Cut this part out of what was drawn before it";
+    ui.checkbox(&mut changed.cut, "Cut out").on_hover_text(tip);
+    if changed != *part {
+        let mut drawing = session.drawing().clone();
+        drawing.parts[index] = changed;
+        actions.push(Action::Live(Change::Draw { what: "Change part", drawing }));
+    }
+}
+
+fn body(ui: &mut Ui, session: &Session, state: &mut paper::State, actions: &mut Actions) {
+    let surface = state.surface(session.drawing());
+    let [wide_mm, high_mm] = surface.size;
+    let trouble = match (surface.pieces, &surface.trouble) {
+        (_, Some(why)) => Some(why.clone()),
+        (0, None) => Some("Draw something that is not cut out again.".to_owned()),
+        (1, None) => None,
+        (n, None) => Some(format!("{n} separate pieces: join them, or delete what is too much.")),
+    };
+    let text = match surface.holes {
+        0 => format!("{wide_mm:.0} × {high_mm:.0} mm"),
+        1 => format!("{wide_mm:.0} × {high_mm:.0} mm, 1 hole"),
+        n => format!("{wide_mm:.0} × {high_mm:.0} mm, {n} holes"),
+    };
+    ui.label(text);
+    if let Some(trouble) = &trouble {
+        ui.label(RichText::new(trouble).color(ui.visuals().warn_fg_color));
+    }
+    let resolution = session.resolution();
+    ui.horizontal(|ui| {
+        let label = ui.label("Muscle fibres");
+        let mut fibers = resolution.fibers;
+        let speed = (fibers as f64 * 0.01).max(0.05);
+        let drag = DragValue::new(&mut fibers).range(3..=MAX_FIBERS).speed(speed);
+        ui.add(drag).labelled_by(label.id).on_hover_text("How many edges the mesh of the fibres shall have");
+        if fibers != resolution.fibers {
+            actions.push(Action::SetResolution(Resolution { fibers, ..resolution }));
+        }
+    });
+    ui.add_space(4.0);
+    match session.meshing().running {
+        None => {
+            let tip = "Put this body in place of the old one; pins, poses, networks and keyframes stay";
+            let button = primary(ui, trouble.is_none(), "Make the body", ui.available_width());
+            if button.on_hover_text(tip).clicked() {
+                actions.push(Action::Sketch(Sketch::MakeBody));
+            }
+        }
+        Some(_) => {
+            ui.horizontal(|ui| {
+                ui.add(Spinner::new());
+                ui.label("Meshing");
+                if ui.button("Cancel meshing").on_hover_text("Keep the present body").clicked() {
+                    actions.push(Action::CancelRemesh);
+                }
+            });
+        }
+    }
+    let width = ui.available_width();
+    let tip = "Back to the plushies; the drawing stays in the document (O)";
+    if wide(ui, true, Button::new("Close the drawing"), width).on_hover_text(tip).clicked() {
+        actions.push(Action::Sketch(Sketch::Open(false)));
+    }
+    if session.design().drawing.is_some() {
+        let tip = "Draw the present body anew, with few points, in place of this drawing";
+        if wide(ui, true, Button::new("Trace the present body"), width).on_hover_text(tip).clicked() {
+            let drawing = Drawing::of(&session.design().outline);
+            actions.push(Action::Change(Change::Draw { what: "Trace the body", drawing }));
+        }
+    }
+}

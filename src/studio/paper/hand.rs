@@ -1,0 +1,269 @@
+//! The hand on the sheet: drawing parts, picking them out, pulling their handles.
+
+use super::Sheet;
+use crate::outline::drawing::{Part, PathPoint, Primitive};
+use crate::outline::{Drawing, Point, polygon};
+use crate::studio::action::Action;
+use crate::studio::change::Change;
+use crate::studio::panels::Actions;
+use crate::studio::sketching::{Pencil, Sketch};
+use eframe::egui::{CursorIcon, Key, Modifiers, PointerButton, Popup, Response, Ui};
+
+/// How near the pointer must be to a handle, logical pixels.
+const REACH: f64 = 9.0;
+/// Least radius of what is drawn, logical pixels.
+const LEAST: f64 = 3.0;
+/// Radius of a circle or capsule that was clicked and not dragged, logical pixels.
+const CLICKED: f64 = 30.0;
+/// Distance between the points of a freehand line, and how far its path may stray from it, logical pixels.
+const STEP: f64 = 2.0;
+const STRAY: f64 = 2.0;
+
+/// What the hand is at.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Hand {
+    #[default]
+    Nothing,
+    /// Moves a part, or one of its handles. The drawing and the pointer as they were when it took hold.
+    Holds { drawing: Drawing, part: usize, handle: Option<usize>, from: Point },
+    /// A freehand line, mm.
+    Line(Vec<Point>),
+    /// The corners of a polygon so far, mm.
+    Corners(Vec<Point>),
+    /// A circle or a capsule, from where it was begun to where the pointer is, mm.
+    Spans(Point, Point),
+    /// Moves the sheet.
+    Pans,
+}
+
+impl Hand {
+    /// The primitive that would be there if the hand let go now.
+    pub fn pending(&self, pencil: Pencil, mm_per_pixel: f64) -> Option<Primitive> {
+        match (self, pencil) {
+            (Self::Line(line), _) => Primitive::along(line, STRAY * mm_per_pixel),
+            (Self::Corners(corners), _) if corners.len() >= 3 => {
+                let corner = |&at: &Point| PathPoint { at, corner: true };
+                Some(Primitive::Path { points: corners.iter().map(corner).collect() })
+            }
+            (Self::Spans(from, to), Pencil::Circle) => {
+                let length = polygon::length(*from, *to);
+                let clicked = length < LEAST * mm_per_pixel;
+                Some(Primitive::Circle { center: *from, radius: if clicked { CLICKED * mm_per_pixel } else { length } })
+            }
+            (Self::Spans(from, to), _) => {
+                Some(Primitive::Capsule { ends: [*from, *to], radii: [CLICKED * mm_per_pixel; 2] })
+            }
+            _ => None,
+        }
+    }
+}
+
+pub fn act(ui: &mut Ui, sheet: &Sheet<'_>, hand: &mut Hand, response: &Response, actions: &mut Actions) {
+    let Sheet { session, rect, camera, .. } = *sheet;
+    let to_sheet = |p| camera.to_body(rect, p);
+    let pencil = session.sketching().pencil;
+    let press = ui.input(|i| i.pointer.press_origin()).map(to_sheet);
+    if let Some(press) = press.filter(|_| response.drag_started_by(PointerButton::Primary)) {
+        *hand = begin(sheet, std::mem::take(hand), press, actions);
+    }
+    let pointer = response.interact_pointer_pos().map(to_sheet);
+    if let Some(at) = pointer.filter(|_| response.dragged_by(PointerButton::Primary)) {
+        drag(sheet, hand, at, response, actions);
+    }
+    if response.drag_stopped_by(PointerButton::Primary) {
+        match pointer {
+            Some(at) if pencil == Pencil::Polygon => click(sheet, hand, at, actions),
+            _ => finish(sheet, hand, actions),
+        }
+    }
+    if let Some(at) = pointer.filter(|_| response.clicked()) {
+        response.request_focus();
+        click(sheet, hand, at, actions);
+    }
+    if response.double_clicked() && pencil == Pencil::Select && sheet.session.sketching().point.is_none() {
+        actions.push(Action::Sketch(Sketch::Camera(None)));
+    }
+    let key = |key| ui.input_mut(|i| i.consume_key(Modifiers::NONE, key));
+    if !Popup::is_any_open(ui.ctx()) && key(Key::Escape) {
+        // What is only being drawn is not in the document yet.
+        if matches!(std::mem::take(hand), Hand::Holds { .. } | Hand::Nothing) {
+            actions.push(Action::Escape);
+        }
+    }
+    let closes = matches!(hand, Hand::Corners(_)) && (key(Key::Enter) || response.double_clicked());
+    if closes {
+        finish(sheet, hand, actions);
+    }
+    // Another pencil leaves a polygon that is not closed.
+    if pencil != Pencil::Polygon && matches!(hand, Hand::Corners(_)) {
+        *hand = Hand::Nothing;
+    }
+    if response.hovered() {
+        ui.ctx().set_cursor_icon(match (pencil, &*hand) {
+            (_, Hand::Pans | Hand::Holds { .. }) => CursorIcon::Grabbing,
+            (Pencil::Select, _) => CursorIcon::Default,
+            _ => CursorIcon::Crosshair,
+        });
+    }
+}
+
+/// What lies under the pointer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Under {
+    /// A handle of the part that is picked out.
+    Handle(usize),
+    /// The middle of a segment of its path.
+    Middle(usize),
+    Part(usize),
+    Nothing,
+}
+
+pub fn under(sheet: &Sheet<'_>, p: Point) -> Under {
+    let reach = REACH * sheet.mm_per_pixel();
+    let nearest = |points: Vec<Point>| {
+        let near = points.into_iter().map(|q| polygon::length(p, q)).enumerate().filter(|(_, d)| *d <= reach);
+        near.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(k, _)| k)
+    };
+    if let Some(selected) = sheet.selected() {
+        if let Some(handle) = nearest(selected.handles()) {
+            return Under::Handle(handle);
+        }
+        if let Some(middle) = nearest(selected.middles()) {
+            return Under::Middle(middle);
+        }
+    }
+    let parts = &sheet.session.drawing().parts;
+    // What was drawn last lies on top.
+    parts.iter().rposition(|part| part.primitive.contains(p)).map_or(Under::Nothing, Under::Part)
+}
+
+fn begin(sheet: &Sheet<'_>, hand: Hand, press: Point, actions: &mut Actions) -> Hand {
+    let sketching = sheet.session.sketching();
+    let holds = |drawing: Drawing, part, handle| Hand::Holds { drawing, part, handle, from: press };
+    let drawing = || sheet.session.drawing().clone();
+    match sketching.pencil {
+        Pencil::Sketch => Hand::Line(vec![press]),
+        Pencil::Circle | Pencil::Capsule => Hand::Spans(press, press),
+        // A drag is a click that was not held still.
+        Pencil::Polygon => hand,
+        Pencil::Select => match (under(sheet, press), sketching.part) {
+            (Under::Handle(handle), Some(part)) => {
+                actions.push(Action::Sketch(Sketch::Select(Some(part), Some(handle))));
+                holds(drawing(), part, Some(handle))
+            }
+            (Under::Middle(after), Some(part)) => {
+                let mut drawing = drawing();
+                if let Some(part) = drawing.parts.get_mut(part) {
+                    part.primitive = part.primitive.with_point(after, press);
+                }
+                actions.push(Action::Live(Change::Draw { what: "Add point", drawing: drawing.clone() }));
+                actions.push(Action::Sketch(Sketch::Select(Some(part), Some(after + 1))));
+                holds(drawing, part, Some(after + 1))
+            }
+            (Under::Part(part), _) => {
+                actions.push(Action::Sketch(Sketch::Select(Some(part), None)));
+                holds(drawing(), part, None)
+            }
+            _ => Hand::Pans,
+        },
+    }
+}
+
+fn drag(sheet: &Sheet<'_>, hand: &mut Hand, at: Point, response: &Response, actions: &mut Actions) {
+    let mm = sheet.mm_per_pixel();
+    match hand {
+        Hand::Holds { drawing, part, handle, from } => {
+            let mut changed = drawing.clone();
+            let Some(moved) = changed.parts.get_mut(*part) else { return };
+            let what = match handle {
+                Some(handle) => {
+                    moved.primitive = moved.primitive.pulled(*handle, at, LEAST * mm);
+                    "Move point"
+                }
+                None => {
+                    moved.primitive = moved.primitive.moved([at[0] - from[0], at[1] - from[1]]);
+                    "Move part"
+                }
+            };
+            // A point that was just put in is moved within the same step.
+            let what = match sheet.session.history().in_gesture() {
+                true if sheet.session.history().undo_label() == Some("Add point") => "Add point",
+                _ => what,
+            };
+            actions.push(Action::Live(Change::Draw { what, drawing: changed }));
+        }
+        Hand::Line(line) => {
+            if line.last().is_none_or(|&last| polygon::length(last, at) >= STEP * mm) {
+                line.push(at);
+            }
+        }
+        Hand::Spans(_, to) => *to = at,
+        Hand::Pans => {
+            let moved = sheet.camera.panned(response.drag_delta());
+            actions.push(Action::Sketch(Sketch::Camera(Some(moved))));
+        }
+        Hand::Corners(_) | Hand::Nothing => {}
+    }
+}
+
+/// Puts the part that the hand was drawing into the drawing.
+fn finish(sheet: &Sheet<'_>, hand: &mut Hand, actions: &mut Actions) {
+    let sketching = sheet.session.sketching();
+    if matches!(hand, Hand::Corners(corners) if corners.len() < 3) {
+        return;
+    }
+    if let Some(primitive) = std::mem::take(hand).pending(sketching.pencil, sheet.mm_per_pixel()) {
+        add(sheet, primitive, actions);
+    }
+}
+
+fn add(sheet: &Sheet<'_>, primitive: Primitive, actions: &mut Actions) {
+    let cut = sheet.session.sketching().cut;
+    let what = match (&primitive, cut) {
+        (_, true) => "Cut out a part",
+        (Primitive::Circle { .. }, _) => "Draw a circle",
+        (Primitive::Capsule { .. }, _) => "Draw a capsule",
+        (Primitive::Path { .. }, _) => "Draw a path",
+    };
+    let mut drawing = sheet.session.drawing().clone();
+    drawing.parts.push(Part { primitive, cut });
+    let last = drawing.parts.len() - 1;
+    actions.push(Action::Change(Change::Draw { what, drawing }));
+    actions.push(Action::Sketch(Sketch::Select(Some(last), None)));
+}
+
+fn click(sheet: &Sheet<'_>, hand: &mut Hand, at: Point, actions: &mut Actions) {
+    let sketching = sheet.session.sketching();
+    match sketching.pencil {
+        Pencil::Select => {
+            let selected = match (under(sheet, at), sketching.part) {
+                (Under::Handle(handle), part) => (part, Some(handle)),
+                (Under::Middle(_), part) => (part, None),
+                (Under::Part(part), _) => (Some(part), None),
+                (Under::Nothing, _) => (None, None),
+            };
+            actions.push(Action::Sketch(Sketch::Select(selected.0, selected.1)));
+        }
+        Pencil::Polygon => {
+            let mut corners = match std::mem::take(hand) {
+                Hand::Corners(corners) => corners,
+                _ => Vec::new(),
+            };
+            let closes = corners.len() >= 3
+                && corners.first().is_some_and(|&first| polygon::length(first, at) <= REACH * sheet.mm_per_pixel());
+            let twice = corners.last().is_some_and(|&last| polygon::length(last, at) < sheet.mm_per_pixel());
+            if !closes && !twice {
+                corners.push(at);
+            }
+            *hand = Hand::Corners(corners);
+            if closes {
+                finish(sheet, hand, actions);
+            }
+        }
+        Pencil::Circle | Pencil::Capsule => {
+            *hand = Hand::Spans(at, at);
+            finish(sheet, hand, actions);
+        }
+        Pencil::Sketch => {}
+    }
+}

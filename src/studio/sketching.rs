@@ -1,0 +1,169 @@
+//! Drawing the outline: from parts, by hand, and a new body made of it.
+//!
+//! The drawing is part of the document, so that every stroke can be undone; the body stays as it is until a new one is made.
+
+use super::change::Change;
+use super::jobs::{Made, Report};
+use super::session::{Mode, Session};
+use super::viewport::camera::Camera;
+use crate::design::Design;
+use crate::design::edit::EditError;
+use crate::design::reshape::{Body, reshape};
+use crate::outline::drawing::Primitive;
+use crate::outline::{Changes, Drawing, Import, Outline};
+
+/// What a press on the paper does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Pencil {
+    /// Picks out and moves parts and their points.
+    #[default]
+    Select,
+    /// Follows the hand.
+    Sketch,
+    /// A corner a click.
+    Polygon,
+    Circle,
+    Capsule,
+}
+
+/// What is asked for while the outline is drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Sketch {
+    Open(bool),
+    Take(Pencil),
+    /// Whether new parts are cut out.
+    Cut(bool),
+    /// A part, and a point of it.
+    Select(Option<usize>, Option<usize>),
+    Camera(Option<Camera>),
+    /// Makes the body of what is drawn; one undo step when it is there.
+    MakeBody,
+}
+
+#[derive(Default)]
+pub struct Sketching {
+    pub open: bool,
+    pub pencil: Pencil,
+    pub cut: bool,
+    pub part: Option<usize>,
+    pub point: Option<usize>,
+    /// `None`: fits the drawing.
+    pub camera: Option<Camera>,
+    /// A drawing of the outline that has none of its own.
+    traced: Option<(Outline, Drawing)>,
+}
+
+impl Session {
+    pub fn sketching(&self) -> &Sketching {
+        &self.sketching
+    }
+
+    /// The drawing of the outline: the document's, or one traced from its outline.
+    pub fn drawing(&self) -> &Drawing {
+        static NOTHING: Drawing = Drawing { parts: Vec::new() };
+        let traced = self.sketching.traced.as_ref().map(|(_, drawing)| drawing);
+        self.design().drawing.as_ref().or(traced).unwrap_or(&NOTHING)
+    }
+
+    pub(super) fn sketch(&mut self, sketch: Sketch) {
+        match sketch {
+            Sketch::Open(open) => {
+                self.sketching.open = open;
+                self.sketching.camera = None;
+                self.playback.playing = false;
+                self.mode = Mode::Pose;
+                self.clamp();
+            }
+            Sketch::Take(pencil) => self.sketching.pencil = pencil,
+            Sketch::Cut(cut) => self.sketching.cut = cut,
+            Sketch::Select(part, point) => {
+                self.sketching.part = part;
+                self.sketching.point = point;
+                self.clamp_sketch();
+            }
+            Sketch::Camera(camera) => self.sketching.camera = camera,
+            Sketch::MakeBody => self.start_body(),
+        }
+    }
+
+    /// Nothing may point beyond the drawing, and there is one while it is open.
+    pub(super) fn clamp_sketch(&mut self) {
+        if !self.sketching.open {
+            return;
+        }
+        let design = self.history.current().clone();
+        let stale = self.sketching.traced.as_ref().is_none_or(|(outline, _)| *outline != design.outline);
+        if design.drawing.is_none() && stale {
+            self.sketching.traced = Some((design.outline.clone(), Drawing::of(&design.outline)));
+        }
+        let part = self.sketching.part.and_then(|k| self.drawing().parts.get(k)).map(|part| &part.primitive);
+        let points = match part {
+            Some(Primitive::Path { points }) => points.len(),
+            _ => 0,
+        };
+        if part.is_none() {
+            self.sketching.part = None;
+        }
+        if self.sketching.point.is_some_and(|point| point >= points) {
+            self.sketching.point = None;
+        }
+    }
+
+    /// Removes the point or the part that is picked out.
+    pub(super) fn delete_drawn(&mut self) {
+        let Some(index) = self.sketching.part else { return };
+        let mut drawing = self.drawing().clone();
+        let thinner = self.sketching.point.and_then(|point| drawing.parts.get(index)?.primitive.without_point(point));
+        let what = match thinner {
+            Some(primitive) => {
+                drawing.parts[index].primitive = primitive;
+                "Delete point"
+            }
+            None => {
+                drawing.parts.remove(index);
+                self.sketching.part = None;
+                "Delete part"
+            }
+        };
+        self.sketching.point = None;
+        self.change(Change::Draw { what, drawing });
+    }
+
+    fn start_body(&mut self) {
+        if self.meshing.running.is_some() {
+            return;
+        }
+        let resolution = self.resolution();
+        let drawing = self.drawing().clone();
+        let serial = self.begin_meshing();
+        self.jobs.start("Meshing", move || {
+            let corner = drawing.corner();
+            let imported = drawing.import(&Import::default()).map_err(|e| e.to_string());
+            let made = imported.and_then(|imported| {
+                let changes = imported.changes.clone();
+                let body = Body::with_fibers(imported, resolution.fibers, resolution.finer, corner);
+                Ok(Made::Body(body.map_err(|e| e.to_string())?, changes))
+            });
+            Report::Meshed { serial, made: made.map(Box::new) }
+        });
+    }
+
+    pub(super) fn take_body(&mut self, body: Body, changes: &Changes) {
+        let report = match self.history.edit("New body", |design| Ok::<_, EditError>(reshape(design, body))) {
+            Ok(report) => report,
+            Err(error) => return self.messages.error(format!("New body: {error}")),
+        };
+        self.meshing.wanted = None;
+        self.look.camera = None;
+        self.sketch(Sketch::Open(false));
+        self.tell_carried(&report);
+        for line in changes.lines() {
+            self.messages.info(line);
+        }
+    }
+}
+
+/// A plushie that is still to be drawn: an empty sheet over a cushion.
+pub fn sheet() -> Design {
+    Design { name: "Plushie".to_owned(), drawing: Some(Drawing::default()), ..super::blank::design() }
+}
