@@ -42,10 +42,10 @@ const EFFORT: usize = 300_000;
 const LEAST_SAMPLINGS: usize = 12;
 /// Edges that smoothing and measuring a mesh weigh, for each that it has.
 const SMOOTHING: usize = 3;
-/// Most work for all that is tried of an outline, the search for a possible count included, in units of about 0.1 us: a
-/// second or two. Then what was found is taken, or the outline is refused. [`EFFORT`] weighs neither how finely the
+/// Most work for all that is tried of an outline, the search for a possible count included, in units of about 0.1 us: some
+/// seconds, which only outlines with hundreds of holes need. Then what was found is taken, or the outline is refused. [`EFFORT`] weighs neither how finely the
 /// boundary is sampled nor how often a count is tried; this does.
-const WORK: usize = 24_000_000;
+const WORK: usize = 80_000_000;
 /// The same for each fibre asked for.
 const WORK_PER_FIBER: usize = 1000;
 /// The part of it for finding out how many edges good angles need.

@@ -253,6 +253,7 @@ impl Session {
                     self.look.camera = Some(from.panned(delta));
                 }
             }
+            Action::Fit if self.sketching.open => self.sketching.camera = None,
             Action::Fit => self.look.camera = None,
             Action::Play => self.play(),
             Action::Pause => self.playback.playing = false,

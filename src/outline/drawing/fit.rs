@@ -1,11 +1,12 @@
 //! A path with few points along a polygon or a freehand line.
 
+use super::primitive::segment;
 use super::{PathPoint, Primitive};
 use crate::outline::simplify::simplify;
 use crate::outline::{Point, polygon};
 
-/// Simplifications tried in turn, in units of the tolerance: the curve through few points may stay nearer than its chords.
-const COARSENESS: [f64; 6] = [8.0, 4.0, 2.0, 1.0, 0.5, 0.25];
+/// Where the fit begins: the simplification of the line, in units of the tolerance.
+const COARSENESS: f64 = 4.0;
 /// A bend sharper than this, seen over [`CORNER_REACH`] to both sides, is a corner, rad.
 const CORNER: f64 = 0.9;
 /// In units of the tolerance.
@@ -26,24 +27,97 @@ impl Primitive {
     }
 }
 
-/// The path with the fewest points found that strays from a ring by no more than `tolerance`.
+/// A path with few points that strays from a ring by no more than `tolerance`.
+///
+/// It begins with the points that a coarse simplification leaves. Where a segment strays too far, the point farthest from its
+/// chord is put in; where the chord itself is near enough and only the curve swings out, its sharper end becomes a corner.
 pub(super) fn path(ring: &[Point], tolerance: f64) -> Primitive {
     let corners = Corners::of(ring, CORNER_REACH * tolerance);
-    for coarseness in COARSENESS {
-        let points = simplify(ring, coarseness * tolerance);
-        if points.len() < 3 {
-            continue;
+    let kept = simplify(ring, COARSENESS * tolerance);
+    let mut places: Vec<usize> = kept.iter().filter_map(|p| ring.iter().position(|q| q == p)).collect();
+    places.sort_unstable();
+    places.dedup();
+    for k in 0.. {
+        if places.len() >= 3 || k >= ring.len() {
+            break;
         }
-        let points = points.into_iter().map(|at| PathPoint { at, corner: corners.is_sharp(at) }).collect();
-        let path = Primitive::Path { points };
-        let drawn = path.polygon();
-        let near = |a: &[Point], b: &[Point]| a.iter().all(|&p| polygon::distance(b, p) <= tolerance);
-        if near(ring, &drawn) && near(&drawn, ring) {
-            return path;
+        if let Err(at) = places.binary_search(&k) {
+            places.insert(at, k);
         }
     }
-    let corner = |at| PathPoint { at, corner: true };
-    Primitive::Path { points: simplify(ring, tolerance).into_iter().map(corner).collect() }
+    let mut sharp: Vec<bool> = places.iter().map(|&i| corners.turn(i) > CORNER).collect();
+    // Each round adds a point or a corner.
+    loop {
+        let points: Vec<PathPoint> =
+            places.iter().zip(&sharp).map(|(&i, &corner)| PathPoint { at: ring[i], corner }).collect();
+        let mut added = Vec::new();
+        for i in 0..places.len() {
+            let stretch = Stretch::of(ring, places[i], places[(i + 1) % places.len()]);
+            let mut drawn = segment(&points, i);
+            drawn.push(points[(i + 1) % points.len()].at);
+            if stretch.strays(&drawn) <= tolerance {
+                continue;
+            }
+            match stretch.farthest_from_chord() {
+                Some((at, distance)) if distance > tolerance => added.push(at),
+                _ => {
+                    let ends = [i, (i + 1) % places.len()];
+                    let open = ends.into_iter().filter(|&e| !sharp[e]);
+                    let turn = |e: &usize| corners.turn(places[*e]);
+                    if let Some(end) = open.max_by(|a, b| turn(a).total_cmp(&turn(b))) {
+                        sharp[end] = true;
+                    }
+                }
+            }
+        }
+        let unchanged = added.is_empty() && points.iter().zip(&sharp).all(|(p, &s)| p.corner == s);
+        if unchanged {
+            return Primitive::Path { points };
+        }
+        for at in added {
+            if let Err(k) = places.binary_search(&at) {
+                places.insert(k, at);
+                sharp.insert(k, corners.turn(at) > CORNER);
+            }
+        }
+    }
+}
+
+/// The points of a ring from one to another.
+struct Stretch<'a> {
+    ring: &'a [Point],
+    places: Vec<usize>,
+}
+
+impl<'a> Stretch<'a> {
+    fn of(ring: &'a [Point], from: usize, to: usize) -> Self {
+        let to = if to <= from { to + ring.len() } else { to };
+        Self { ring, places: (from..=to).map(|i| i % ring.len()).collect() }
+    }
+
+    fn points(&self) -> Vec<Point> {
+        self.places.iter().map(|&i| self.ring[i]).collect()
+    }
+
+    /// The farthest that a line between the same ends is from this one.
+    fn strays(&self, line: &[Point]) -> f64 {
+        let own = self.points();
+        let away = |points: &[Point], line: &[Point]| {
+            let to_line = |p: &Point| {
+                let sides = line.windows(2).map(|w| polygon::distance_to_segment(w[0], w[1], *p));
+                sides.fold(f64::INFINITY, f64::min)
+            };
+            points.iter().map(to_line).fold(0.0, f64::max)
+        };
+        away(&own, line).max(away(line, &own))
+    }
+
+    fn farthest_from_chord(&self) -> Option<(usize, f64)> {
+        let (from, to) = (self.ring[*self.places.first()?], self.ring[*self.places.last()?]);
+        let inner = self.places.get(1..self.places.len() - 1)?;
+        let away = |&i: &usize| (i, polygon::distance_to_segment(from, to, self.ring[i]));
+        inner.iter().map(away).max_by(|a, b| a.1.total_cmp(&b.1))
+    }
 }
 
 /// A ring by arc length, to see how it bends.
@@ -57,15 +131,14 @@ impl<'a> Corners<'a> {
         Self { ring, reach }
     }
 
-    /// Whether the ring has a corner at one of its points.
-    fn is_sharp(&self, at: Point) -> bool {
-        let Some(i) = self.ring.iter().position(|&p| p == at) else { return false };
+    /// How sharply the ring bends at one of its points, rad.
+    fn turn(&self, i: usize) -> f64 {
         let n = self.ring.len();
+        let at = self.ring[i];
         let ahead = self.walk(at, (1..n).map(|k| (i + k) % n));
         let behind = self.walk(at, (1..n).map(|k| (i + n - k) % n));
         let (a, b) = ([at[0] - behind[0], at[1] - behind[1]], [ahead[0] - at[0], ahead[1] - at[1]]);
-        let turn = (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]);
-        turn.abs() > CORNER
+        (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]).abs()
     }
 
     /// The place that is reached along points of the ring.

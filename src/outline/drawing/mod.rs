@@ -268,6 +268,8 @@ mod tests {
         let far =
             outline.outer.iter().map(|p| again.distance([p[0] - corner[0], p[1] - corner[1]])).fold(0.0, f64::max);
         assert!(far < 1.2 * stray, "{far} mm of {stray}");
+        let Primitive::Path { points: path } = &drawing.parts[0].primitive else { panic!() };
+        assert!(path.iter().filter(|p| p.corner).count() * 2 < points, "mostly corners: {path:?}");
         assert!(points < 120 && points * 2 < outline.outer.len(), "{points} of {}", outline.outer.len());
     }
 }

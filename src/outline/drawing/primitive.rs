@@ -235,7 +235,7 @@ fn capsule([a, b]: [Point; 2], [r, s]: [f64; 2]) -> Vec<Point> {
 ///
 /// Control points of the centripetal spline: with `d = sqrt |b - a|` of three neighbouring chords,
 /// `c = (d0^2 p2 - d1^2 p0 + (2 d0^2 + 3 d0 d1 + d1^2) p1) / (3 d0 (d0 + d1))`. At a corner it is a third of the way.
-fn segment(points: &[PathPoint], i: usize) -> Vec<Point> {
+pub(super) fn segment(points: &[PathPoint], i: usize) -> Vec<Point> {
     let n = points.len();
     let [before, from, to, after] = [i + n - 1, i, i + 1, i + 2].map(|k| points[k % n]);
     if from.corner && to.corner {

@@ -27,7 +27,8 @@ pub const PENCILS: [(Pencil, &str, &str); 5] = [
 pub fn show(ui: &mut Ui, session: &Session, state: &mut paper::State, actions: &mut Actions) {
     let sketching = session.sketching();
     ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().item_spacing.x = 2.0;
+        ui.spacing_mut().item_spacing.x = 1.0;
+        ui.spacing_mut().button_padding.x = 6.0;
         for (pencil, name, tip) in PENCILS {
             if ui.selectable_label(sketching.pencil == pencil, name).on_hover_text(tip).clicked() {
                 actions.push(Action::Sketch(Sketch::Take(pencil)));

@@ -53,6 +53,9 @@ fn line(ui: &mut Ui, session: &Session, plushie: Plushie, words: String, color: 
 }
 
 fn hint(session: &Session) -> &'static str {
+    if session.sketching().open {
+        return "Scroll to zoom, drag beside the drawing or with the middle button to move the sheet";
+    }
     match (session.mode, session.tool) {
         (Mode::Animation, _) => "Showing the animation. Escape, or choosing a pose, returns to posing",
         (Mode::Pose, Tool::Pin) => "Click the body to pin it, click a pin to remove it",

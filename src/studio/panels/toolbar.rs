@@ -5,7 +5,7 @@ use crate::design::bundled;
 use crate::picture::palette::Theme;
 use crate::studio::action::{Action, FileAction};
 use crate::studio::icons::{self, Icon};
-use crate::studio::session::{Session, Tool};
+use crate::studio::session::{Look, Session, Tool};
 use crate::studio::sketching::Sketch;
 use crate::studio::viewport::Plushie;
 use eframe::egui::{Align, Button, Layout, RichText, Ui, menu};
@@ -27,9 +27,11 @@ pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
         gap(ui);
         shown(ui, session, actions);
         gap(ui);
-        views(ui, session, actions);
-        gap(ui);
-        quality::show(ui, session, actions);
+        ui.add_enabled_ui(!session.sketching().open, |ui| {
+            views(ui, session, actions);
+            gap(ui);
+            quality::show(ui, session, actions);
+        });
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.add_space(4.0);
             theme(ui, session, actions);
@@ -105,12 +107,14 @@ fn tools(ui: &mut Ui, session: &Session, actions: &mut Actions) {
         (Tool::Drag, Icon::Hand, "Drag tool", "Drag points of the body; every drag makes or moves a target (V)"),
         (Tool::Pin, Icon::Pin, "Pin tool", "Click the body to pin it there, click a pin to remove it (P)"),
     ];
-    for (tool, icon, name, tip) in tools {
-        if icons::toggle(ui, icon, name, tip, session.tool == tool).clicked() {
-            actions.push(Action::SetTool(tool));
-        }
-    }
     let open = session.sketching().open;
+    ui.add_enabled_ui(!open, |ui| {
+        for (tool, icon, name, tip) in tools {
+            if icons::toggle(ui, icon, name, tip, session.tool == tool && !open).clicked() {
+                actions.push(Action::SetTool(tool));
+            }
+        }
+    });
     let tip = "Draw the outline, change its points, build it from parts (O)";
     if icons::toggle(ui, Icon::Pen, "Edit outline", tip, open).clicked() {
         actions.push(Action::Sketch(Sketch::Open(!open)));
@@ -129,6 +133,10 @@ fn shown(ui: &mut Ui, session: &Session, actions: &mut Actions) {
         actions.push(Action::Fit);
     }
     let look = &session.look;
+    ui.add_enabled_ui(!session.sketching().open, |ui| drawn(ui, look, actions));
+}
+
+fn drawn(ui: &mut Ui, look: &Look, actions: &mut Actions) {
     if icons::toggle(
         ui,
         Icon::Fibers,
