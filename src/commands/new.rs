@@ -59,6 +59,10 @@ pub struct Reading {
     /// Pictures: difference from the background from which a pixel is ink, 0 to 255 [default: found by Otsu's method]
     #[arg(long, value_name = "LEVEL")]
     pub threshold: Option<u8>,
+    /// Read only this layer of an SVG (id or Inkscape label of a group or element) or DXF; may be repeated. A name that is none
+    /// is refused with a list of those there are [default: everything]
+    #[arg(long = "layer", value_name = "NAME")]
+    pub layers: Vec<String>,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -126,6 +130,7 @@ impl Reading {
             min_width_mm: self.min_width,
             unit_mm: self.unit.map(Unit::mm),
             threshold: self.threshold,
+            layers: self.layers.clone(),
         }
     }
 }

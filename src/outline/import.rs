@@ -57,6 +57,9 @@ pub struct Import {
     pub unit_mm: Option<f64>,
     /// Difference from the background, 0 to 255, from which a pixel is ink; `None` finds it.
     pub threshold: Option<u8>,
+    /// Names of the layers that count, empty for all. SVG: the `id` or Inkscape label of groups and elements at any depth.
+    /// DXF: the layers of the entities.
+    pub layers: Vec<String>,
 }
 
 /// An outline and what was changed to get it.
@@ -111,7 +114,13 @@ pub fn import(bytes: &[u8], import: &Import) -> Result<Imported, OutlineError> {
     if bytes.len() > MAX_FILE_BYTES {
         return Err(OutlineError::TooLarge);
     }
-    let painting = match Format::of(bytes).ok_or(OutlineError::UnknownFormat)? {
+    let format = Format::of(bytes).ok_or(OutlineError::UnknownFormat)?;
+    match format {
+        Format::Picture if !import.layers.is_empty() => return Err(OutlineError::NoLayers("pictures")),
+        Format::Obj if !import.layers.is_empty() => return Err(OutlineError::NoLayers("OBJ meshes")),
+        _ => {}
+    }
+    let painting = match format {
         Format::Svg => svg::painting(bytes, import)?,
         Format::Picture => picture::painting(bytes, import)?,
         Format::Dxf => dxf::painting(bytes, import)?,

@@ -8,6 +8,7 @@ mod clean;
 mod dxf;
 mod grid;
 mod import;
+mod layers;
 mod obj;
 mod picture;
 pub mod polygon;
@@ -57,6 +58,10 @@ pub enum OutlineError {
     TooComplex(&'static str),
     #[error("nothing is painted: {0}")]
     NothingPainted(&'static str),
+    #[error("there is no layer \"{name}\"; the drawing has: {layers}")]
+    NoSuchLayer { name: String, layers: String },
+    #[error("{0} have no layers to choose from; SVG and DXF drawings have")]
+    NoLayers(&'static str),
     #[error("the text \"{0}\" has characters that the bundled font lacks; convert it to paths")]
     NoFont(String),
     #[error(
