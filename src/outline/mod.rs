@@ -16,13 +16,15 @@ mod regions;
 mod simplify;
 mod smooth;
 pub mod svg;
+mod texture;
 mod thin;
 mod trace;
 
 pub use changes::{Change, Changes, What};
 pub use import::{
-    Background, EXTENSIONS, Format, Holes, Import, Imported, MAX_FILE_BYTES, Pieces, import, import_file,
+    Background, EXTENSIONS, Format, Holes, Import, Imported, MAX_FILE_BYTES, Pieces, import, import_file, read_file,
 };
+pub use texture::{MAX_TEXTURE_PX, texture};
 
 use grid::Grid;
 use regions::Shapes;
@@ -62,6 +64,8 @@ pub enum OutlineError {
     NoSuchLayer { name: String, layers: String },
     #[error("{0} have no layers to choose from; SVG and DXF drawings have")]
     NoLayers(&'static str),
+    #[error("{0} has no colours to make a texture of; an SVG, PNG or JPEG has")]
+    NoTexture(&'static str),
     #[error("the text \"{0}\" has characters that the bundled font lacks; convert it to paths")]
     NoFont(String),
     #[error(

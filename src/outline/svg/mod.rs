@@ -10,6 +10,9 @@ mod expansion;
 mod flatten;
 mod layers;
 mod mask;
+mod render;
+
+pub(super) use render::texture;
 
 use super::regions::{self, Shapes};
 use super::{Background, Import, Outline, OutlineError, Painting, Point, import, polygon};
