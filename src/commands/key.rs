@@ -68,7 +68,7 @@ impl Key {
             Ease::Hold => Easing::Hold,
         };
         put(&mut design, self.time, activations, pose, easing)?;
-        document::save(&self.output, &design, cancel)?;
+        document::save_as(&self.design, &self.output, &design, cancel)?;
         say(out, &format!("{}: {} at {} s, winches at {text} mm", self.output.display(), self.pose, self.time))?;
         balanced(unbalanced)
     }

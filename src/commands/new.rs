@@ -2,11 +2,11 @@
 
 use super::document;
 use super::error::CommandError;
-use super::output::{say, say_json};
+use super::output::{say, say_json, write_file_and};
 use crate::defaults;
 use crate::design::Design;
 use crate::mesh::{self, Mesh, MeshError, Request};
-use crate::outline::{self, Background, Changes, Holes, Import, Imported, Pieces};
+use crate::outline::{self, Background, Changes, Holes, Import, Imported, OutlineError, Pieces};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 use std::io::Write;
@@ -28,6 +28,10 @@ pub struct New {
     pub fibers: Option<usize>,
     #[command(flatten)]
     pub reading: Reading,
+    /// Keep the picture as the plushie's texture: what an SVG, PNG or JPEG shows in the silhouette's box (of chosen layers alone) is
+    /// written beside the design, DESIGN.texture.png, at most 2048 pixels long
+    #[arg(long)]
+    pub texture: bool,
     /// Print JSON
     #[arg(long)]
     pub json: bool,
@@ -60,6 +64,10 @@ pub struct Reading {
     /// Pictures: difference from the background from which a pixel is ink, 0 to 255 [default: found by Otsu's method]
     #[arg(long, value_name = "LEVEL")]
     pub threshold: Option<u8>,
+    /// Read only this layer of an SVG (id or Inkscape label of a group or element) or DXF; may be repeated. A name that is none
+    /// is refused with a list of those there are [default: everything]
+    #[arg(long = "layer", value_name = "NAME")]
+    pub layers: Vec<String>,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -127,6 +135,7 @@ impl Reading {
             min_width_mm: self.min_width,
             unit_mm: self.unit.map(Unit::mm),
             threshold: self.threshold,
+            layers: self.layers.clone(),
         }
     }
 }
@@ -140,6 +149,8 @@ struct Summary<'a> {
     triangles: usize,
     body_length_mm: f64,
     height_mm: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    texture: Option<&'a str>,
     clean_up: &'a Changes,
 }
 
@@ -147,10 +158,35 @@ impl New {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
         let import = self.reading.import(self.reading.height);
         let refuse = |reason: String| CommandError::input(&self.outline, reason);
-        let imported = outline::import_file(&self.outline, &import).map_err(|e| refuse(e.to_string()))?;
-        let (design, changes) = design(imported, self.fibers, &stem(&self.output)).map_err(refuse)?;
-        document::save(&self.output, &design, cancel)?;
+        let unread = |error: OutlineError| refuse(error.to_string());
+        let file = outline::read_file(&self.outline).map_err(unread)?;
+        let imported = outline::import(&file, &import).map_err(unread)?;
+        let texture = match self.texture {
+            true => Some((self.texture_name()?, outline::texture(&file, &import, &imported).map_err(unread)?)),
+            false => None,
+        };
+        let (mut design, changes) = design(imported, self.fibers, &stem(&self.output)).map_err(refuse)?;
+        match texture {
+            None => document::save(&self.output, &design, cancel)?,
+            Some((name, png)) => {
+                let path = self.output.with_file_name(&name);
+                design.texture = Some(name);
+                write_file_and(&path, &png, cancel, || document::save(&self.output, &design, cancel))?;
+            }
+        }
         self.report(out, &design, &changes)
+    }
+
+    /// What the texture beside the design is called.
+    fn texture_name(&self) -> Result<String, CommandError> {
+        let path = self.output.with_extension("texture.png");
+        let same = |a: &Path, b: &Path| matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b);
+        if same(&path, &self.outline) {
+            return Err(CommandError::Usage(format!("the texture would replace {}", self.outline.display())));
+        }
+        let name = path.file_name().and_then(|name| name.to_str());
+        name.map(str::to_owned)
+            .ok_or_else(|| CommandError::Usage(format!("{} is no file name that a design can state", path.display())))
     }
 
     fn report(&self, out: &mut dyn Write, design: &Design, changes: &Changes) -> Result<(), CommandError> {
@@ -162,16 +198,20 @@ impl New {
             triangles: design.mesh.triangles.len(),
             body_length_mm: design.body_length_mm(),
             height_mm: high[1] - low[1],
+            texture: design.texture.as_deref(),
             clean_up: changes,
         };
         if self.json {
             return say_json(out, &summary);
         }
-        let Summary { design, fibers, nodes, triangles, body_length_mm, .. } = summary;
+        let Summary { design, fibers, nodes, triangles, body_length_mm, texture, .. } = summary;
         say(
             out,
             &format!("{design}: {fibers} fibers, {nodes} nodes, {triangles} triangles, {body_length_mm:.1} mm long"),
         )?;
+        if let Some(name) = texture {
+            say(out, &format!("texture: {name}"))?;
+        }
         for line in changes.lines() {
             say(out, &format!("note: {line}"))?;
         }
@@ -182,7 +222,7 @@ impl New {
 /// A design with default settings around an outline. Without a number of fibres, the default one or, where the outline
 /// needs more, the smallest possible.
 pub fn design(imported: Imported, fibers: Option<usize>, name: &str) -> Result<(Design, Changes), String> {
-    let Imported { outline, mesh, mut changes, drawing } = imported;
+    let Imported { outline, mesh, mut changes, drawing, .. } = imported;
     // A file's own mesh stays as it is, unless another number of fibres is asked for.
     if let (Some((nodes, triangles)), None) = (mesh, fibers) {
         let mesh = Mesh { nodes, triangles };

@@ -18,6 +18,30 @@ pub fn write_file(path: &Path, bytes: &[u8], cancel: &AtomicBool) -> Result<(), 
     Ok(())
 }
 
+/// Replaces `path` by `bytes`, then does what needs the file; if that fails, the old file, or none, is there again.
+pub fn write_file_and(
+    path: &Path,
+    bytes: &[u8],
+    cancel: &AtomicBool,
+    then: impl FnOnce() -> Result<(), CommandError>,
+) -> Result<(), CommandError> {
+    let fail = |e| CommandError::write(path, e);
+    let aside = tempfile::Builder::new().prefix(".plushwright-").tempdir_in(parent(path)).map_err(fail)?;
+    let old = aside.path().join("old");
+    let there = path.is_file();
+    if there {
+        // A second name for the same file: it is never missing, whatever happens in between.
+        std::fs::hard_link(path, &old).or_else(|_| std::fs::copy(path, &old).map(drop)).map_err(fail)?;
+    }
+    write_file(path, bytes, cancel)?;
+    let done = then();
+    if done.is_err() {
+        let undone = if there { std::fs::rename(&old, path) } else { std::fs::remove_file(path) };
+        undone.map_err(fail)?;
+    }
+    done
+}
+
 /// A fresh folder beside `path`, to be filled and then moved there with [`Staged::commit`]. Dropped, it vanishes.
 pub struct Staged {
     folder: tempfile::TempDir,
@@ -87,7 +111,8 @@ pub fn read_text(path: &Path) -> Result<String, CommandError> {
     std::fs::read_to_string(path).map_err(|e| CommandError::input(path, e))
 }
 
-fn parent(path: &Path) -> &Path {
+/// The folder of a file.
+pub fn parent(path: &Path) -> &Path {
     match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
@@ -117,6 +142,21 @@ mod tests {
         write_file(&path, b"old", &AtomicBool::new(false)).unwrap();
         assert!(write_file(&path, b"new", &AtomicBool::new(true)).is_err());
         assert_eq!(std::fs::read(&path).unwrap(), b"old");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn a_file_is_as_before_where_what_follows_fails() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.png");
+        let go = AtomicBool::new(false);
+        let fails = || write_file_and(&path, b"new", &go, || Err(CommandError::Cancelled));
+        assert!(fails().is_err() && std::fs::read_dir(folder.path()).unwrap().count() == 0);
+        write_file_and(&path, b"old", &go, || Ok(())).unwrap();
+        assert!(fails().is_err());
+        assert_eq!(std::fs::read(&path).unwrap(), b"old");
+        write_file_and(&path, b"new", &go, || Ok(())).unwrap();
+        assert_eq!(std::fs::read(&path).unwrap(), b"new");
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 

@@ -43,7 +43,7 @@ impl Pose {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
         let mut design = document::load(&self.design)?;
         add(&mut design, &self.name, &self.pins, &self.targets)?;
-        document::save(&self.output, &design, cancel)?;
+        document::save_as(&self.design, &self.output, &design, cancel)?;
         let targets = design.poses.iter().find(|p| p.name == self.name).map_or(0, |p| p.targets.len());
         say(
             out,

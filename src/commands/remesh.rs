@@ -65,7 +65,7 @@ impl Remesh {
         let report = history
             .edit("Remesh", |design| remesh(design, &request, usize::from(self.finer)))
             .map_err(|e| CommandError::input(&self.design, e))?;
-        document::save(&self.output, history.current(), cancel)?;
+        document::save_as(&self.design, &self.output, history.current(), cancel)?;
         if self.json { say_json(out, &report) } else { print(&self.output, &report, out) }
     }
 }

@@ -10,7 +10,7 @@ use crate::design::history::History;
 use crate::design::remesh::Report;
 use crate::design::reshape::{Body, reshape};
 use crate::mesh::{Request, Size};
-use crate::outline::{self, Changes, Drawing};
+use crate::outline::{self, Changes};
 use clap::Args;
 use serde::Serialize;
 use std::io::Write;
@@ -60,7 +60,7 @@ impl Reshape {
         let imported = outline::import_file(&self.outline, &import).map_err(|e| refuse(e.to_string()))?;
         // Where a height is asked for the drawing's own coordinates do not count.
         let own_place = imported.drawing.is_some() && import.height_mm.is_none();
-        let corner = if own_place { self.corner()? } else { [0.0; 2] };
+        let corner = if own_place { imported.drawn_box[0] } else { [0.0; 2] };
         let changes = imported.changes.clone();
         let fibers = self.fibers.unwrap_or_else(|| history.current().fiber_routings().len());
         let request = Request { size: Size::Fibers(fibers), tracks: Vec::new(), mirror: true };
@@ -68,17 +68,11 @@ impl Reshape {
         let report = history
             .edit("Reshape", |design| Ok::<_, EditError>(reshape(design, body)))
             .map_err(|e| CommandError::input(&self.design, e))?;
-        document::save(&self.output, history.current(), cancel)?;
+        document::save_as(&self.design, &self.output, history.current(), cancel)?;
         if self.json {
             return say_json(out, &Summary { clean_up: &changes, report: &report });
         }
         remesh::print(&self.output, &report, out)?;
         changes.lines().into_iter().try_for_each(|line| say(out, &format!("note: {line}")))
-    }
-
-    /// Where the corner of a drawing is in its own coordinates.
-    fn corner(&self) -> Result<[f64; 2], CommandError> {
-        let bytes = std::fs::read(&self.outline).map_err(|e| CommandError::input(&self.outline, e))?;
-        Ok(Drawing::read(&bytes).map_err(|e| CommandError::input(&self.outline, e))?.corner())
     }
 }

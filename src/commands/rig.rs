@@ -69,7 +69,7 @@ impl Rig {
             other => other,
         })?;
         printed?;
-        document::save(&self.output, &rigged, cancel)?;
+        document::save_as(&self.design, &self.output, &rigged, cancel)?;
         let tendons: usize = rigged.networks.iter().map(|n| n.tendons.len()).sum();
         say(out, &format!("{}: {} winches, {tendons} tendons", self.output.display(), rigged.networks.len()))
     }

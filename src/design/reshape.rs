@@ -80,9 +80,9 @@ mod tests {
         let at = design.mesh.locate_nearest([60.0, 20.0], &design.mesh.nodes).unwrap().0;
         design.pins.push(Pin { at, position: Some([5.0, 6.0]), stiffness: 20.0 });
         design.poses.push(Pose { name: "far".into(), targets: vec![Target { at, to: [7.0, 8.0], weight: 1.0 }] });
-        let corner = drawing.corner();
-        assert!((corner[0] + 50.0).abs() < 1e-3 && corner[1].abs() < 0.5, "{corner:?}");
         let imported = drawing.import(&Import::default()).unwrap();
+        let corner = imported.drawn_box[0];
+        assert!((corner[0] + 50.0).abs() < 1e-3 && corner[1].abs() < 0.5, "{corner:?}");
         let body = Body::with_fibers(imported, 500, 1, corner).unwrap();
         let report = reshape(&mut design, body);
         design.validate().unwrap();
@@ -97,7 +97,7 @@ mod tests {
             assert!(polygon::length(a, [b[0] - corner[0], b[1] - corner[1]]) < 0.01 * high[1], "{a:?} {b:?}");
         }
         // The drawing lies over the new outline.
-        let again = design.drawing.as_ref().unwrap().corner();
+        let again = design.drawing.as_ref().unwrap().import(&Import::default()).unwrap().drawn_box[0];
         assert!(again[0].abs() < 1e-6 && again[1].abs() < 1e-6, "{again:?}");
     }
 }

@@ -79,9 +79,11 @@ pub(super) fn clean(painting: Painting, import: &Import) -> Result<Imported, Out
     changes.add(What::Pinches, pinches, (regions::area(&shapes) - unjoined) / area, false);
     changes.painted_mm2 = all * scale * scale;
     changes.unasked += regions::unlike(&reference, &shapes) / area;
-    let outline = outline(shapes, import.height_mm)?;
+    let (outline, box_mm) = outline(shapes, import.height_mm)?;
     changes.outline_mm2 = outline.area();
-    Ok(Imported { outline, changes, mesh: None, drawing: None })
+    // Back to where it was before it was placed.
+    let drawn_box = box_mm.map(|p| [p[0] / scale + low[0], p[1] / scale + low[1]]);
+    Ok(Imported { outline, changes, drawn_box, mesh: None, drawing: None })
 }
 
 /// Drops the smallest islands and fills the smallest holes.
@@ -210,8 +212,9 @@ fn simplified(shapes: Shapes, tolerance: f64) -> Result<Shapes, OutlineError> {
     Ok(if sound { clean } else { shapes })
 }
 
-/// The one region left, its lower left corner at the origin, as high as asked (the steps before may have moved its top).
-fn outline(shapes: Shapes, height_mm: Option<f64>) -> Result<Outline, OutlineError> {
+/// The one region left, its lower left corner at the origin, as high as asked (the steps before may have moved its top), and
+/// the corners of its box before that.
+fn outline(shapes: Shapes, height_mm: Option<f64>) -> Result<(Outline, [Point; 2]), OutlineError> {
     let (low, high) = regions::bounding_box(&shapes);
     let scale = height_mm.map_or(1.0, |height| height / (high[1] - low[1]));
     let mut rings = match <[_; 1]>::try_from(placed(shapes, low, scale)) {
@@ -223,7 +226,7 @@ fn outline(shapes: Shapes, height_mm: Option<f64>) -> Result<Outline, OutlineErr
         return Err(OutlineError::Degenerate);
     }
     let holes = rings.split_off(1);
-    Ok(Outline { outer: rings.pop().unwrap_or_default(), holes })
+    Ok((Outline { outer: rings.pop().unwrap_or_default(), holes }, [low, high]))
 }
 
 #[cfg(test)]

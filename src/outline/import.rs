@@ -57,6 +57,9 @@ pub struct Import {
     pub unit_mm: Option<f64>,
     /// Difference from the background, 0 to 255, from which a pixel is ink; `None` finds it.
     pub threshold: Option<u8>,
+    /// Names of the layers that count, empty for all. SVG: the `id` or Inkscape label of groups and elements at any depth.
+    /// DXF: the layers of the entities.
+    pub layers: Vec<String>,
 }
 
 /// An outline and what was changed to get it.
@@ -64,6 +67,8 @@ pub struct Import {
 pub struct Imported {
     pub outline: Outline,
     pub changes: Changes,
+    /// The silhouette's box where the file has it: lower left and upper right corner in the file's plain numbers or pixels, y up.
+    pub drawn_box: [Point; 2],
     /// The triangles of a file that brings its own mesh, mm, counter-clockwise.
     pub mesh: Option<(Vec<Point>, Vec<[usize; 3]>)>,
     /// The parts that it was drawn from, in the coordinates of `outline`.
@@ -117,7 +122,14 @@ pub fn import(bytes: &[u8], import: &Import) -> Result<Imported, OutlineError> {
     if bytes.len() > MAX_FILE_BYTES {
         return Err(OutlineError::TooLarge);
     }
-    let painting = match Format::of(bytes).ok_or(OutlineError::UnknownFormat)? {
+    let format = Format::of(bytes).ok_or(OutlineError::UnknownFormat)?;
+    match format {
+        Format::Picture if !import.layers.is_empty() => return Err(OutlineError::NoLayers("pictures")),
+        Format::Drawing if !import.layers.is_empty() => return Err(OutlineError::NoLayers("drawings of parts")),
+        Format::Obj if !import.layers.is_empty() => return Err(OutlineError::NoLayers("OBJ meshes")),
+        _ => {}
+    }
+    let painting = match format {
         Format::Svg => svg::painting(bytes, import)?,
         Format::Picture => picture::painting(bytes, import)?,
         Format::Dxf => dxf::painting(bytes, import)?,
@@ -132,12 +144,21 @@ pub fn import(bytes: &[u8], import: &Import) -> Result<Imported, OutlineError> {
 /// # Errors
 /// As [`import`], and what the system says of a file that cannot be read.
 pub fn import_file(path: &Path, import: &Import) -> Result<Imported, OutlineError> {
+    self::import(&read_file(path)?, import)
+}
+
+/// The bytes of a file with an outline.
+///
+/// # Errors
+/// What the system says of a file that cannot be read. Of one that is too large, no more is read than it takes to be
+/// refused.
+pub fn read_file(path: &Path) -> Result<Vec<u8>, OutlineError> {
     let unopened = |error: std::io::Error| OutlineError::Unopened(error.to_string());
     let file = std::fs::File::open(path).map_err(unopened)?;
     let mut bytes = Vec::new();
     // A pipe or device has no length: one byte more than allowed tells.
     file.take(MAX_FILE_BYTES as u64 + 1).read_to_end(&mut bytes).map_err(unopened)?;
-    self::import(&bytes, import)
+    Ok(bytes)
 }
 
 impl Import {

@@ -9,6 +9,7 @@ pub mod drawing;
 mod dxf;
 mod grid;
 mod import;
+mod layers;
 mod obj;
 mod picture;
 pub mod polygon;
@@ -16,14 +17,16 @@ mod regions;
 mod simplify;
 mod smooth;
 pub mod svg;
+mod texture;
 mod thin;
 mod trace;
 
 pub use changes::{Change, Changes, What};
 pub use drawing::Drawing;
 pub use import::{
-    Background, EXTENSIONS, Format, Holes, Import, Imported, MAX_FILE_BYTES, Pieces, import, import_file,
+    Background, EXTENSIONS, Format, Holes, Import, Imported, MAX_FILE_BYTES, Pieces, import, import_file, read_file,
 };
+pub use texture::{MAX_TEXTURE_PX, texture};
 
 use grid::Grid;
 use regions::Shapes;
@@ -59,6 +62,12 @@ pub enum OutlineError {
     TooComplex(&'static str),
     #[error("nothing is painted: {0}")]
     NothingPainted(&'static str),
+    #[error("there is no layer \"{name}\"; the drawing has: {layers}")]
+    NoSuchLayer { name: String, layers: String },
+    #[error("{0} have no layers to choose from; SVG and DXF drawings have")]
+    NoLayers(&'static str),
+    #[error("{0} has no colours to make a texture of; an SVG, PNG or JPEG has")]
+    NoTexture(&'static str),
     #[error("the text \"{0}\" has characters that the bundled font lacks; convert it to paths")]
     NoFont(String),
     #[error(

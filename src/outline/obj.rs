@@ -54,7 +54,7 @@ pub(super) fn read(bytes: &[u8], import: &Import) -> Result<Imported, OutlineErr
     }
     let changes = Changes { painted_mm2: area, outline_mm2: area, notes, ..Changes::default() };
     let mesh = Some((nodes.iter().map(place).collect(), triangles));
-    Ok(import::warned(Imported { outline, changes, mesh, drawing: None }, import))
+    Ok(import::warned(Imported { outline, changes, drawn_box: [low, high], mesh, drawing: None }, import))
 }
 
 fn parse(text: &str) -> Result<Triangles, OutlineError> {

@@ -11,10 +11,11 @@ mod resolution;
 
 use super::regions::{self, Shapes};
 use super::simplify::simplify;
+use super::texture::{MAX_TEXTURE_PX, cut, fitted};
 use super::trace::Field;
 use super::{Import, OutlineError, Painting, Point, polygon};
 use i_overlay::core::fill_rule::FillRule;
-use image::{DynamicImage, ImageDecoder, ImageReader, Limits};
+use image::{DynamicImage, ImageDecoder, ImageReader, Limits, RgbaImage};
 use std::io::Cursor;
 
 /// Most pixels that are decoded: at most 8 bytes each, and as many again for the common form, so 650 MB.
@@ -35,10 +36,7 @@ const TOLERANCE_PX: f64 = 0.15;
 const LEVELS: usize = 256;
 
 pub(super) fn painting(bytes: &[u8], import: &Import) -> Result<Painting, OutlineError> {
-    let unreadable =
-        |error: image::ImageError| OutlineError::Unreadable { format: "picture", reason: error.to_string() };
-    let (picture, format) =
-        decode(bytes).map_err(unreadable)?.ok_or(OutlineError::TooComplex("has more than 40 million pixels"))?;
+    let (picture, format) = decode(bytes)?;
     let mut notes = Vec::new();
     let (field, factor) = field(&picture, import.threshold, &mut notes)?;
     drop(picture);
@@ -56,8 +54,29 @@ pub(super) fn painting(bytes: &[u8], import: &Import) -> Result<Painting, Outlin
     Ok(Painting { shapes, unit_mm: mm_per_px * factor as f64, notes })
 }
 
+/// The part of the picture between the corners of a box (working pixels, y up).
+pub(super) fn texture(bytes: &[u8], [low, high]: [Point; 2]) -> Result<RgbaImage, OutlineError> {
+    let picture = decode(bytes)?.0.into_rgba8();
+    let scale = working_factor(picture.width() as usize, picture.height() as usize) as f64;
+    let (low, high) = ([scale * low[0], -scale * high[1]], [scale * high[0], -scale * low[1]]);
+    let size = fitted([high[0] - low[0], high[1] - low[1]], f64::from(MAX_TEXTURE_PX));
+    Ok(cut(&picture, low, high, size))
+}
+
+/// How many pixels of a picture, along each axis, one working pixel stands for.
+fn working_factor(width: usize, height: usize) -> usize {
+    width.max(height).div_ceil(WORKING_SIDE).max(1)
+}
+
+/// The picture the right way up.
+fn decode(bytes: &[u8]) -> Result<(DynamicImage, image::ImageFormat), OutlineError> {
+    let unreadable =
+        |error: image::ImageError| OutlineError::Unreadable { format: "picture", reason: error.to_string() };
+    upright(bytes).map_err(unreadable)?.ok_or(OutlineError::TooComplex("has more than 40 million pixels"))
+}
+
 /// The picture the right way up, or `None` if it is too large.
-fn decode(bytes: &[u8]) -> image::ImageResult<Option<(DynamicImage, image::ImageFormat)>> {
+fn upright(bytes: &[u8]) -> image::ImageResult<Option<(DynamicImage, image::ImageFormat)>> {
     let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
     let mut limits = Limits::default();
     limits.max_alloc = Some(8 * MAX_PIXELS + (64 << 20));
@@ -83,7 +102,7 @@ fn field(
 ) -> Result<((Field, f64), usize), OutlineError> {
     let rgba = picture.to_rgba8();
     let (wide, high) = (rgba.width() as usize, rgba.height() as usize);
-    let factor = wide.max(high).div_ceil(WORKING_SIDE).max(1);
+    let factor = working_factor(wide, high);
     let (width, height) = (wide.div_ceil(factor), high.div_ceil(factor));
     let clear = rgba.pixels().filter(|p| p[3] < 128).count() as f64 > TRANSPARENT_FRACTION * (wide * high) as f64;
     // Averages of factor x factor pixels; with transparency, of the opacity alone.

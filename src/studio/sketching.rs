@@ -137,10 +137,9 @@ impl Session {
         let drawing = self.drawing().clone();
         let serial = self.begin_meshing();
         self.jobs.start("Meshing", move || {
-            let corner = drawing.corner();
             let imported = drawing.import(&Import::default()).map_err(|e| e.to_string());
             let made = imported.and_then(|imported| {
-                let changes = imported.changes.clone();
+                let (changes, corner) = (imported.changes.clone(), imported.drawn_box[0]);
                 let body = Body::with_fibers(imported, resolution.fibers, resolution.finer, corner);
                 Ok(Made::Body(body.map_err(|e| e.to_string())?, changes))
             });

@@ -118,30 +118,17 @@ impl Drawing {
     }
 
     /// One clean outline of what is drawn, and the drawing itself moved (and scaled, where a height is asked for) to where the
-    /// outline is: with its lower left corner in the origin. [`Self::corner`] is where that was.
+    /// outline is: with its lower left corner in the origin. Where that was is [`Imported::drawn_box`].
     ///
     /// # Errors
     /// As [`super::import`]: nothing drawn, several pieces.
     pub fn import(&self, import: &Import) -> Result<Imported, OutlineError> {
         let mut imported = import::finish(self.painting()?, import)?;
-        let (low, high) = self.bounds();
+        let [low, high] = imported.drawn_box;
         let (_, made) = imported.outline.bounding_box();
         let scale = if import.height_mm.is_some() { made[1] / (high[1] - low[1]) } else { 1.0 };
         imported.drawing = Some(self.moved(low.map(|v| -v)).scaled(scale));
         Ok(imported)
-    }
-
-    /// Lower left corner of the box around the largest piece, mm; the origin where nothing is drawn.
-    pub fn corner(&self) -> Point {
-        self.bounds().0
-    }
-
-    fn bounds(&self) -> (Point, Point) {
-        let largest = |regions: Regions| {
-            regions.into_iter().max_by(|a, b| regions::piece_area(a).total_cmp(&regions::piece_area(b)))
-        };
-        let piece = self.regions().ok().and_then(largest);
-        piece.map_or(([0.0; 2], [0.0; 2]), |rings| regions::bounding_box(&vec![rings]))
     }
 
     /// The drawing with every point moved.
@@ -222,7 +209,8 @@ mod tests {
         drawing.parts.push(Part::joined(square(24.0, -10.0, 12.0)));
         let area: f64 = drawing.regions().unwrap().iter().flatten().map(|r| polygon::signed_area(r)).sum();
         assert!((area - 3200.0 - 120.0 - 25.0 * PI).abs() < 0.05, "{area}");
-        assert_eq!(drawing.corner(), [0.0, -10.0]);
+        let corner = drawing.import(&Import::default()).unwrap().drawn_box[0];
+        assert!(corner[0].abs() < 1e-6 && (corner[1] + 10.0).abs() < 1e-6, "{corner:?}");
         let everything = Drawing { parts: vec![circle(0.0, 0.0, 9.0), Part { cut: true, ..circle(0.0, 0.0, 10.0) }] };
         for nothing in [Drawing::default(), everything, Drawing { parts: vec![cut] }] {
             assert!(matches!(nothing.import(&Import::default()), Err(OutlineError::NothingPainted(_))));
@@ -261,10 +249,10 @@ mod tests {
         let outline = crate::outline::svg::read(&source, Some(250.0)).unwrap();
         let drawing = Drawing::of(&outline);
         let points = drawing.parts[0].primitive.handles().len();
-        let again = drawing.import(&Import::default()).unwrap().outline;
+        let again = drawing.import(&Import::default()).unwrap();
+        let (again, corner) = (again.outline, again.drawn_box[0]);
         let (_, high) = outline.bounding_box();
         let stray = FIT_FRACTION * high[0].max(high[1]);
-        let corner = drawing.corner();
         let far =
             outline.outer.iter().map(|p| again.distance([p[0] - corner[0], p[1] - corner[1]])).fold(0.0, f64::max);
         assert!(far < 1.2 * stray, "{far} mm of {stray}");

@@ -1,7 +1,8 @@
 //! A silhouette from a DXF drawing: the areas inside its closed outlines.
 //!
 //! Closed polylines (with arcs), circles, ellipses and splines bound areas, and so do lines and arcs that meet end to end.
-//! An outline within another is a hole. Blocks are inserted where they are used. `$INSUNITS` tells the unit; without it a
+//! An outline within another is a hole. Blocks are inserted where they are used. Where layers are chosen, the entities on
+//! them count alone; what lies on layer 0 of a block lies on the layer of its insertion. `$INSUNITS` tells the unit; without it a
 //! plain number is a millimetre. The format is pairs of lines, a code and a value, and is read here directly: the known
 //! libraries build a model of the whole CAD document, allocate what a header tells them, and do not bound nested blocks.
 //! Codes as in Autodesk's DXF Reference.
@@ -10,12 +11,14 @@ mod chain;
 mod curves;
 mod entity;
 
-use super::{Import, OutlineError, Painting, Point, regions};
+use super::{Import, OutlineError, Painting, Point, layers, regions};
 use curves::Curve;
 use entity::{Entity, Tags};
 use i_overlay::core::fill_rule::FillRule;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
+/// The layer that every drawing has; in a block it is that of the insertion.
+const LAYER_0: &str = "0";
 /// Deepest nesting of blocks.
 const MAX_DEPTH: usize = 12;
 /// Most entities after blocks are inserted.
@@ -73,9 +76,19 @@ pub(super) fn painting(bytes: &[u8], import: &Import) -> Result<Painting, Outlin
     }
     let text = String::from_utf8_lossy(bytes);
     let file = File::read(&text).map_err(unreadable)?;
-    let mut reader = Reader { file: &file, curves: Vec::new(), entities: 0, skipped: BTreeMap::new() };
-    reader.draw(&file.entities, Place::IDENTITY, 0)?;
-    let Reader { curves, skipped, .. } = reader;
+    let chosen: Vec<String> = import.layers.iter().map(|name| name.to_lowercase()).collect();
+    let mut reader = Reader {
+        file: &file,
+        chosen: &chosen,
+        layers: BTreeMap::new(),
+        curves: Vec::new(),
+        entities: 0,
+        skipped: BTreeMap::new(),
+    };
+    reader.draw(&file.entities, Place::IDENTITY, LAYER_0, 0)?;
+    let Reader { curves, skipped, layers, .. } = reader;
+    let there: BTreeSet<String> = layers.keys().map(|name| name.to_lowercase()).collect();
+    layers::check(&import.layers, |name| there.contains(&name.to_lowercase()), layers.keys().copied())?;
     let size = extent(&curves);
     if !(size.is_finite() && size > 0.0) {
         return Err(OutlineError::NothingPainted("the DXF has no lines, arcs, polylines or splines"));
@@ -203,6 +216,10 @@ fn unit(tags: &mut Tags) -> Result<Option<f64>, &'static str> {
 
 struct Reader<'a> {
     file: &'a File<'a>,
+    /// The layers that count, in lower case, as names of layers have no case; empty for all.
+    chosen: &'a [String],
+    /// The layers that something lies on, and whether they count.
+    layers: BTreeMap<&'a str, bool>,
     curves: Vec<(Curve, Place)>,
     entities: usize,
     /// What cannot bound an area, by kind.
@@ -210,14 +227,25 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    fn draw(&mut self, entities: &'a [Entity<'a>], place: Place, depth: usize) -> Result<(), OutlineError> {
+    /// Entities that stand for something on `around` where they lie on layer 0.
+    fn draw(
+        &mut self,
+        entities: &'a [Entity<'a>],
+        place: Place,
+        around: &'a str,
+        depth: usize,
+    ) -> Result<(), OutlineError> {
         for entity in entities {
             self.entities += 1;
             if self.entities > MAX_ENTITIES || self.curves.len() > MAX_ENTITIES {
                 return Err(OutlineError::TooComplex("has more than 300 000 entities"));
             }
+            let layer = entity.text(8).filter(|name| *name != LAYER_0).unwrap_or(around);
             if entity.kind == "INSERT" {
-                self.insert(entity, place, depth)?;
+                self.insert(entity, place, layer, depth)?;
+                continue;
+            }
+            if !self.counts(layer) {
                 continue;
             }
             // An extrusion that points down mirrors the entity (the "arbitrary axis" of the reference).
@@ -232,8 +260,20 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
+    /// Whether what lies on a layer counts.
+    fn counts(&mut self, layer: &'a str) -> bool {
+        let chosen = self.chosen;
+        *self.layers.entry(layer).or_insert_with(|| chosen.is_empty() || chosen.contains(&layer.to_lowercase()))
+    }
+
     /// A block, scaled, turned and repeated in rows and columns.
-    fn insert(&mut self, entity: &'a Entity<'a>, place: Place, depth: usize) -> Result<(), OutlineError> {
+    fn insert(
+        &mut self,
+        entity: &'a Entity<'a>,
+        place: Place,
+        layer: &'a str,
+        depth: usize,
+    ) -> Result<(), OutlineError> {
         if depth >= MAX_DEPTH {
             return Err(OutlineError::TooComplex("has blocks nested more than twelve deep"));
         }
@@ -249,7 +289,7 @@ impl<'a> Reader<'a> {
                 let turn = Place([cos, sin, -sin, cos, at[0], at[1]]);
                 let grow = Place([scale[0], 0.0, 0.0, scale[1], shift[0], shift[1]]);
                 let base = Place([1.0, 0.0, 0.0, 1.0, -base[0], -base[1]]);
-                self.draw(content, place.after(&turn).after(&grow).after(&base), depth + 1)?;
+                self.draw(content, place.after(&turn).after(&grow).after(&base), layer, depth + 1)?;
                 self.entities += 1;
                 if self.entities > MAX_ENTITIES {
                     return Err(OutlineError::TooComplex("has more than 300 000 entities"));

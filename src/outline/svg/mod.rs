@@ -8,7 +8,11 @@
 
 mod expansion;
 mod flatten;
+mod layers;
 mod mask;
+mod render;
+
+pub(super) use render::texture;
 
 use super::regions::{self, Shapes};
 use super::{Background, Import, Outline, OutlineError, Painting, Point, import, polygon};
@@ -51,12 +55,7 @@ pub fn read(svg: &[u8], height_mm: Option<f64>) -> Result<Outline, OutlineError>
 
 /// All that is painted, in px with y up.
 pub(super) fn painting(svg: &[u8], import: &Import) -> Result<Painting, OutlineError> {
-    let unreadable = |reason: String| OutlineError::Unreadable { format: "SVG", reason };
-    let text = std::str::from_utf8(svg).map_err(|error| unreadable(error.to_string()))?;
-    let document = parse(text).map_err(|error| unreadable(error.to_string()))?;
-    expansion::check(&document)?;
-    let tree = Tree::from_xmltree(&document, &options()).map_err(|error| unreadable(error.to_string()))?;
-    drop(document);
+    let tree = tree(svg, &import.layers)?;
     let bounds = tree.root().abs_stroke_bounding_box();
     let longer = f64::from(bounds.width().max(bounds.height()));
     let page = [f64::from(tree.size().width()), f64::from(tree.size().height())];
@@ -90,6 +89,23 @@ pub(super) fn painting(svg: &[u8], import: &Import) -> Result<Painting, OutlineE
     }
     reader.describe(&mut notes, longer, &shapes)?;
     Ok(Painting { shapes, unit_mm: MM_PER_PX, notes })
+}
+
+/// The drawing with everything resolved, or the chosen layers of it.
+fn tree(svg: &[u8], layers: &[String]) -> Result<Tree, OutlineError> {
+    let unreadable = |reason: String| OutlineError::Unreadable { format: "SVG", reason };
+    let text = std::str::from_utf8(svg).map_err(|error| unreadable(error.to_string()))?;
+    let document = parse(text).map_err(|error| unreadable(error.to_string()))?;
+    expansion::check(&document)?;
+    let chosen;
+    let document = if layers.is_empty() {
+        document
+    } else {
+        chosen = layers::chosen(&document, layers)?;
+        drop(document);
+        parse(&chosen).map_err(|error| unreadable(error.to_string()))?
+    };
+    Tree::from_xmltree(&document, &options()).map_err(|error| unreadable(error.to_string()))
 }
 
 /// The elements of a file. Its own entities are resolved, within the bounds of the XML reader.
