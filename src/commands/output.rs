@@ -1,6 +1,7 @@
 //! Outputs: files and folders that appear whole or not at all, and lines on the given writer.
 
 use super::error::{CommandError, check_cancel};
+use crate::design::file::parent;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -109,14 +110,6 @@ pub fn json(value: &impl serde::Serialize) -> Result<String, CommandError> {
 /// Reads an input file as text.
 pub fn read_text(path: &Path) -> Result<String, CommandError> {
     std::fs::read_to_string(path).map_err(|e| CommandError::input(path, e))
-}
-
-/// The folder of a file.
-pub fn parent(path: &Path) -> &Path {
-    match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    }
 }
 
 /// A temporary file that, once kept, is as readable as any other new file (the default is private).

@@ -134,14 +134,36 @@ pub fn write(path: &Path, design: &Design) -> Result<(), FileError> {
     replace(path, text.as_bytes()).map_err(|source| FileError::Write { path: path.into(), source })
 }
 
+/// A design read from `from` as it is to be written to `to`, where that differs: what it finds relative to its own folder stays
+/// the same file.
+pub fn seen_from(design: &Design, from: &Path, to: &Path) -> Option<Design> {
+    let texture = moved(design.texture.as_deref()?, from, to)?;
+    Some(Design { texture: Some(texture), ..design.clone() })
+}
+
+/// A path relative to the folder of `from` as seen from the folder of `to`; none where it stays as it is.
+fn moved(path: &str, from: &Path, to: &Path) -> Option<String> {
+    let [from, to] = [from, to].map(|file| parent(file).canonicalize().ok());
+    let (from, to) = (from?, to?);
+    if from == to || Path::new(path).is_absolute() {
+        return None;
+    }
+    let common = from.components().zip(to.components()).take_while(|(a, b)| a == b).count();
+    if common == 0 {
+        // Another drive.
+        return from.join(path).to_str().map(str::to_owned);
+    }
+    let up = to.components().skip(common).map(|_| Some(".."));
+    let down = from.components().skip(common).map(|part| part.as_os_str().to_str());
+    let parts: Option<Vec<&str>> = up.chain(down).chain([Some(path)]).collect();
+    Some(parts?.join("/"))
+}
+
 /// Replaces a file in one step: a new file beside it, flushed to the disk, takes its place and its permissions.
 fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     // A link stays a link: what it points to is replaced.
     let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
-    let folder = match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
+    let folder = parent(&path);
     let mut builder = tempfile::Builder::new();
     builder.prefix(".plushwright-").suffix(".tmp");
     // A temporary file is private by default; a document gets what the user's umask says.
@@ -165,6 +187,14 @@ fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     Ok(())
 }
 
+/// The folder of a file.
+pub fn parent(path: &Path) -> &Path {
+    match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    }
+}
+
 /// Writes one field; what is nested deeper than `depth` levels in it stays on one line.
 fn field<T: Serialize>(out: &mut String, name: &str, value: &T, depth: usize) -> Result<(), ron::Error> {
     const INDENT: &str = "    ";
@@ -185,4 +215,25 @@ fn not_text(bytes: &[u8], good: usize) -> TextError {
     let line = 1 + before.iter().filter(|&&b| b == b'\n').count();
     let column = 1 + before.iter().rev().take_while(|&&b| b != b'\n').count();
     TextError::Syntax { line, column, message: "not UTF-8 text".into() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_relative_path_leads_to_the_same_file_from_another_folder() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |path: &str| folder.path().join(path);
+        for path in ["a/b", "c"] {
+            std::fs::create_dir_all(at(path)).unwrap();
+        }
+        let seen = |from: &str, to: &str| moved("x.png", &at(from), &at(to));
+        assert_eq!(seen("a/p.plush", "a/q.plush"), None);
+        assert_eq!(seen("a/p.plush", "a/../a/b/../q.plush"), None);
+        assert_eq!(seen("a/p.plush", "c/q.plush").as_deref(), Some("../a/x.png"));
+        assert_eq!(seen("p.plush", "a/b/q.plush").as_deref(), Some("../../x.png"));
+        assert_eq!(seen("a/b/p.plush", "q.plush").as_deref(), Some("a/b/x.png"));
+        assert_eq!(moved("/x.png", &at("a/p.plush"), &at("c/q.plush")), None);
+    }
 }

@@ -48,6 +48,8 @@ pub struct ImportChoice {
     /// Of several pieces; otherwise they are refused.
     pub largest_piece: bool,
     pub fill_holes: bool,
+    /// Names between commas; none for all.
+    pub layers: String,
 }
 
 #[derive(Default)]
@@ -244,6 +246,7 @@ impl Session {
                 fibers: defaults::FIBERS,
                 largest_piece: false,
                 fill_holes: false,
+                layers: String::new(),
             },
         }));
     }
@@ -305,7 +308,11 @@ impl Session {
 
     fn save(&mut self, path: PathBuf) {
         let path = if path.extension().is_none() { path.with_extension("plush") } else { path };
-        match file::write(&path, self.design()) {
+        let design = match &self.path {
+            Some(from) => file::seen_from(self.design(), from, &path),
+            None => None,
+        };
+        match file::write(&path, design.as_ref().unwrap_or(self.design())) {
             Ok(()) => {
                 self.history.mark_saved();
                 self.messages.info(format!("Saved {}", path.display()));
@@ -355,6 +362,7 @@ fn read_outline(path: &Path, choice: &ImportChoice) -> Result<(Design, Changes),
         height_mm: Some(choice.height_mm),
         pieces: if choice.largest_piece { Pieces::Largest } else { Pieces::Refuse },
         holes: if choice.fill_holes { Holes::Fill } else { Holes::Keep },
+        layers: choice.layers.split(',').map(str::trim).filter(|name| !name.is_empty()).map(str::to_owned).collect(),
         ..Import::default()
     };
     let mut imported = outline::import_file(path, &import).map_err(|e| e.to_string())?;

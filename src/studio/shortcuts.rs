@@ -70,6 +70,7 @@ fn sketch_keys(ctx: &Context, session: &Session, actions: &mut Vec<Action>) {
         (Key::X, Action::Sketch(Sketch::Cut(!sketching.cut))),
         (Key::F, Action::Sketch(Sketch::Camera(None))),
         (Key::O, Action::Sketch(Sketch::Open(false))),
+        (Key::T, other_theme(session)),
     ] {
         if pressed(key) {
             actions.push(action);
@@ -93,13 +94,16 @@ fn sharpened(session: &Session, part: usize, point: usize) -> Option<Action> {
     Some(Action::Change(super::change::Change::Draw { what, drawing }))
 }
 
+fn other_theme(session: &Session) -> Action {
+    Action::SetTheme(match session.look.theme {
+        Theme::Light => Theme::Dark,
+        Theme::Dark => Theme::Light,
+    })
+}
+
 /// Single keys, while nothing is typed.
 fn plain_keys(ctx: &Context, session: &Session, panels: &mut panels::State, actions: &mut Vec<Action>) {
     let pressed = |key| ctx.input_mut(|i| i.modifiers.is_none() && i.consume_key(Modifiers::NONE, key));
-    let other_theme = match session.look.theme {
-        Theme::Light => Theme::Dark,
-        Theme::Dark => Theme::Light,
-    };
     let toggled = |plushie| Action::ShowView(plushie, !session.look.views.shows(plushie));
     let space = if session.playback.playing { Action::Pause } else { Action::Play };
     for (key, action) in [
@@ -113,7 +117,7 @@ fn plain_keys(ctx: &Context, session: &Session, panels: &mut panels::State, acti
         (Key::Num1, toggled(Plushie::Idealized)),
         (Key::Num2, toggled(Plushie::Realizable)),
         (Key::Q, Action::SetQuality(quality::after(session.quality))),
-        (Key::T, Action::SetTheme(other_theme)),
+        (Key::T, other_theme(session)),
         (Key::G, Action::Propose),
         (Key::K, Action::AddKeyframe),
         (Key::L, Action::SetLooping(!session.playback.looping)),

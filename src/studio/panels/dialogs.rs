@@ -108,4 +108,10 @@ fn import_settings(ui: &mut Ui, edited: &mut PathDialog) {
         ui.add_space(12.0);
         ui.checkbox(&mut import.fill_holes, "Fill holes").on_hover_text("Make a solid body of it");
     });
+    ui.horizontal(|ui| {
+        let label = ui.label("Layers");
+        let field = TextEdit::singleline(&mut edited.import.layers).hint_text("all").desired_width(f32::INFINITY);
+        let tip = "Of an SVG or DXF drawing: the names of those that count, between commas";
+        ui.add(field).labelled_by(label.id).on_hover_text(tip);
+    });
 }

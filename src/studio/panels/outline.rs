@@ -104,9 +104,9 @@ fn numbers(ui: &mut Ui, session: &Session, index: usize, actions: &mut Actions) 
         }
         Primitive::Capsule { ends: [a, b], radii: [r, s] } => {
             place(ui, "From", a);
-            radius(ui, "Radius there", r);
+            radius(ui, "First radius", r);
             place(ui, "To", b);
-            radius(ui, "Radius here", s);
+            radius(ui, "Second radius", s);
         }
         Primitive::Path { points } => {
             if let Some(point) = session.sketching().point.and_then(|k| points.get_mut(k)) {
