@@ -7,14 +7,14 @@
 //! a few about the one at which boundary and interior would be equally dense, and how closely the outline is followed.
 
 use super::curve::Curve;
-use super::quality::Quality;
+use super::quality::{Fit, Quality};
 use super::refine::{Fill, Refiner};
 use super::sample::{Bends, Boundary, Closeness, Extra, Rim, sample};
 use super::smooth::Sliding;
 use super::symmetry::{Axis, Half, unfold};
 use super::{Mesh, generate, smooth, tracks};
 use crate::outline::{Outline, Point};
-use std::cell::Cell;
+use std::cell::{Cell, OnceCell};
 
 /// Boundary spacings tried, relative to the evenly dense one.
 const SPACINGS: [f64; 18] =
@@ -43,8 +43,8 @@ const LEAST_SAMPLINGS: usize = 12;
 /// Edges that smoothing and measuring a mesh weigh, for each that it has.
 const SMOOTHING: usize = 3;
 /// Most work for all that is tried of an outline, the search for a possible count included, in units of about 0.1 us: some
-/// seconds, which only outlines with hundreds of holes need. Then what was found is taken, or the outline is refused. [`EFFORT`] weighs neither how finely the
-/// boundary is sampled nor how often a count is tried; this does.
+/// seconds, which only outlines with hundreds of holes need. Then what was found is taken, or the outline is refused.
+/// [`EFFORT`] weighs neither how finely the boundary is sampled nor how often a count is tried; this does.
 const WORK: usize = 80_000_000;
 /// The same for each fibre asked for.
 const WORK_PER_FIBER: usize = 1000;
@@ -59,6 +59,10 @@ const FINE_DEG: f64 = 30.5;
 /// Farthest that a chord may stray from the outline, as fractions of its height, tried in turn: with few fibres fine features
 /// are rounded off rather than refused.
 const STRAYS: [f64; 4] = [0.0047, 0.008, 0.016, 0.03];
+/// How near, as a part of the height, the boundary must be to an outline without such features.
+const CLOSE: f64 = 0.005;
+/// Limbs and gaps thinner than this part of the height are such features.
+const FINE: f64 = 0.03;
 /// Fibres from which following the outline goes before limbs that are two triangles across.
 const CLOSE_FROM: usize = 400;
 /// Area that the mesh may lose or win at each of those, as a fraction.
@@ -95,6 +99,7 @@ pub(super) struct Subject<'a> {
     /// Work done for the mesh that is sought.
     spent: Cell<usize>,
     budget: Budget,
+    has_fine_features: OnceCell<bool>,
 }
 
 /// Work done altogether, and the most of it, in the units of [`WORK`].
@@ -159,6 +164,7 @@ impl<'a> Subject<'a> {
             vertices,
             spent: Cell::new(0),
             budget: Budget { done: Cell::new(0), most: WORK + WORK_PER_FIBER * fibers, missed: Cell::new(false) },
+            has_fine_features: OnceCell::new(),
         }
     }
 
@@ -208,8 +214,23 @@ impl<'a> Subject<'a> {
             if good && (fibers >= CLOSE_FROM || found.iter().any(|c| c.quality.bridges == 0)) {
                 break;
             }
+            if self.must_be_close(fibers) {
+                break;
+            }
         }
-        best(found, fibers)
+        while let Some(best) = take_best(&mut found, fibers) {
+            let follows = || Fit::of(&best.mesh, self.whole).boundary_fraction <= CLOSE;
+            if fibers < CLOSE_FROM || best.is_good() && follows() || !self.must_be_close(fibers) {
+                return Some((best.mesh, best.quality));
+            }
+        }
+        None
+    }
+
+    /// Whether only the closest following of the outline will do: there are fibres enough, and no feature so fine that it may
+    /// be rounded off.
+    fn must_be_close(&self, fibers: usize) -> bool {
+        fibers >= CLOSE_FROM && !*self.has_fine_features.get_or_init(|| self.whole.narrow_parts(FINE * self.height) > 0)
     }
 
     /// The fewest edges that good angles need, of those at a few spacings; at most `most`. Once some are found, no more
@@ -219,7 +240,8 @@ impl<'a> Subject<'a> {
         self.spent.set(0);
         let enough = self.budget.done.get() + (LEAST_SHARE * self.budget.most as f64) as usize;
         // From a coarse following of the outline, which needs the fewest, to a close one.
-        for (stray, area) in STRAYS.into_iter().zip(AREAS).rev() {
+        let strays = if self.must_be_close(asked) { 1 } else { STRAYS.len() };
+        for (stray, area) in STRAYS.into_iter().zip(AREAS).take(strays).rev() {
             let close = Closeness { stray: stray * self.height, area };
             // From a spacing that is far too coarse for the count to the even one of many times as many.
             for k in (-7..4).rev() {
@@ -390,7 +412,7 @@ pub(super) fn even_spacing(outline: &Outline, fibers: usize) -> f64 {
 /// The candidate with the fewest poor triangles, then of the asked count, and among those the one with the least of what
 /// else is unwanted: an inner edge across a limb weighs as much as four degrees that the least angle is below a fine one,
 /// as ten degrees above, or as edges that differ by a factor of two more.
-fn best(candidates: Vec<Candidate>, fibers: usize) -> Option<(Mesh, Quality)> {
+fn take_best(candidates: &mut Vec<Candidate>, fibers: usize) -> Option<Candidate> {
     let unwanted = |q: &Quality| {
         let angle = 0.1 * q.min_angle_deg - 0.25 * (FINE_DEG - q.min_angle_deg).max(0.0);
         q.bridges as f64 - angle + 0.5 * q.max_edge / q.min_edge
@@ -400,5 +422,6 @@ fn best(candidates: Vec<Candidate>, fibers: usize) -> Option<(Mesh, Quality)> {
         let poor = |q: &Quality| q.below_20_deg - q.corners_below_20_deg;
         poor(a).cmp(&poor(b)).then(other(a).cmp(&other(b))).then(unwanted(a).total_cmp(&unwanted(b)))
     };
-    candidates.into_iter().min_by(|a, b| order(&a.quality, &b.quality)).map(|c| (c.mesh, c.quality))
+    let best = (0..candidates.len()).min_by(|&a, &b| order(&candidates[a].quality, &candidates[b].quality))?;
+    Some(candidates.remove(best))
 }

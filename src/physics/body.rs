@@ -184,8 +184,13 @@ impl Energy for Body {
         for k in 0..self.triangles.len() {
             let f = self.deformation_gradient(k, x);
             let df = self.deformation_gradient(k, dx);
-            let root = first_positive_root(df.determinant(), cofactor(&f).dot(&df), f.determinant());
-            limit = limit.min(INVERSION_MARGIN * root);
+            let (a, b, c) = (df.determinant(), cofactor(&f).dot(&df), f.determinant());
+            // Nearly all are far from inversion: no root of `a t^2 + b t + c` up to `t` where `|a| t^2 + |b| t < c`.
+            let t = limit / INVERSION_MARGIN;
+            if (a.abs() * t + b.abs()) * t < c {
+                continue;
+            }
+            limit = limit.min(INVERSION_MARGIN * first_positive_root(a, b, c));
         }
         limit
     }
@@ -193,6 +198,21 @@ impl Energy for Body {
     /// The forces of a single triangle, before they balance with its neighbours', and the floor that rounding sets. `F` changes
     /// with the coordinates, and the stress by the largest modulus with it.
     fn add_scales(&self, x: &[f64], scales: &mut Scales) {
+        self.add_forces(x, |_, _| {}, scales);
+    }
+
+    fn add_gradient_and_scales(&self, x: &[f64], gradient: &mut [f64], scales: &mut Scales) {
+        let add = |n: usize, force: Vector2<f64>| {
+            gradient[2 * n] += force[0];
+            gradient[2 * n + 1] += force[1];
+        };
+        self.add_forces(x, add, scales);
+    }
+}
+
+impl Body {
+    /// Gives the force of every triangle on each of its nodes to `add`, and adds to what a residual is compared with.
+    fn add_forces(&self, x: &[f64], mut add: impl FnMut(usize, Vector2<f64>), scales: &mut Scales) {
         let floor = ROUNDING_STRAIN * self.material.shear_modulus();
         let modulus = ROUNDING * self.material.largest_modulus();
         for (k, t) in self.triangles.iter().enumerate() {
@@ -203,6 +223,7 @@ impl Energy for Body {
             let change = modulus * size * lengths.into_iter().fold(0.0, f64::max) * weight;
             for (a, &n) in t.iter().enumerate() {
                 let force = p * self.gradients[k][a];
+                add(n, force);
                 let rounding = floor * weight * lengths[a];
                 scales.add_force(n, [force[0].abs() + rounding, force[1].abs() + rounding]);
                 scales.add_rounding(n, [change * lengths[a]; 2]);

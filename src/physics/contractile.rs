@@ -104,16 +104,30 @@ impl Element {
         POINT * self.alpha0
     }
 
+    /// What a residual at its nodes is compared with, where it has this length, tension and tangent.
+    fn add_scales(&self, x: &[f64], length: f64, (tau, tangent): (f64, f64), scales: &mut Scales) {
+        if tau == 0.0 && tangent == 0.0 {
+            return;
+        }
+        for &n in &self.routing {
+            scales.add_force(n, [tau; 2]);
+        }
+        // The tension changes with the length, and the direction of a segment the more, the shorter it is.
+        let along = tangent * length;
+        for s in self.routing.windows(2) {
+            let size = s.iter().fold(0.0, |m: f64, n| m.max(x[2 * n].abs()).max(x[2 * n + 1].abs()));
+            let force = ROUNDING * (along + tau / segment(x, s, self.point()).2 * size);
+            for &n in s {
+                scales.add_rounding(n, [force; 2]);
+            }
+        }
+    }
+
     /// Adds `factor * dl/dx` to `out`.
     pub fn add_length_gradient(&self, x: &[f64], factor: f64, out: &mut [f64]) {
         let point = self.point();
         for s in self.routing.windows(2) {
-            let (dx, dy, length) = segment(x, s, point);
-            let (fx, fy) = (factor * dx / length, factor * dy / length);
-            out[2 * s[0]] -= fx;
-            out[2 * s[0] + 1] -= fy;
-            out[2 * s[1]] += fx;
-            out[2 * s[1] + 1] += fy;
+            add_direction([s[0], s[1]], segment(x, s, point), factor, out);
         }
     }
 
@@ -127,6 +141,15 @@ impl Element {
         }
         rate
     }
+}
+
+/// Adds `factor` times the unit vector of a segment (`dx`, `dy`, length) at its second end, and the opposite at its first.
+fn add_direction([a, b]: [usize; 2], (dx, dy, length): (f64, f64, f64), factor: f64, out: &mut [f64]) {
+    let (fx, fy) = (factor * dx / length, factor * dy / length);
+    out[2 * a] -= fx;
+    out[2 * a + 1] -= fy;
+    out[2 * b] += fx;
+    out[2 * b + 1] += fy;
 }
 
 /// Coordinate differences of a segment, and its length between points of this width.
@@ -223,6 +246,15 @@ impl Energy for Contractile {
             if *law == Law::Tension(0.0) {
                 continue;
             }
+            if let [a, b] = e.routing[..] {
+                // Most elements are one segment, whose length need not be taken twice.
+                let s = segment(x, &[a, b], e.point());
+                let tau = law.tension_and_tangent(e, s.2).0;
+                if tau != 0.0 {
+                    add_direction([a, b], s, tau, gradient);
+                }
+                continue;
+            }
             let tau = law.tension_and_tangent(e, e.length(x)).0;
             if tau != 0.0 {
                 e.add_length_gradient(x, tau, gradient);
@@ -259,16 +291,19 @@ impl Energy for Contractile {
     fn step_limit(&self, x: &[f64], dx: &[f64]) -> f64 {
         let mut limit = 1.0_f64;
         for (e, law) in self.elements.iter().zip(&self.laws) {
-            if law.tension_and_tangent(e, e.length(x)).0 <= 0.0 {
-                continue;
-            }
-            let point = e.point();
             for s in e.routing.windows(2) {
-                let (px, py, length) = segment(x, s, point);
+                let (px, py) = (x[2 * s[1]] - x[2 * s[0]], x[2 * s[1] + 1] - x[2 * s[0] + 1]);
                 let (vx, vy) = (dx[2 * s[1]] - dx[2 * s[0]], dx[2 * s[1] + 1] - dx[2 * s[0] + 1]);
                 let along = px * vx + py * vy;
-                if length > ROUND * point && along < 0.0 {
-                    limit = limit.min(TURNING_MARGIN * (px * px + py * py) / -along);
+                let most = TURNING_MARGIN * (px * px + py * py);
+                // Nearly all are far from turning: neither their lengths nor their tensions are needed.
+                if along.is_nan() || along >= 0.0 || most >= -along * limit {
+                    continue;
+                }
+                let point = e.point();
+                let taut = || law.tension_and_tangent(e, e.length(x)).0 > 0.0;
+                if segment(x, s, point).2 > ROUND * point && taut() {
+                    limit = most / -along;
                 }
             }
         }
@@ -278,22 +313,18 @@ impl Energy for Contractile {
     fn add_scales(&self, x: &[f64], scales: &mut Scales) {
         for (e, law) in self.elements.iter().zip(&self.laws) {
             let length = e.length(x);
+            e.add_scales(x, length, law.tension_and_tangent(e, length), scales);
+        }
+    }
+
+    fn add_gradient_and_scales(&self, x: &[f64], gradient: &mut [f64], scales: &mut Scales) {
+        for (e, law) in self.elements.iter().zip(&self.laws) {
+            let length = e.length(x);
             let (tau, tangent) = law.tension_and_tangent(e, length);
-            if tau == 0.0 && tangent == 0.0 {
-                continue;
+            if tau != 0.0 {
+                e.add_length_gradient(x, tau, gradient);
             }
-            for &n in &e.routing {
-                scales.add_force(n, [tau; 2]);
-            }
-            // The tension changes with the length, and the direction of a segment the more, the shorter it is.
-            let along = tangent * length;
-            for s in e.routing.windows(2) {
-                let size = s.iter().fold(0.0, |m: f64, n| m.max(x[2 * n].abs()).max(x[2 * n + 1].abs()));
-                let force = ROUNDING * (along + tau / segment(x, s, e.point()).2 * size);
-                for &n in s {
-                    scales.add_rounding(n, [force; 2]);
-                }
-            }
+            e.add_scales(x, length, (tau, tangent), scales);
         }
     }
 }

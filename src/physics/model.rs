@@ -164,6 +164,14 @@ impl Model {
         scale.iter().copied().fold(0.0, f64::max)
     }
 
+    /// [`Self::gradient`] and [`Self::force_scale_into`] in one pass, to the same bits.
+    pub fn gradient_and_scale(&self, x: &[f64], gradient: &mut [f64], scale: &mut [f64]) -> f64 {
+        gradient.fill(0.0);
+        let mut scales = Scales::together(scale);
+        self.all().for_each(|term| term.add_gradient_and_scales(x, gradient, &mut scales));
+        scale.iter().copied().fold(0.0, f64::max)
+    }
+
     /// The sums apart, entry by entry: the forces at work, and what a change of the coordinates in the sixth digit does to stiff
     /// springs. Returns the largest of the forces at work.
     pub fn scales_into(&self, x: &[f64], at_work: &mut [f64], rounding: &mut [f64]) -> f64 {

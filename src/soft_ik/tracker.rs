@@ -95,6 +95,9 @@ pub struct Tracker {
     trial: Vec<f64>,
     beta: Vec<f64>,
     forces: Vec<f64>,
+    scales: Vec<f64>,
+    /// The sum of all squared tensions of the pose to show, once it is known.
+    squares: Option<f64>,
     force_scale: f64,
 }
 
@@ -196,6 +199,8 @@ impl Tracker {
             contractions: vec![0.0; elements],
             trial: start.x.clone(),
             forces: start.x.clone(),
+            scales: start.x.clone(),
+            squares: None,
             force_scale: 0.0,
             beta: start.beta.clone(),
         }
@@ -260,9 +265,8 @@ impl Tracker {
         let small = Quality::Balanced.factorizations(self.beta.len()) >= SMALL;
         let whole = small || quality == Quality::Accurate;
         let left = if whole { SETTLING_STEPS } else { budget.saturating_sub(frame.factorizations) };
-        question.model.gradient(&self.trial, &mut self.forces);
+        let mut scale = question.model.gradient_and_scale(&self.trial, &mut self.forces, &mut self.scales);
         let mut residual = statics::norm(&self.forces);
-        let mut scale = question.model.force_scale_into(&self.trial, &mut self.forces);
         let mut cause = None;
         let mut settle = |tolerance: f64, max_iterations: usize, x: &mut [f64]| {
             let settings = StaticsSettings { tolerance, stagnation_tolerance: tolerance.max(1e-8), max_iterations };
@@ -279,8 +283,11 @@ impl Tracker {
         }
         self.force_scale = scale;
         let settled = residual <= SHOWN * scale;
-        let before = objective_of(question, &self.posture.x, &self.posture.beta);
-        let after = objective_of(question, &self.trial, &self.beta);
+        let squares = self.squares.unwrap_or_else(|| squared_tensions(question, &self.posture.x, &self.posture.beta));
+        let squares_after = squared_tensions(question, &self.trial, &self.beta);
+        let objective = question.objective;
+        let value = |x: &[f64], squares: f64| objective.position_value(x) + 0.5 * objective.tension_weight * squares;
+        let (before, after) = (value(&self.posture.x, squares), value(&self.trial, squares_after));
         let margin = if fibers.deciding.is_some() { AS_GOOD } else { NO_WORSE };
         let taken = !self.posture.in_equilibrium() || settled && (pulled || after <= margin * before);
         if taken {
@@ -290,6 +297,7 @@ impl Tracker {
             self.posture.unsettled = (!settled).then(|| cause.unwrap_or(Cause::Stalled));
         }
         self.posture.objective = if taken { after } else { before };
+        self.squares = Some(if taken { squares_after } else { squares });
         fibers.work.phases.line_search += clock.elapsed().as_secs_f64();
         taken.then_some(after)
     }
@@ -455,15 +463,14 @@ impl Fibers {
     }
 }
 
-/// `O` with all free elements springs at activations `beta`, each of which winds one element. Without allocation.
-fn objective_of(question: &Question, x: &[f64], beta: &[f64]) -> f64 {
-    let objective = question.objective;
+/// The sum of the squared tensions of all free elements, springs at activations `beta`, each of which winds one element.
+/// Without allocation.
+fn squared_tensions(question: &Question, x: &[f64], beta: &[f64]) -> f64 {
     let elements = &question.model.contractile.elements;
     let tension = |(winch, beta): (&Winch, &f64)| {
         let (element, ratio) = winch.members[0];
         let element = &elements[element];
         element.tension(element.length(x) - element.alpha0 + ratio * beta)
     };
-    let squares: f64 = question.actuation.winches.iter().zip(beta).map(tension).map(|t| t * t).sum();
-    objective.position_value(x) + 0.5 * objective.tension_weight * squares
+    question.actuation.winches.iter().zip(beta).map(tension).map(|t| t * t).sum()
 }

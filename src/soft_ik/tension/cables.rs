@@ -11,12 +11,20 @@ pub(super) struct Cables {
     /// `dl/dx` at the second end of each segment: its unit vector.
     directions: Vec<[f64; 2]>,
     pub lengths: Vec<f64>,
+    /// The state that lengths and directions are of.
+    at: Vec<f64>,
 }
 
 impl Cables {
     pub fn new<'a>(elements: impl Iterator<Item = &'a Element>) -> Self {
-        let mut out =
-            Self { starts: vec![0], ends: Vec::new(), points: Vec::new(), directions: Vec::new(), lengths: Vec::new() };
+        let mut out = Self {
+            starts: vec![0],
+            ends: Vec::new(),
+            points: Vec::new(),
+            directions: Vec::new(),
+            lengths: Vec::new(),
+            at: Vec::new(),
+        };
         for element in elements {
             out.ends.extend(element.routing.windows(2).map(|s| [s[0] as u32, s[1] as u32]));
             out.starts.push(out.ends.len() as u32);
@@ -27,8 +35,13 @@ impl Cables {
         out
     }
 
-    /// Takes lengths and directions at `x`.
+    /// Takes lengths and directions at `x`, if they are not of `x` already.
     pub fn update(&mut self, x: &[f64]) {
+        if self.at == x {
+            return;
+        }
+        self.at.clear();
+        self.at.extend_from_slice(x);
         for (k, length) in self.lengths.iter_mut().enumerate() {
             *length = 0.0;
             for s in self.starts[k] as usize..self.starts[k + 1] as usize {
