@@ -134,12 +134,19 @@ pub(super) enum Effort {
 struct Candidate {
     mesh: Mesh,
     quality: Quality,
+    /// Whether it follows the outline closely, once somebody asked.
+    follows: OnceCell<bool>,
 }
 
 impl Candidate {
     /// Whether every angle below 20 degrees is one of the outline's own.
     fn is_good(&self) -> bool {
         self.quality.below_20_deg == self.quality.corners_below_20_deg
+    }
+
+    /// Whether its boundary is close to that of the outline.
+    fn follows(&self, outline: &Outline) -> bool {
+        *self.follows.get_or_init(|| Fit::of(&self.mesh, outline).boundary_fraction <= CLOSE)
     }
 
     /// Whether no better one need be sought.
@@ -211,24 +218,23 @@ impl<'a> Subject<'a> {
             if self.is_exhausted() {
                 break;
             }
-            if good && (fibers >= CLOSE_FROM || found.iter().any(|c| c.quality.bridges == 0)) {
-                break;
-            }
-            if self.must_be_close(fibers) {
+            let unbridged = || found.iter().any(|c| c.quality.bridges == 0);
+            let follows = || found.iter().any(|c| c.is_good() && c.follows(self.whole));
+            if good && if fibers < CLOSE_FROM { unbridged() } else { follows() || !self.must_be_close(fibers) } {
                 break;
             }
         }
         while let Some(best) = take_best(&mut found, fibers) {
-            let follows = || Fit::of(&best.mesh, self.whole).boundary_fraction <= CLOSE;
-            if fibers < CLOSE_FROM || best.is_good() && follows() || !self.must_be_close(fibers) {
+            let close = best.is_good() && best.follows(self.whole);
+            if fibers < CLOSE_FROM || close || !self.must_be_close(fibers) {
                 return Some((best.mesh, best.quality));
             }
         }
         None
     }
 
-    /// Whether only the closest following of the outline will do: there are fibres enough, and no feature so fine that it may
-    /// be rounded off.
+    /// Whether the outline must be followed closely: there are fibres enough, and no feature is so fine that it may be rounded
+    /// off.
     fn must_be_close(&self, fibers: usize) -> bool {
         fibers >= CLOSE_FROM && !*self.has_fine_features.get_or_init(|| self.whole.narrow_parts(FINE * self.height) > 0)
     }
@@ -240,8 +246,7 @@ impl<'a> Subject<'a> {
         self.spent.set(0);
         let enough = self.budget.done.get() + (LEAST_SHARE * self.budget.most as f64) as usize;
         // From a coarse following of the outline, which needs the fewest, to a close one.
-        let strays = if self.must_be_close(asked) { 1 } else { STRAYS.len() };
-        for (stray, area) in STRAYS.into_iter().zip(AREAS).take(strays).rev() {
+        for (stray, area) in STRAYS.into_iter().zip(AREAS).rev() {
             let close = Closeness { stray: stray * self.height, area };
             // From a spacing that is far too coarse for the count to the even one of many times as many.
             for k in (-7..4).rev() {
@@ -375,7 +380,7 @@ impl<'a> Subject<'a> {
         let quality = Quality::of(&mesh);
         let lost = (mesh.area() / self.whole.area() - 1.0).abs();
         let sound = quality.below_5_deg == 0 && lost < AREA_SLACK * close.area && mesh.validate().is_ok();
-        sound.then_some(Candidate { mesh, quality })
+        sound.then(|| Candidate { mesh, quality, follows: OnceCell::new() })
     }
 }
 
