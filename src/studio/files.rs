@@ -135,6 +135,7 @@ impl Session {
             FileAction::Import => self.show_path_dialog(Purpose::Import),
             FileAction::NewDrawing => {
                 self.open(sketching::sheet(), None);
+                self.sketching.fresh = true;
                 self.sketch(Sketch::Open(true));
                 self.sketch(Sketch::Take(Pencil::Sketch));
             }

@@ -47,6 +47,8 @@ pub struct Sketching {
     pub cut: bool,
     pub part: Option<usize>,
     pub point: Option<usize>,
+    /// There is no body yet worth looking at.
+    pub fresh: bool,
     /// `None`: fits the drawing.
     pub camera: Option<Camera>,
     /// A drawing of the outline that has none of its own.
@@ -154,6 +156,7 @@ impl Session {
         };
         self.meshing.wanted = None;
         self.look.camera = None;
+        self.sketching.fresh = false;
         self.sketch(Sketch::Open(false));
         self.tell_carried(&report);
         for line in changes.lines() {

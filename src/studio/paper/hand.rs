@@ -7,7 +7,7 @@ use crate::studio::action::Action;
 use crate::studio::change::Change;
 use crate::studio::panels::Actions;
 use crate::studio::sketching::{Pencil, Sketch};
-use eframe::egui::{CursorIcon, Key, Modifiers, PointerButton, Popup, Response, Ui};
+use eframe::egui::{CursorIcon, Event, Key, Modifiers, PointerButton, Popup, Response, Ui};
 
 /// How near the pointer must be to a handle, logical pixels.
 const REACH: f64 = 9.0;
@@ -68,7 +68,19 @@ pub fn act(ui: &mut Ui, sheet: &Sheet<'_>, hand: &mut Hand, response: &Response,
     }
     let pointer = response.interact_pointer_pos().map(to_sheet);
     if let Some(at) = pointer.filter(|_| response.dragged_by(PointerButton::Primary)) {
-        drag(sheet, hand, at, response, actions);
+        if let Hand::Line(line) = hand {
+            // Where frames are slow a hand draws more than a point in each.
+            let way = ui.input(|i| {
+                let moved = i.events.iter().filter_map(|event| match event {
+                    Event::PointerMoved(p) => Some(to_sheet(*p)),
+                    _ => None,
+                });
+                moved.collect::<Vec<Point>>()
+            });
+            way.into_iter().chain([at]).for_each(|p| draw(line, p, STEP * sheet.mm_per_pixel()));
+        } else {
+            drag(sheet, hand, at, response, actions);
+        }
     }
     if response.drag_stopped_by(PointerButton::Primary) {
         match pointer {
@@ -192,17 +204,19 @@ fn drag(sheet: &Sheet<'_>, hand: &mut Hand, at: Point, response: &Response, acti
             };
             actions.push(Action::Live(Change::Draw { what, drawing: changed }));
         }
-        Hand::Line(line) => {
-            if line.last().is_none_or(|&last| polygon::length(last, at) >= STEP * mm) {
-                line.push(at);
-            }
-        }
         Hand::Spans(_, to) => *to = at,
         Hand::Pans => {
             let moved = sheet.camera.panned(response.drag_delta());
             actions.push(Action::Sketch(Sketch::Camera(Some(moved))));
         }
-        Hand::Corners(_) | Hand::Nothing => {}
+        Hand::Line(_) | Hand::Corners(_) | Hand::Nothing => {}
+    }
+}
+
+/// Goes on with a freehand line, if that is far enough.
+fn draw(line: &mut Vec<Point>, to: Point, step: f64) {
+    if line.last().is_none_or(|&last| polygon::length(last, to) >= step) {
+        line.push(to);
     }
 }
 

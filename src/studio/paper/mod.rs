@@ -77,7 +77,7 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Act
 fn fit(session: &Session, rect: Rect) -> Camera {
     let drawn = session.drawing().parts.iter().map(|part| part.primitive.polygon());
     let mut points: Vec<Point> = drawn.flatten().collect();
-    if !points.is_empty() {
+    if !points.is_empty() && !session.sketching().fresh {
         points.extend(&session.design().outline.outer);
     }
     let (low, high) = if points.is_empty() { EMPTY_SHEET } else { polygon::bounding_box(&points) };

@@ -30,8 +30,7 @@ pub fn show(ui: &Ui, sheet: &Sheet<'_>, state: &State, pointer: Option<Pos2>) {
         closed(&painter, ring.iter().copied().map(screen), Stroke::new(1.6, style::color32(palette.seam)));
     }
     // The body as it is, where it is no longer what is drawn.
-    let is_new = session.design().drawing.is_some() && !session.drawing().parts.is_empty();
-    if is_new {
+    if session.design().drawing.is_some() && !session.sketching().fresh {
         for ring in session.design().outline.polygons() {
             let points: Vec<Pos2> = ring.iter().chain(ring.first()).copied().map(screen).collect();
             painter.extend(Shape::dashed_line(&points, Stroke::new(1.0, weak.gamma_multiply(0.7)), 5.0, 4.0));
