@@ -5,6 +5,7 @@
 
 use super::action::FileAction;
 use super::jobs::Report;
+use super::meshing::Resolution;
 use super::session::Session;
 use super::sketching::{self, Pencil, Sketch};
 use crate::defaults;
@@ -136,6 +137,7 @@ impl Session {
             FileAction::NewDrawing => {
                 self.open(sketching::sheet(), None);
                 self.sketching.fresh = true;
+                self.meshing.wanted = Some(Resolution { fibers: defaults::FIBERS, finer: 1 });
                 self.sketch(Sketch::Open(true));
                 self.sketch(Sketch::Take(Pencil::Sketch));
             }

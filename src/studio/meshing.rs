@@ -92,8 +92,11 @@ impl Session {
     pub(super) fn tell_carried(&mut self, report: &remesh::Report) {
         let [before, after] = report.fibers;
         let farthest = report.farthest_mm();
-        let text =
-            format!("{before} fibres became {after}; pins, targets and tendons moved by up to {farthest:.1} mm.");
+        let text = if report.moved.is_empty() {
+            format!("The body has {after} fibres.")
+        } else {
+            format!("{before} fibres became {after}; pins, targets and tendons moved by up to {farthest:.1} mm.")
+        };
         match report.lost_tendons.len() {
             0 => self.messages.info(text),
             lost => {
