@@ -115,11 +115,19 @@ pub fn build_or_finer(outline: &Outline, request: &Request) -> Result<(Meshed, u
             Some(Meshed { mesh, quality, axis: None })
         })
     };
-    if let Some(meshed) = at(fibers, Effort::Full) {
-        return Ok((meshed, fibers));
+    for lenient in [false, true] {
+        if lenient {
+            whole.relax();
+            half.iter().for_each(|(_, subject)| subject.relax());
+        }
+        if let Some(meshed) = at(fibers, Effort::Full) {
+            return Ok((meshed, fibers));
+        }
+        if let Some(found) = finer(&whole, fibers, &at) {
+            return Ok(found);
+        }
     }
-    let too_fine = MeshError::TooFine { most: MAX_FIBERS };
-    finer(&whole, fibers, at).ok_or(if whole.has_given_up() { MeshError::TooIntricate } else { too_fine })
+    Err(if whole.has_given_up() { MeshError::TooIntricate } else { MeshError::TooFine { most: MAX_FIBERS } })
 }
 
 /// About how many edges a mesh with edges of this length has.

@@ -45,7 +45,7 @@ const SMOOTHING: usize = 3;
 /// Most work for all that is tried of an outline, the search for a possible count included, in units of about 0.1 us: some
 /// seconds, which only outlines with hundreds of holes need. Then what was found is taken, or the outline is refused.
 /// [`EFFORT`] weighs neither how finely the boundary is sampled nor how often a count is tried; this does.
-const WORK: usize = 80_000_000;
+const WORK: usize = 100_000_000;
 /// The same for each fibre asked for.
 const WORK_PER_FIBER: usize = 1000;
 /// The part of it for finding out how many edges good angles need.
@@ -61,10 +61,14 @@ const FINE_DEG: f64 = 30.5;
 const STRAYS: [f64; 4] = [0.0047, 0.008, 0.016, 0.03];
 /// How near, as a part of the height, the boundary must be to an outline without such features.
 const CLOSE: f64 = 0.005;
+/// How near its area must be, as a part.
+const CLOSE_AREA: f64 = 0.01;
 /// Limbs and gaps thinner than this part of the height are such features.
 const FINE: f64 = 0.03;
 /// Fibres from which following the outline goes before limbs that are two triangles across.
 const CLOSE_FROM: usize = 400;
+/// Fibres from which fine features are followed as well.
+const ALL_CLOSE_FROM: usize = 2000;
 /// Area that the mesh may lose or win at each of those, as a fraction.
 const AREAS: [f64; 4] = [0.0095, 0.0095, 0.0095, 0.03];
 /// How much of that nodes sliding along the boundary may add.
@@ -100,6 +104,8 @@ pub(super) struct Subject<'a> {
     spent: Cell<usize>,
     budget: Budget,
     has_fine_features: OnceCell<bool>,
+    /// Whether an outline may be followed less closely than it should.
+    lenient: Cell<bool>,
 }
 
 /// Work done altogether, and the most of it, in the units of [`WORK`].
@@ -144,9 +150,17 @@ impl Candidate {
         self.quality.below_20_deg == self.quality.corners_below_20_deg
     }
 
-    /// Whether its boundary is close to that of the outline.
+    /// Whether no more than one in a thousand triangles is poor for no fault of the outline.
+    fn is_nearly_good(&self) -> bool {
+        (self.quality.below_20_deg - self.quality.corners_below_20_deg) * 1000 <= self.quality.triangles
+    }
+
+    /// Whether its boundary and its area are close to those of the outline.
     fn follows(&self, outline: &Outline) -> bool {
-        *self.follows.get_or_init(|| Fit::of(&self.mesh, outline).boundary_fraction <= CLOSE)
+        *self.follows.get_or_init(|| {
+            let fit = Fit::of(&self.mesh, outline);
+            fit.boundary_fraction <= CLOSE && fit.area_error.abs() <= CLOSE_AREA
+        })
     }
 
     /// Whether no better one need be sought.
@@ -172,6 +186,7 @@ impl<'a> Subject<'a> {
             spent: Cell::new(0),
             budget: Budget { done: Cell::new(0), most: WORK + WORK_PER_FIBER * fibers, missed: Cell::new(false) },
             has_fine_features: OnceCell::new(),
+            lenient: Cell::new(false),
         }
     }
 
@@ -190,6 +205,11 @@ impl<'a> Subject<'a> {
     /// Whether no more work is allowed.
     pub fn is_exhausted(&self) -> bool {
         self.budget.is_exhausted()
+    }
+
+    /// Lets the outline be followed as closely as can be, where it cannot be followed as closely as it should.
+    pub fn relax(&self) {
+        self.lenient.set(true);
     }
 
     /// Whether more work might have given more.
@@ -225,7 +245,7 @@ impl<'a> Subject<'a> {
             }
         }
         while let Some(best) = take_best(&mut found, fibers) {
-            let close = best.is_good() && best.follows(self.whole);
+            let close = best.is_nearly_good() && best.follows(self.whole);
             if fibers < CLOSE_FROM || close || !self.must_be_close(fibers) {
                 return Some((best.mesh, best.quality));
             }
@@ -233,10 +253,12 @@ impl<'a> Subject<'a> {
         None
     }
 
-    /// Whether the outline must be followed closely: there are fibres enough, and no feature is so fine that it may be rounded
-    /// off.
+    /// Whether the outline must be followed closely: there are fibres enough, for all features or for those that there are.
     fn must_be_close(&self, fibers: usize) -> bool {
-        fibers >= CLOSE_FROM && !*self.has_fine_features.get_or_init(|| self.whole.narrow_parts(FINE * self.height) > 0)
+        let should = fibers >= ALL_CLOSE_FROM
+            || fibers >= CLOSE_FROM
+                && !*self.has_fine_features.get_or_init(|| self.whole.narrow_parts(FINE * self.height) > 0);
+        should && !self.lenient.get()
     }
 
     /// The fewest edges that good angles need, of those at a few spacings; at most `most`. Once some are found, no more

@@ -104,6 +104,7 @@ impl Studio {
             panels::dialogs::show(ui.ctx(), session, actions);
             return;
         }
+        self.paper.let_go();
         let timeline =
             Panel::bottom("timeline").frame(bar).default_size(132.0).size_range(96.0..=320.0).resizable(true);
         let timeline = timeline.show(ui, |ui| {

@@ -113,8 +113,8 @@ impl Session {
 
     /// Removes the point or the part that is picked out.
     pub(super) fn delete_drawn(&mut self) {
-        let Some(index) = self.sketching.part else { return };
         let mut drawing = self.drawing().clone();
+        let Some(index) = self.sketching.part.filter(|&index| index < drawing.parts.len()) else { return };
         let thinner = self.sketching.point.and_then(|point| drawing.parts.get(index)?.primitive.without_point(point));
         let what = match thinner {
             Some(primitive) => {

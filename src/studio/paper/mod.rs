@@ -25,6 +25,11 @@ pub struct State {
 }
 
 impl State {
+    /// Drops what was being drawn.
+    pub fn let_go(&mut self) {
+        self.hand = hand::Hand::Nothing;
+    }
+
     /// What is drawn, worked out anew only where it has changed.
     pub fn surface(&mut self, drawing: &Drawing) -> &Surface {
         self.surface.follow(drawing);
