@@ -123,7 +123,7 @@ pub fn build_or_finer(outline: &Outline, request: &Request) -> Result<(Meshed, u
         if let Some(meshed) = at(fibers, Effort::Full) {
             return Ok((meshed, fibers));
         }
-        if let Some(found) = finer(&whole, fibers, &at) {
+        if let Some(found) = finer(&whole, fibers, at) {
             return Ok(found);
         }
     }
