@@ -1,6 +1,6 @@
 //! The mesh: how good it is, and another resolution for it.
 
-use super::{Actions, heading, primary};
+use super::{Actions, heading, meshing, primary};
 use crate::design::MeshFigures;
 use crate::mesh::quality::{HISTOGRAM_BARS, HISTOGRAM_STEP_DEG, Quality};
 use crate::mesh::{MAX_FIBERS, Mesh};
@@ -9,7 +9,7 @@ use crate::studio::meshing::FINEST;
 use crate::studio::session::Session;
 use crate::studio::style;
 use eframe::egui::{
-    Align2, DragValue, FontId, Grid, Rect, RichText, Role, ScrollArea, Sense, Spinner, Ui, WidgetInfo, pos2, vec2,
+    Align2, DragValue, FontId, Grid, Rect, RichText, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2,
 };
 
 /// Below this angle a triangle is poor, degrees.
@@ -81,15 +81,7 @@ fn resolution(ui: &mut Ui, session: &Session, actions: &mut Actions) {
                 actions.push(Action::Remesh);
             }
         }
-        Some(_) => {
-            ui.horizontal(|ui| {
-                ui.add(Spinner::new());
-                ui.label("Meshing");
-                if ui.button("Cancel meshing").on_hover_text("Keep the present mesh").clicked() {
-                    actions.push(Action::CancelRemesh);
-                }
-            });
-        }
+        Some(_) => meshing(ui, actions),
     }
 }
 

@@ -16,7 +16,7 @@ pub mod toolbar;
 use super::action::Action;
 use super::style;
 use super::viewport::thumbnail::Thumbnails;
-use eframe::egui::{Button, Frame, Margin, Response, RichText, Ui};
+use eframe::egui::{Button, Frame, Margin, Response, RichText, Spinner, Ui};
 
 /// What belongs to the controls alone: half-typed text, which tab is open.
 #[derive(Default)]
@@ -61,6 +61,17 @@ pub fn primary(ui: &mut Ui, enabled: bool, text: &str, width: f32) -> Response {
     let theme = style::theme_of(ui.visuals());
     let label = RichText::new(text).strong().color(style::on_accent(theme));
     wide(ui, enabled, Button::new(label).fill(style::accent(theme)), width)
+}
+
+/// What stands in the place of a button while it is at work.
+pub fn meshing(ui: &mut Ui, actions: &mut Actions) {
+    ui.horizontal(|ui| {
+        ui.add(Spinner::new());
+        ui.label("Meshing");
+        if ui.button("Cancel meshing").on_hover_text("Keep the body as it is").clicked() {
+            actions.push(Action::CancelRemesh);
+        }
+    });
 }
 
 /// A button of a given width, its text in the middle.

@@ -1,6 +1,6 @@
 //! Drawing the outline: pencils, parts, the numbers of the part that is picked out, and the body that comes of it.
 
-use super::{Actions, heading, primary, wide};
+use super::{Actions, heading, meshing, primary, wide};
 use crate::mesh::MAX_FIBERS;
 use crate::outline::drawing::Primitive;
 use crate::outline::{Drawing, Point};
@@ -11,7 +11,7 @@ use crate::studio::meshing::Resolution;
 use crate::studio::paper;
 use crate::studio::session::Session;
 use crate::studio::sketching::{Pencil, Sketch};
-use eframe::egui::{Align, Button, DragValue, Grid, Layout, RichText, ScrollArea, Spinner, Ui};
+use eframe::egui::{Align, Button, DragValue, Grid, Layout, RichText, ScrollArea, Ui};
 
 /// Least radius, mm.
 const LEAST_MM: f64 = 0.5;
@@ -168,15 +168,7 @@ fn body(ui: &mut Ui, session: &Session, state: &mut paper::State, actions: &mut 
                 actions.push(Action::Sketch(Sketch::MakeBody));
             }
         }
-        Some(_) => {
-            ui.horizontal(|ui| {
-                ui.add(Spinner::new());
-                ui.label("Meshing");
-                if ui.button("Cancel meshing").on_hover_text("Keep the present body").clicked() {
-                    actions.push(Action::CancelRemesh);
-                }
-            });
-        }
+        Some(_) => meshing(ui, actions),
     }
     let width = ui.available_width();
     let tip = "Back to the plushies; the drawing stays in the document (O)";
