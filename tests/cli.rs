@@ -422,6 +422,23 @@ fn a_mesh_is_measured_and_changed() {
     assert!(figures["quality"]["edges"].as_u64().unwrap() > 200);
     let track = ["remesh", "bar.plush", "-o", "track.plush", "--edge", "8", "--track", "10,20 110,20"];
     assert!(succeed(here, &track).contains("track.plush"));
+    // The track stays with the drawing: it is in its text, and another mesh follows it as well.
+    let text = succeed(here, &["drawing", "track.plush"]);
+    assert!(text.contains("tracks: [") && text.contains("(110.0"), "{text}");
+    succeed(here, &["remesh", "track.plush", "-o", "track.plush", "--fibers", "150"]);
+    fs::write(here.join("bar.ron"), text).unwrap();
+    succeed(here, &["new", "bar.ron", "-o", "drawn.plush", "--fibers", "150"]);
+    for design in ["track.plush", "drawn.plush"] {
+        let design = plushwright::design::file::read(&here.join(design)).unwrap();
+        assert_eq!(design.tracks(), [[[10.0, 20.0], [110.0, 20.0]]]);
+        let along =
+            design.mesh.edges().iter().flatten().filter(|&&n| (design.mesh.nodes[n][1] - 20.0).abs() < 1e-9).count();
+        assert!(along > 20, "{along} ends of edges on the track");
+    }
+    succeed(here, &["remesh", "track.plush", "-o", "track.plush", "--fibers", "150", "--no-tracks"]);
+    assert!(!succeed(here, &["drawing", "track.plush"]).contains("tracks"));
+    fs::write(here.join("bad.ron"), "(parts: [], tracks: [[(0, 0)]])").unwrap();
+    assert!(fail(here, 2, &["new", "bad.ron", "-o", "no.plush"]).contains("tracks[0]"));
     assert!(fail(here, 2, &["remesh", "bar.plush", "-o", "no.plush"]).contains("--fibers"));
     assert!(!here.join("no.plush").exists());
 }

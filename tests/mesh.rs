@@ -3,9 +3,11 @@
 #[path = "support/shapes.rs"]
 mod shapes;
 
+use plushwright::design::reshape::{self, Body};
+use plushwright::design::{Design, edit, remesh};
 use plushwright::mesh::quality::{Fit, Quality};
 use plushwright::mesh::{self, MeshError, Request, Size};
-use plushwright::outline::{Outline, Point, polygon, svg};
+use plushwright::outline::{self, Drawing, Import, Outline, Point, polygon, svg};
 use shapes::{nasty, ring};
 
 /// Kinds of outlines in `shapes`.
@@ -87,19 +89,58 @@ fn edges_run_along_the_tracks() {
     let request = Request { size: Size::Fibers(500), tracks: tracks.clone(), mirror: true };
     let mesh = mesh::build(&outline, &request).unwrap().mesh;
     check("disc with tracks", &outline, 500, &mesh);
-    let edges = mesh.edges();
     for track in &tracks {
-        for piece in track.windows(2) {
-            for k in 0..=20 {
-                let p = polygon::lerp(piece[0], piece[1], f64::from(k) / 20.0);
-                let on = edges.iter().any(|e| {
-                    let [a, b] = e.map(|n| mesh.nodes[n]);
-                    polygon::distance_to_segment(a, b, p) < 1e-9
-                });
-                assert!(on, "no edge at {p:?}");
-            }
-        }
+        assert!(off_edges(&mesh, track).is_empty(), "no edge at {:?}", off_edges(&mesh, track));
     }
+}
+
+/// Places along a track at which there is no edge.
+fn off_edges(mesh: &mesh::Mesh, track: &[Point]) -> Vec<Point> {
+    let edges = mesh.edges();
+    let places = track.windows(2).flat_map(|w| (0..=20).map(move |k| polygon::lerp(w[0], w[1], f64::from(k) / 20.0)));
+    let is_off = |p: &Point| {
+        let on = |e: &[usize; 2]| polygon::distance_to_segment(mesh.nodes[e[0]], mesh.nodes[e[1]], *p) < 1e-9;
+        !edges.iter().any(on)
+    };
+    places.filter(is_off).collect()
+}
+
+/// A limb with a head, and a track from the middle of the head through the limb to far beyond its end.
+const DRAWING: &str = "(parts: [
+    (primitive: Capsule(ends: ((0, 0), (120, 0)), radii: (30, 30))),
+    (primitive: Circle(center: (130, 20), radius: 50)),
+], tracks: [[(130, 20), (60, 5), (-1e7, 5)]])";
+
+#[test]
+fn the_tracks_of_a_drawing_are_edges_of_every_mesh_of_it() {
+    let imported = Drawing::read(DRAWING.as_bytes()).unwrap().import(&Import::default()).unwrap();
+    let Body { outline, mesh, drawing, .. } = Body::with_fibers(imported.clone(), 400, 1, [0.0; 2]).unwrap();
+    let mut design = Design { drawing, ..Design::new("limb", outline, mesh) };
+    // 30 mm to the right of the corner, and 30 mm above it.
+    assert_eq!(design.tracks(), [[[160.0, 50.0], [90.0, 35.0], [-1e7 + 30.0, 35.0]]]);
+    // Within an edge of the rim it ends.
+    let inside = [design.tracks()[0][0], design.tracks()[0][1], [20.0, 35.0]];
+    let check = |design: &Design, what: &str| {
+        design.validate().unwrap();
+        let off = off_edges(&design.mesh, &inside);
+        assert!(off.is_empty(), "{what}: {off:?}");
+        let low = Quality::of(&design.mesh).below_20_deg;
+        assert!(low * 1000 <= design.mesh.triangles.len(), "{what}: {low}");
+    };
+    check(&design, "new");
+    let request = Request { tracks: design.tracks().to_vec(), ..Request::fibers(800) };
+    remesh::remesh(&mut design, &request, 2).unwrap();
+    check(&design, "another resolution");
+    let body = Body::with_fibers(imported, 500, 1, [0.0; 2]).unwrap();
+    reshape::reshape(&mut design, body);
+    check(&design, "another body");
+    // A silhouette that was not drawn keeps them too.
+    let plain = std::fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/pig.svg")).unwrap();
+    let mut plain = outline::import(&plain, &Import::default()).unwrap();
+    edit::set_tracks(&mut design, vec![vec![[120.0, 110.0], [180.0, 110.0]]]).unwrap();
+    reshape::keep_tracks(&design, &mut plain);
+    reshape::reshape(&mut design, Body::with_fibers(plain, 571, 1, [0.0; 2]).unwrap());
+    assert!(off_edges(&design.mesh, &[[120.0, 110.0], [180.0, 110.0]]).is_empty());
 }
 
 #[test]

@@ -8,8 +8,8 @@ use plushwright::design::{Design, Network, Pin, Tendon, animation};
 use plushwright::discovery::Stages;
 use plushwright::engine::{EQUILIBRIUM, Proposal, Quality, Shape};
 use plushwright::mesh::Mesh;
-use plushwright::outline::Outline;
 use plushwright::outline::drawing::{Part, Primitive};
+use plushwright::outline::{Outline, polygon};
 use plushwright::picture::palette::Theme;
 use plushwright::studio::app::Studio;
 use plushwright::studio::messages::Level;
@@ -686,6 +686,91 @@ fn the_outline_is_drawn_with_the_mouse_and_becomes_a_body() {
     assert_eq!(*session(&window).design(), before);
 }
 
+/// One click of the mouse on the sheet, and time enough for the next one not to be a double click.
+fn click_at(window: &mut Window, p: Pos2) {
+    window.hover_at(p);
+    window.step();
+    window.drag_at(p);
+    window.step();
+    window.drop_at(p);
+    settle(window);
+    window.run_steps(30);
+}
+
+/// Whether edges of the mesh run along a track, within 0.01 mm, between two of its places.
+fn has_edges_along(mesh: &Mesh, [a, b]: [[f64; 2]; 2]) -> bool {
+    let edges = mesh.edges();
+    (0..=40).all(|k| {
+        let p = polygon::lerp(a, b, f64::from(k) / 40.0);
+        edges.iter().any(|e| polygon::distance_to_segment(mesh.nodes[e[0]], mesh.nodes[e[1]], p) < 0.01)
+    })
+}
+
+#[test]
+fn a_tendon_track_is_drawn_changed_and_becomes_edges_of_the_body() {
+    let mut window = with_network();
+    let before = session(&window).design().clone();
+    press(&mut window, Modifiers::NONE, Key::O);
+    click(&mut window, "Tendon track");
+    let tracks = |window: &Window| session(window).drawing().tracks.clone();
+    let at = |window: &Window, p: [f64; 2]| on_sheet(window, BAR, p);
+    // One that Escape drops, and one that a double click ends.
+    for p in [[20.0, 10.0], [60.0, 30.0]] {
+        let p = at(&window, p);
+        click_at(&mut window, p);
+    }
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(session(&window).sketching().open && *session(&window).design() == before, "nothing was drawn");
+    for p in [[15.0, 25.0], [60.0, 25.0], [105.0, 25.0], [105.0, 25.0]] {
+        let p = at(&window, p);
+        click_at(&mut window, p);
+    }
+    assert!(matches!(tracks(&window).as_slice(), [track] if track.len() == 3), "{:?}", tracks(&window));
+    assert_eq!(session(&window).history().undo_label(), Some("Draw a track"));
+    // A second one, ended with Enter, is deleted again by its button; then a part of undo brings it back and takes it.
+    press(&mut window, Modifiers::NONE, Key::R);
+    for p in [[15.0, 8.0], [40.0, 8.0]] {
+        let p = at(&window, p);
+        click_at(&mut window, p);
+    }
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    assert_eq!(tracks(&window).len(), 2);
+    click(&mut window, "Delete track 2");
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(tracks(&window).len(), 2);
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(tracks(&window).len(), 1);
+    // Its middle point is pulled down, a point is put in, and taken out again.
+    press(&mut window, Modifiers::NONE, Key::V);
+    let on_it = at(&window, [30.0, 25.0]);
+    click_at(&mut window, on_it);
+    let [from, to] = [[60.0, 25.0], [60.0, 18.0]].map(|p| at(&window, p));
+    drag(&mut window, from, to);
+    let pulled = tracks(&window)[0].clone();
+    assert!((pulled[1][1] - 18.0).abs() < 0.5 && pulled.len() == 3, "{pulled:?}");
+    let [from, to] = [[82.5, 21.5], [82.5, 15.0]].map(|p| at(&window, p));
+    drag(&mut window, from, to);
+    assert_eq!((tracks(&window)[0].len(), session(&window).history().undo_label()), (4, Some("Add point")));
+    press(&mut window, Modifiers::NONE, Key::Delete);
+    assert_eq!(tracks(&window)[0], pulled);
+    click(&mut window, "Make the body");
+    let after = session(&window).design().clone();
+    after.validate().unwrap();
+    assert_eq!(after.networks.len(), 1);
+    let track = after.tracks()[0].clone();
+    for piece in track.windows(2) {
+        assert!(has_edges_along(&after.mesh, [piece[0], piece[1]]), "{piece:?}");
+    }
+    // Another resolution keeps to it.
+    click(&mut window, "Mesh");
+    click(&mut window, "Remesh");
+    assert!(has_edges_along(&session(&window).design().mesh, [track[1], track[2]]));
+    while session(&window).history().undo_label() != Some("Add target") {
+        press(&mut window, Modifiers::COMMAND, Key::Z);
+    }
+    assert_eq!(*session(&window).design(), before);
+}
+
 #[test]
 fn a_new_plushie_is_drawn_on_an_empty_sheet() {
     let mut window = window(bar());
@@ -720,14 +805,7 @@ fn a_new_plushie_is_drawn_on_an_empty_sheet() {
     let corners = [[140.0, 100.0], [180.0, 100.0], [160.0, 140.0], [140.0, 100.0]];
     for p in corners {
         let p = at(&window, p);
-        window.hover_at(p);
-        window.step();
-        window.drag_at(p);
-        window.step();
-        window.drop_at(p);
-        settle(&mut window);
-        // Clicks in quick succession would be a double click.
-        window.run_steps(30);
+        click_at(&mut window, p);
     }
     assert_eq!(parts(&window).len(), 2, "{:?}", parts(&window));
     assert!(parts(&window)[1].cut && parts(&window)[1].primitive.handles().len() == 3);

@@ -222,6 +222,8 @@ impl New {
 /// A design with default settings around an outline. Without a number of fibres, the default one or, where the outline
 /// needs more, the smallest possible.
 pub fn design(imported: Imported, fibers: Option<usize>, name: &str) -> Result<(Design, Changes), String> {
+    let asked = fibers.unwrap_or(defaults::FIBERS);
+    let request = Request { tracks: imported.tracks().to_vec(), ..Request::fibers(asked) };
     let Imported { outline, mesh, mut changes, drawing, .. } = imported;
     // A file's own mesh stays as it is, unless another number of fibres is asked for.
     if let (Some((nodes, triangles)), None) = (mesh, fibers) {
@@ -229,8 +231,7 @@ pub fn design(imported: Imported, fibers: Option<usize>, name: &str) -> Result<(
         mesh.validate().map_err(|e| e.to_string())?;
         return Ok((Design::new(name, outline, mesh), changes));
     }
-    let asked = fibers.unwrap_or(defaults::FIBERS);
-    let (meshed, count) = mesh::build_or_finer(&outline, &Request::fibers(asked)).map_err(|error| error.to_string())?;
+    let (meshed, count) = mesh::build_or_finer(&outline, &request).map_err(|error| error.to_string())?;
     if count != asked {
         if fibers.is_some() {
             return Err(MeshError::Unreachable { asked, nearest: count }.to_string());

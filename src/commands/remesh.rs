@@ -3,6 +3,7 @@
 use super::document;
 use super::error::CommandError;
 use super::output::{say, say_json};
+use crate::design::edit::set_tracks;
 use crate::design::history::History;
 use crate::design::remesh::{Report, remesh};
 use crate::mesh::{Request, Size};
@@ -37,9 +38,13 @@ pub struct Remesh {
     /// Simulate on a mesh this many times finer than the fibres' own
     #[arg(long, value_name = "K", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=16))]
     pub finer: u16,
-    /// A line along which mesh edges shall run, for thread to follow: corners in mm; may be repeated
+    /// A line along which mesh edges shall run, for thread to follow: corners in mm; may be repeated. It is added to the
+    /// design's drawing, whose tracks every other mesh follows too
     #[arg(long, value_name = "X,Y X,Y...", value_parser = parse_track, allow_hyphen_values = true)]
     pub track: Vec<Track>,
+    /// Drop the tracks that the design has
+    #[arg(long)]
+    pub no_tracks: bool,
     /// Do not make the mesh of a symmetric outline symmetric
     #[arg(long)]
     pub no_mirror: bool,
@@ -60,10 +65,19 @@ impl Remesh {
             (None, Some(length)) => Size::EdgeMm(length),
             (None, None) => return Err(CommandError::Usage("either --fibers or --edge is needed".into())),
         };
-        let tracks = self.track.iter().map(|t| t.0.clone()).collect();
-        let request = Request { size, tracks, mirror: !self.no_mirror };
+        let mut tracks = if self.no_tracks { Vec::new() } else { history.current().tracks().to_vec() };
+        for Track(track) in &self.track {
+            // The same command again changes nothing.
+            if !tracks.contains(track) {
+                tracks.push(track.clone());
+            }
+        }
+        let request = Request { size, tracks: tracks.clone(), mirror: !self.no_mirror };
         let report = history
-            .edit("Remesh", |design| remesh(design, &request, usize::from(self.finer)))
+            .edit("Remesh", |design| {
+                set_tracks(design, tracks)?;
+                remesh(design, &request, usize::from(self.finer))
+            })
             .map_err(|e| CommandError::input(&self.design, e))?;
         document::save_as(&self.design, &self.output, history.current(), cancel)?;
         if self.json { say_json(out, &report) } else { print(&self.output, &report, out) }

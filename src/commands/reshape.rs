@@ -8,8 +8,8 @@ use super::remesh;
 use crate::design::edit::EditError;
 use crate::design::history::History;
 use crate::design::remesh::Report;
-use crate::design::reshape::{Body, reshape};
-use crate::mesh::{Request, Size};
+use crate::design::reshape::{Body, keep_tracks, reshape};
+use crate::mesh::Request;
 use crate::outline::{self, Changes};
 use clap::Args;
 use serde::Serialize;
@@ -57,14 +57,15 @@ impl Reshape {
         let mut history = History::new(document::load(&self.design)?);
         let import = self.reading.import(self.reading.height);
         let refuse = |reason: String| CommandError::input(&self.outline, reason);
-        let imported = outline::import_file(&self.outline, &import).map_err(|e| refuse(e.to_string()))?;
+        let mut imported = outline::import_file(&self.outline, &import).map_err(|e| refuse(e.to_string()))?;
         // Where a height is asked for the drawing's own coordinates do not count.
         let own_place = imported.drawing.is_some() && import.height_mm.is_none();
         let corner = if own_place { imported.drawn_box[0] } else { [0.0; 2] };
+        keep_tracks(history.current(), &mut imported);
         let changes = imported.changes.clone();
         let fibers = self.fibers.unwrap_or_else(|| history.current().fiber_routings().len());
-        let request = Request { size: Size::Fibers(fibers), tracks: Vec::new(), mirror: true };
-        let body = Body::new(imported, &request, usize::from(self.finer), corner).map_err(|e| refuse(e.to_string()))?;
+        let body = Body::new(imported, &Request::fibers(fibers), usize::from(self.finer), corner);
+        let body = body.map_err(|e| refuse(e.to_string()))?;
         let report = history
             .edit("Reshape", |design| Ok::<_, EditError>(reshape(design, body)))
             .map_err(|e| CommandError::input(&self.design, e))?;

@@ -9,6 +9,7 @@ use super::{
     Pin, Pose, Target, TendonSettings, validate,
 };
 use crate::mesh::MeshError;
+use crate::outline::drawing::Track;
 use crate::outline::{Drawing, Point};
 use thiserror::Error;
 
@@ -213,6 +214,15 @@ pub fn set_texture(design: &mut Design, texture: Option<String>) -> Result<(), E
 
 pub fn set_drawing(design: &mut Design, drawing: Option<Drawing>) -> Result<(), EditError> {
     set(design, |d| std::mem::replace(&mut d.drawing, drawing), |d, old| d.drawing = old)
+}
+
+/// Replaces the tracks of the drawing. An outline that was not drawn is traced, so that there is one.
+pub fn set_tracks(design: &mut Design, tracks: Vec<Track>) -> Result<(), EditError> {
+    if design.tracks() == tracks {
+        return Ok(());
+    }
+    let drawing = design.drawing.clone().unwrap_or_else(|| Drawing::of(&design.outline));
+    set_drawing(design, Some(Drawing { tracks, ..drawing }))
 }
 
 pub fn set_stiffness_map(design: &mut Design, map: Option<Vec<f64>>) -> Result<(), EditError> {

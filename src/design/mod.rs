@@ -29,6 +29,7 @@ pub use settings::{
 
 use crate::defaults;
 use crate::mesh::{BodyPoint, Mesh};
+use crate::outline::drawing::Track;
 use crate::outline::{Drawing, Outline, Point};
 use serde::{Deserialize, Serialize};
 
@@ -198,6 +199,11 @@ impl Design {
             FiberSet::Edges => mesh.edges().len(),
             FiberSet::Routings(routings) => routings.len(),
         }
+    }
+
+    /// Lines along which edges of the mesh run, and shall run in every other one, mm: those of the drawing.
+    pub fn tracks(&self) -> &[Track] {
+        self.drawing.as_ref().map_or(&[], |drawing| &drawing.tracks)
     }
 
     /// The longer side of the rest silhouette's box, mm: pose errors are stated in it.

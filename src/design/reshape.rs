@@ -5,7 +5,7 @@
 
 use super::remesh::{self, Report};
 use super::{Design, FiberSet};
-use crate::mesh::{Mesh, MeshError, Request, Size};
+use crate::mesh::{Mesh, MeshError, Request};
 use crate::outline::{Drawing, Imported, Outline, Point};
 
 /// A body to be put in place of a design's own.
@@ -21,12 +21,14 @@ pub struct Body {
 }
 
 impl Body {
-    /// The body of a silhouette, meshed. Its lower left corner is that of the design, unless `corner` says otherwise.
+    /// The body of a silhouette, meshed along its own tracks. Its lower left corner is that of the design, unless `corner`
+    /// says otherwise.
     ///
     /// # Errors
     /// [`MeshError`] where the outline has no such mesh.
     pub fn new(imported: Imported, request: &Request, finer: usize, corner: Point) -> Result<Self, MeshError> {
-        let (mesh, fibers) = remesh::body(&imported.outline, request, finer)?;
+        let request = Request { tracks: imported.tracks().to_vec(), ..request.clone() };
+        let (mesh, fibers) = remesh::body(&imported.outline, &request, finer)?;
         Ok(Self { outline: imported.outline, mesh, fibers, drawing: imported.drawing, corner })
     }
 
@@ -35,13 +37,20 @@ impl Body {
     /// # Errors
     /// As [`Self::new`].
     pub fn with_fibers(imported: Imported, fibers: usize, finer: usize, corner: Point) -> Result<Self, MeshError> {
-        let request = |fibers| Request { size: Size::Fibers(fibers), tracks: Vec::new(), mirror: true };
-        match Self::new(imported.clone(), &request(fibers), finer, corner) {
+        match Self::new(imported.clone(), &Request::fibers(fibers), finer, corner) {
             Err(MeshError::Unreachable { nearest, .. }) if nearest > fibers && finer <= 1 => {
-                Self::new(imported, &request(nearest), finer, corner)
+                Self::new(imported, &Request::fibers(nearest), finer, corner)
             }
             outcome => outcome,
         }
+    }
+}
+
+/// A silhouette that was not drawn keeps the tracks of the design, whose lower left corner it shares.
+pub fn keep_tracks(design: &Design, imported: &mut Imported) {
+    if imported.drawing.is_none() && !design.tracks().is_empty() {
+        let drawing = Drawing::of(&imported.outline);
+        imported.drawing = Some(Drawing { tracks: design.tracks().to_vec(), ..drawing });
     }
 }
 

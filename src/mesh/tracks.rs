@@ -22,6 +22,7 @@ pub(super) fn sample(tracks: &[Vec<Point>], outline: &Outline, h: f64) -> Sample
     if tracks.is_empty() {
         return sampled;
     }
+    let bounds = outline.bounding_box();
     let rim = Grid::new(outline.polygons().flat_map(polygon::sides).collect());
     let pieces: Vec<(Point, Point)> = tracks.iter().flat_map(|t| t.windows(2).map(|w| (w[0], w[1]))).collect();
     // Corners first, so that what falls together with them goes there.
@@ -31,7 +32,7 @@ pub(super) fn sample(tracks: &[Vec<Point>], outline: &Outline, h: f64) -> Sample
     for track in tracks {
         let mut before: Option<usize> = None;
         for (k, w) in track.windows(2).enumerate() {
-            for t in stops(w[0], w[1], &pieces, h, k == 0) {
+            for t in stops((w[0], w[1]), &pieces, bounds, h, k == 0) {
                 let p = polygon::lerp(w[0], w[1], t);
                 let inside = outline.contains(p) && rim.distance(p) > CLEARANCE * h;
                 let node = inside.then(|| place(&mut sampled.nodes, p, MERGE * h));
@@ -51,19 +52,41 @@ pub(super) fn sample(tracks: &[Vec<Point>], outline: &Outline, h: f64) -> Sample
     sampled
 }
 
-/// Parameters of the nodes along a piece: its ends, its crossings with all pieces, and even steps between them.
-fn stops(a: Point, b: Point, pieces: &[(Point, Point)], h: f64, first: bool) -> Vec<f64> {
+/// Parameters of the nodes along a piece: its ends, its crossings with all pieces, and even steps between them. What is
+/// outside of the body's box, however long, takes no steps.
+fn stops((a, b): (Point, Point), pieces: &[(Point, Point)], bounds: (Point, Point), h: f64, first: bool) -> Vec<f64> {
     let mut fixed = vec![0.0, 1.0];
+    let (enters, leaves) = within(a, b, bounds);
+    fixed.extend([enters, leaves].into_iter().filter(|&t| enters < leaves && t > 0.0 && t < 1.0));
     fixed.extend(pieces.iter().filter_map(|&(c, d)| meet(a, b, c, d)));
     fixed.sort_by(f64::total_cmp);
     fixed.dedup();
     let length = polygon::length(a, b);
     let mut all = if first { vec![0.0] } else { Vec::new() };
     for w in fixed.windows(2) {
-        let steps = ((w[1] - w[0]) * length / h).round().max(1.0) as usize;
+        let inside = (enters..leaves).contains(&(0.5 * (w[0] + w[1])));
+        let steps = if inside { ((w[1] - w[0]) * length / h).round().max(1.0) as usize } else { 1 };
         all.extend((1..=steps).map(|k| w[0] + (w[1] - w[0]) * k as f64 / steps as f64));
     }
     all
+}
+
+/// The parameters between which `ab` runs in a box; the first is not the smaller one where it does not.
+fn within(a: Point, b: Point, (low, high): (Point, Point)) -> (f64, f64) {
+    let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
+    for axis in 0..2 {
+        let along = b[axis] - a[axis];
+        if along == 0.0 {
+            if a[axis] < low[axis] || a[axis] > high[axis] {
+                return (1.0, 0.0);
+            }
+            continue;
+        }
+        let (s, t) = ((low[axis] - a[axis]) / along, (high[axis] - a[axis]) / along);
+        enters = enters.max(s.min(t));
+        leaves = leaves.min(s.max(t));
+    }
+    (enters, leaves)
 }
 
 /// Where on `ab`, between its ends, `cd` crosses it.

@@ -1,6 +1,7 @@
 //! From the bytes of a file to one clean outline.
 
 use super::changes::Changes;
+use super::drawing::Track;
 use super::{Drawing, Outline, OutlineError, Painting, Point, clean, drawing, dxf, obj, picture, svg};
 use std::io::Read;
 use std::ops::RangeInclusive;
@@ -73,6 +74,13 @@ pub struct Imported {
     pub mesh: Option<(Vec<Point>, Vec<[usize; 3]>)>,
     /// The parts that it was drawn from, in the coordinates of `outline`.
     pub drawing: Option<Drawing>,
+}
+
+impl Imported {
+    /// Lines along which edges of its mesh shall run, in the coordinates of `outline`.
+    pub fn tracks(&self) -> &[Track] {
+        self.drawing.as_ref().map_or(&[], |drawing| &drawing.tracks)
+    }
 }
 
 /// The kinds of file that can be read.

@@ -35,6 +35,8 @@ pub struct Palette {
     pub join: Color,
     /// Tendon of a proposal.
     pub proposed: Color,
+    /// Where tendons shall be able to run.
+    pub track: Color,
     theme: Theme,
 }
 
@@ -82,6 +84,7 @@ impl Palette {
                 start: Color(138, 16, 64, 255),
                 join: Color(36, 96, 220, 255),
                 proposed: Color(22, 138, 70, 255),
+                track: Color(142, 36, 170, 255),
                 theme,
             },
             Theme::Dark => Self {
@@ -101,6 +104,7 @@ impl Palette {
                 start: Color(255, 130, 190, 255),
                 join: Color(112, 164, 255, 255),
                 proposed: Color(96, 220, 140, 255),
+                track: Color(226, 150, 255, 255),
                 theme,
             },
         }

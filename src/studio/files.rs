@@ -370,8 +370,8 @@ fn read_outline(path: &Path, choice: &ImportChoice) -> Result<(Design, Changes),
     };
     let mut imported = outline::import_file(path, &import).map_err(|e| e.to_string())?;
     let fibers = choice.fibers;
-    let meshed = mesh::build_or_finer(&imported.outline, &Request::fibers(fibers)).map_err(|e| e.to_string())?;
-    let (meshed, count) = meshed;
+    let request = Request { tracks: imported.tracks().to_vec(), ..Request::fibers(fibers) };
+    let (meshed, count) = mesh::build_or_finer(&imported.outline, &request).map_err(|e| e.to_string())?;
     if count != fibers {
         imported.changes.notes.push(format!("the outline needs more than {fibers} fibres; it has {count}"));
     }

@@ -4,7 +4,7 @@ use super::jobs::{Made, Report};
 use super::session::{Session, Shapes};
 use crate::design::edit::EditError;
 use crate::design::remesh;
-use crate::mesh::{Request, Size};
+use crate::mesh::Request;
 use std::time::Instant;
 
 /// Largest `finer`.
@@ -49,8 +49,8 @@ impl Session {
         }
         let Resolution { fibers, finer } = self.resolution();
         let (serial, outline) = (self.begin_meshing(), self.design().outline.clone());
+        let request = Request { tracks: self.design().tracks().to_vec(), ..Request::fibers(fibers) };
         self.jobs.start("Meshing", move || {
-            let request = Request { size: Size::Fibers(fibers), tracks: Vec::new(), mirror: true };
             let body = remesh::body(&outline, &request, finer);
             let made = body.map(|(mesh, set)| Box::new(Made::Mesh(mesh, set))).map_err(|e| e.to_string());
             Report::Meshed { serial, made }

@@ -5,7 +5,7 @@ use super::panels::{self, poses, quality};
 use super::session::{Session, Tool};
 use super::sketching::{Pencil, Sketch};
 use super::viewport::Plushie;
-use crate::outline::drawing::Primitive;
+use crate::outline::drawing::{Item, Primitive};
 use crate::picture::palette::Theme;
 use eframe::egui::{Context, Key, KeyboardShortcut, Modifiers, Popup};
 
@@ -67,6 +67,7 @@ fn sketch_keys(ctx: &Context, session: &Session, actions: &mut Vec<Action>) {
         (Key::P, Action::Sketch(Sketch::Take(Pencil::Polygon))),
         (Key::C, Action::Sketch(Sketch::Take(Pencil::Circle))),
         (Key::L, Action::Sketch(Sketch::Take(Pencil::Capsule))),
+        (Key::R, Action::Sketch(Sketch::Take(Pencil::Track))),
         (Key::X, Action::Sketch(Sketch::Cut(!sketching.cut))),
         (Key::F, Action::Sketch(Sketch::Camera(None))),
         (Key::O, Action::Sketch(Sketch::Open(false))),
@@ -76,7 +77,7 @@ fn sketch_keys(ctx: &Context, session: &Session, actions: &mut Vec<Action>) {
             actions.push(action);
         }
     }
-    if let (Some(part), Some(point)) = (sketching.part, sketching.point)
+    if let (Some(Item::Part(part)), Some(point)) = (sketching.item, sketching.point)
         && pressed(Key::K)
     {
         actions.extend(sharpened(session, part, point));

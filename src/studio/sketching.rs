@@ -9,7 +9,7 @@ use super::viewport::camera::Camera;
 use crate::design::Design;
 use crate::design::edit::EditError;
 use crate::design::reshape::{Body, reshape};
-use crate::outline::drawing::Primitive;
+use crate::outline::drawing::{Item, Primitive};
 use crate::outline::{Changes, Drawing, Import, Outline};
 
 /// What a press on the paper does.
@@ -24,6 +24,8 @@ pub enum Pencil {
     Polygon,
     Circle,
     Capsule,
+    /// A line for tendons to run along, a point a click.
+    Track,
 }
 
 /// What is asked for while the outline is drawn.
@@ -33,8 +35,8 @@ pub enum Sketch {
     Take(Pencil),
     /// Whether new parts are cut out.
     Cut(bool),
-    /// A part, and a point of it.
-    Select(Option<usize>, Option<usize>),
+    /// A part or a track, and a point of it.
+    Select(Option<Item>, Option<usize>),
     Camera(Option<Camera>),
     /// Makes the body of what is drawn; one undo step when it is there.
     MakeBody,
@@ -45,7 +47,8 @@ pub struct Sketching {
     pub open: bool,
     pub pencil: Pencil,
     pub cut: bool,
-    pub part: Option<usize>,
+    /// What is picked out, and which point of a path or track.
+    pub item: Option<Item>,
     pub point: Option<usize>,
     /// There is no body yet worth looking at.
     pub fresh: bool,
@@ -62,7 +65,7 @@ impl Session {
 
     /// The drawing of the outline: the document's, or one traced from its outline.
     pub fn drawing(&self) -> &Drawing {
-        static NOTHING: Drawing = Drawing { parts: Vec::new() };
+        static NOTHING: Drawing = Drawing { parts: Vec::new(), tracks: Vec::new() };
         let traced = self.sketching.traced.as_ref().map(|(_, drawing)| drawing);
         self.design().drawing.as_ref().or(traced).unwrap_or(&NOTHING)
     }
@@ -78,8 +81,8 @@ impl Session {
             }
             Sketch::Take(pencil) => self.sketching.pencil = pencil,
             Sketch::Cut(cut) => self.sketching.cut = cut,
-            Sketch::Select(part, point) => {
-                self.sketching.part = part;
+            Sketch::Select(item, point) => {
+                self.sketching.item = item;
                 self.sketching.point = point;
                 self.clamp_sketch();
             }
@@ -98,35 +101,30 @@ impl Session {
         if design.drawing.is_none() && stale {
             self.sketching.traced = Some((design.outline.clone(), Drawing::of(&design.outline)));
         }
-        let part = self.sketching.part.and_then(|k| self.drawing().parts.get(k)).map(|part| &part.primitive);
-        let points = match part {
-            Some(Primitive::Path { points }) => points.len(),
-            _ => 0,
+        self.sketching.item = self.sketching.item.filter(|&item| self.drawing().has(item));
+        let points = match self.sketching.item {
+            Some(Item::Part(part)) => match &self.drawing().parts[part].primitive {
+                Primitive::Path { points } => points.len(),
+                _ => 0,
+            },
+            Some(Item::Track(track)) => self.drawing().tracks[track].len(),
+            None => 0,
         };
-        if part.is_none() {
-            self.sketching.part = None;
-        }
-        if self.sketching.point.is_some_and(|point| point >= points) {
-            self.sketching.point = None;
-        }
+        self.sketching.point = self.sketching.point.filter(|&point| point < points);
     }
 
-    /// Removes the point or the part that is picked out.
+    /// Removes the point, or else the part or track, that is picked out.
     pub(super) fn delete_drawn(&mut self) {
-        let mut drawing = self.drawing().clone();
-        let Some(index) = self.sketching.part.filter(|&index| index < drawing.parts.len()) else { return };
-        let thinner = self.sketching.point.and_then(|point| drawing.parts.get(index)?.primitive.without_point(point));
-        let what = match thinner {
-            Some(primitive) => {
-                drawing.parts[index].primitive = primitive;
-                "Delete point"
-            }
-            None => {
-                drawing.parts.remove(index);
-                self.sketching.part = None;
-                "Delete part"
-            }
+        let Some(item) = self.sketching.item.filter(|&item| self.drawing().has(item)) else { return };
+        let thinner = self.sketching.point.and_then(|point| self.drawing().without_point(item, point));
+        let (what, drawing) = match (thinner, item) {
+            (Some(drawing), _) => ("Delete point", drawing),
+            (None, Item::Part(_)) => ("Delete part", self.drawing().without(item)),
+            (None, Item::Track(_)) => ("Delete track", self.drawing().without(item)),
         };
+        if what != "Delete point" {
+            self.sketching.item = None;
+        }
         self.sketching.point = None;
         self.change(Change::Draw { what, drawing });
     }

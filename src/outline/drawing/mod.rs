@@ -7,13 +7,17 @@
 //!     (primitive: Circle(center: (80, 90), radius: 60)),
 //!     (primitive: Capsule(ends: ((40, 60), (30, 0)), radii: (18, 12))),
 //!     (primitive: Path(points: [(at: (60, 80)), (at: (90, 80)), (at: (75, 110), corner: true)]), cut: true),
-//! ])
+//! ], tracks: [[(50, 90), (80, 95), (110, 90)]])
 //! ```
 
 mod fit;
+mod item;
 mod primitive;
+pub mod track;
 
+pub use item::Item;
 pub use primitive::{PathPoint, Primitive};
+pub use track::Track;
 
 use super::regions::{self, Shapes};
 use super::{Import, Imported, Outline, OutlineError, Painting, Point, import};
@@ -22,6 +26,8 @@ use serde::{Deserialize, Serialize};
 /// Parts of a drawing, and points of all its paths together, at most.
 const MAX_PARTS: usize = 10_000;
 const MAX_POINTS: usize = 200_000;
+/// Points of all tracks together, at most: every piece is tried against every other for crossings, on every mesh that is tried.
+const MAX_TRACK_POINTS: usize = 1000;
 /// Largest coordinate and radius, mm.
 const MAX_MM: f64 = 1e7;
 /// How far the drawing of an outline may stray from it, as a fraction of the longer side of its box: less than the mesh does.
@@ -33,6 +39,9 @@ const FIT_FRACTION: f64 = 2.5e-3;
 pub struct Drawing {
     #[serde(default)]
     pub parts: Vec<Part>,
+    /// Where tendons shall be able to run: the mesh of the body has edges along these lines.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub tracks: Vec<Track>,
 }
 
 /// One thing drawn.
@@ -54,7 +63,7 @@ impl Drawing {
         let (low, high) = outline.bounding_box();
         let tolerance = FIT_FRACTION * (high[0] - low[0]).max(high[1] - low[1]);
         let part = |(k, ring): (usize, &[Point])| Part { primitive: fit::path(ring, tolerance), cut: k > 0 };
-        Self { parts: outline.polygons().enumerate().map(part).collect() }
+        Self { parts: outline.polygons().enumerate().map(part).collect(), tracks: Vec::new() }
     }
 
     /// Reads a drawing file.
@@ -92,6 +101,12 @@ impl Drawing {
         }
         for (k, part) in self.parts.iter().enumerate() {
             part.primitive.check(MAX_MM).map_err(|(at, why)| (format!("parts[{k}].{at}"), why))?;
+        }
+        if self.tracks.iter().map(Vec::len).sum::<usize>() > MAX_TRACK_POINTS {
+            return Err(("tracks".into(), "more than 1000 points"));
+        }
+        for (k, line) in self.tracks.iter().enumerate() {
+            track::check(line, MAX_MM).map_err(|(at, why)| (format!("tracks[{k}]{at}"), why))?;
         }
         Ok(())
     }
@@ -133,16 +148,20 @@ impl Drawing {
 
     /// The drawing with every point moved.
     pub fn moved(&self, by: Point) -> Self {
-        self.each(|primitive| primitive.moved(by))
+        self.each(|primitive| primitive.moved(by), |p| [p[0] + by[0], p[1] + by[1]])
     }
 
     fn scaled(&self, factor: f64) -> Self {
-        if factor == 1.0 { self.clone() } else { self.each(|primitive| primitive.scaled(factor)) }
+        if factor == 1.0 {
+            return self.clone();
+        }
+        self.each(|primitive| primitive.scaled(factor), |p| p.map(|v| v * factor))
     }
 
-    fn each(&self, change: impl Fn(&Primitive) -> Primitive) -> Self {
+    fn each(&self, change: impl Fn(&Primitive) -> Primitive, to: impl Fn(Point) -> Point) -> Self {
         let part = |part: &Part| Part { primitive: change(&part.primitive), cut: part.cut };
-        Self { parts: self.parts.iter().map(part).collect() }
+        let track = |track: &Track| track.iter().map(|&p| to(p)).collect();
+        Self { parts: self.parts.iter().map(part).collect(), tracks: self.tracks.iter().map(track).collect() }
     }
 
     fn painting(&self) -> Result<Painting, OutlineError> {
@@ -173,7 +192,7 @@ pub(super) fn is_drawing(head: &[u8]) -> bool {
         .unwrap_or(code)
         .trim_start()
         .strip_prefix('(')
-        .is_some_and(|inside| inside.trim_start().starts_with("parts"))
+        .is_some_and(|inside| ["parts", "tracks"].iter().any(|name| inside.trim_start().starts_with(name)))
 }
 
 fn is_false(value: &bool) -> bool {
@@ -198,12 +217,15 @@ mod tests {
     #[test]
     fn parts_are_joined_and_cut_in_their_order() {
         let cut = Part { primitive: square(20.0, 20.0, 20.0), cut: true };
-        let mut drawing = Drawing { parts: vec![Part::joined(square(0.0, 0.0, 60.0)), cut.clone()] };
+        let parts = vec![Part::joined(square(0.0, 0.0, 60.0)), cut.clone()];
+        let mut drawing = Drawing { parts, tracks: vec![vec![[10.0, 5.0], [50.0, 10.0]]] };
         let outline = drawing.import(&Import::default()).unwrap().outline;
         assert!((outline.area() - 3200.0).abs() < 1e-6 && outline.holes.len() == 1);
         let double = drawing.import(&Import { height_mm: Some(120.0), ..Import::default() }).unwrap();
         assert!((double.outline.area() - 12_800.0).abs() < 1e-6);
-        assert_eq!(double.drawing.unwrap().parts[1].primitive, square(40.0, 40.0, 40.0));
+        let double = double.drawing.unwrap();
+        assert_eq!(double.parts[1].primitive, square(40.0, 40.0, 40.0));
+        assert_eq!(double.tracks, [[[20.0, 10.0], [100.0, 20.0]]]);
         // What is drawn after the cut stays.
         drawing.parts.push(circle(30.0, 30.0, 5.0));
         drawing.parts.push(Part::joined(square(24.0, -10.0, 12.0)));
@@ -213,11 +235,12 @@ mod tests {
         let largest = Import { pieces: Pieces::Largest, ..Import::default() };
         let corner = drawing.import(&largest).unwrap().drawn_box[0];
         assert!(corner[0].abs() < 1e-6 && (corner[1] + 10.0).abs() < 1e-6, "{corner:?}");
-        let everything = Drawing { parts: vec![circle(0.0, 0.0, 9.0), Part { cut: true, ..circle(0.0, 0.0, 10.0) }] };
-        for nothing in [Drawing::default(), everything, Drawing { parts: vec![cut] }] {
+        let of = |parts: Vec<Part>| Drawing { parts, ..Drawing::default() };
+        let everything = of(vec![circle(0.0, 0.0, 9.0), Part { cut: true, ..circle(0.0, 0.0, 10.0) }]);
+        for nothing in [Drawing::default(), everything, of(vec![cut])] {
             assert!(matches!(nothing.import(&Import::default()), Err(OutlineError::NothingPainted(_))));
         }
-        let two = Drawing { parts: vec![circle(0.0, 0.0, 40.0), circle(100.0, 0.0, 40.0)] };
+        let two = of(vec![circle(0.0, 0.0, 40.0), circle(100.0, 0.0, 40.0)]);
         assert!(matches!(two.import(&Import::default()), Err(OutlineError::Pieces { pieces: 2, .. })));
     }
 
@@ -229,6 +252,7 @@ mod tests {
                 Part::joined(Primitive::Capsule { ends: [[0.0, 1.0], [40.0, 7.0]], radii: [12.0, 8.0] }),
                 Part { primitive: square(0.0, 0.0, 5.0), cut: true },
             ],
+            tracks: vec![vec![[1.0 / 3.0, 0.0], [20.0, 1e-3]], vec![[0.0, 1.0], [2.0, 3.0], [4.0, 5.0]]],
         };
         let text = drawing.to_text().unwrap();
         assert!(is_drawing(text.as_bytes()));
@@ -239,10 +263,18 @@ mod tests {
             ("(parts: [(primitive: Capsule(ends: ((0, 0), (1, 1)), radii: (1, 0)))])", "parts[0].radii[1]"),
             ("(parts: [(primitive: Path(points: [(at: (0, 0)), (at: (1, 0))]))])", "parts[0].points"),
             ("(parts: [(primitive: Blob(radius: 1))])", "1:"),
+            ("(tracks: [[(0, 0), (1, 1)], [(0, 0)]])", "tracks[1]: a track needs"),
+            ("(tracks: [[(0, 0), (1, 1), (0, 1e9)]])", "tracks[0][2]: a coordinate"),
         ] {
             let why = Drawing::read(bad.as_bytes()).unwrap_err().to_string();
             assert!(why.contains(at), "{bad}: {why}");
         }
+        // A text from before there were tracks, and one that begins with them.
+        let old = Drawing::read(b"(parts: [(primitive: Circle(center: (0, 0), radius: 1))])").unwrap();
+        assert!(old.tracks.is_empty() && !old.to_text().unwrap().contains("tracks"));
+        assert!(is_drawing(b"(\n  tracks: [[(0, 0), (1, 1)]], parts: [])"));
+        let many = Drawing { parts: Vec::new(), tracks: vec![vec![[0.0; 2]; MAX_TRACK_POINTS + 1]] };
+        assert_eq!(many.check(), Err(("tracks".into(), "more than 1000 points")));
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::{Actions, heading, meshing, primary, wide};
 use crate::mesh::MAX_FIBERS;
-use crate::outline::drawing::Primitive;
+use crate::outline::drawing::{Item, Part, Primitive, track};
 use crate::outline::{Drawing, Point};
 use crate::studio::action::Action;
 use crate::studio::change::Change;
@@ -16,12 +16,18 @@ use eframe::egui::{Align, Button, DragValue, Grid, Layout, RichText, ScrollArea,
 /// Least radius, mm.
 const LEAST_MM: f64 = 0.5;
 
-pub const PENCILS: [(Pencil, &str, &str); 5] = [
+pub const PENCILS: [(Pencil, &str, &str); 6] = [
     (Pencil::Select, "Select", "Pick parts out, move them and their points (V)"),
     (Pencil::Sketch, "Sketch", "Draw a line around with the mouse; it becomes a curve with few points (S)"),
     (Pencil::Polygon, "Polygon", "Click the corners; Enter or a click on the first one closes it (P)"),
     (Pencil::Circle, "Circle", "Drag from the middle (C)"),
     (Pencil::Capsule, "Capsule", "A limb: drag from one end to the other (L)"),
+    (
+        Pencil::Track,
+        "Tendon track",
+        "A line inside the body along which mesh edges run, for tendons to follow: click its points; a double click or Enter ends it \
+         (R)",
+    ),
 ];
 
 pub fn show(ui: &mut Ui, session: &Session, state: &mut paper::State, actions: &mut Actions) {
@@ -45,8 +51,8 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut paper::State, actions: &
     let rest = 240.0_f32.min(0.45 * ui.available_height());
     ScrollArea::vertical().auto_shrink([false, true]).max_height(rest).show(ui, |ui| parts(ui, session, actions));
     ui.add_space(6.0);
-    if let Some(index) = sketching.part {
-        numbers(ui, session, index, actions);
+    if let Some(item) = sketching.item {
+        numbers(ui, session, item, actions);
         ui.add_space(6.0);
     }
     heading(ui, "Body");
@@ -60,44 +66,91 @@ fn parts(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     }
     for (k, part) in drawing.parts.iter().enumerate() {
         let name = format!("{} {}{}", k + 1, part.primitive.name(), if part.cut { ", cut out" } else { "" });
-        ui.horizontal(|ui| {
-            let selected = session.sketching().part == Some(k);
-            if ui.selectable_label(selected, &name).clicked() {
-                actions.push(Action::Sketch(Sketch::Select(Some(k), None)));
-            }
-            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                let remove = format!("Delete part {}", k + 1);
-                if icons::small_button(ui, Icon::Trash, &remove, "Delete this part (Delete)").clicked() {
-                    let mut drawing = drawing.clone();
-                    drawing.parts.remove(k);
-                    actions.push(Action::Change(Change::Draw { what: "Delete part", drawing }));
-                }
-            });
-        });
+        row(ui, session, Item::Part(k), &name, &format!("part {}", k + 1), actions);
+    }
+    if drawing.tracks.is_empty() {
+        return;
+    }
+    ui.add_space(4.0);
+    heading(ui, "Tendon tracks");
+    for (k, points) in drawing.tracks.iter().enumerate() {
+        let name = format!("Track {}, {:.0} mm", k + 1, track::length(points));
+        row(ui, session, Item::Track(k), &name, &format!("track {}", k + 1), actions);
     }
 }
 
-/// Everything about a part as numbers.
-fn numbers(ui: &mut Ui, session: &Session, index: usize, actions: &mut Actions) {
-    let Some(part) = session.drawing().parts.get(index) else { return };
-    let mut changed = part.clone();
-    heading(ui, &format!("Part {}", index + 1));
-    let place = |ui: &mut Ui, name: &str, p: &mut Point| {
-        let label = ui.label(name);
-        ui.horizontal(|ui| {
-            for value in p {
-                ui.add(DragValue::new(value).speed(0.5).max_decimals(1).suffix(" mm")).labelled_by(label.id);
+/// A line of the list: picks an item out, or deletes it.
+fn row(ui: &mut Ui, session: &Session, item: Item, name: &str, short: &str, actions: &mut Actions) {
+    ui.horizontal(|ui| {
+        if ui.selectable_label(session.sketching().item == Some(item), name).clicked() {
+            actions.push(Action::Sketch(Sketch::Select(Some(item), None)));
+        }
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let (what, tip) = match item {
+                Item::Part(_) => ("Delete part", "Delete this part (Delete)"),
+                Item::Track(_) => ("Delete track", "Delete this track (Delete)"),
+            };
+            if icons::small_button(ui, Icon::Trash, &format!("Delete {short}"), tip).clicked() {
+                let drawing = session.drawing().without(item);
+                actions.push(Action::Change(Change::Draw { what, drawing }));
             }
         });
-        ui.end_row();
+    });
+}
+
+/// Everything about a part or a track as numbers.
+fn numbers(ui: &mut Ui, session: &Session, item: Item, actions: &mut Actions) {
+    let point = session.sketching().point;
+    let mut drawing = session.drawing().clone();
+    let what = match item {
+        Item::Part(k) => {
+            let Some(part) = drawing.parts.get_mut(k) else { return };
+            heading(ui, &format!("Part {}", k + 1));
+            numbers_of_part(ui, part, point);
+            "Change part"
+        }
+        Item::Track(k) => {
+            let Some(points) = drawing.tracks.get_mut(k) else { return };
+            heading(ui, &format!("Track {}", k + 1));
+            Grid::new("track").num_columns(2).spacing([8.0, 4.0]).show(ui, |ui| {
+                match point.and_then(|k| points.get_mut(k)) {
+                    Some(point) => place(ui, "Point", point),
+                    None => count(ui, points.len()),
+                }
+            });
+            "Change track"
+        }
     };
-    let radius = |ui: &mut Ui, name: &str, r: &mut f64| {
-        let label = ui.label(name);
-        let drag = DragValue::new(r).speed(0.5).max_decimals(1).range(LEAST_MM..=1e6).suffix(" mm");
-        ui.add(drag).labelled_by(label.id);
-        ui.end_row();
-    };
-    Grid::new("part").num_columns(2).spacing([8.0, 4.0]).show(ui, |ui| match &mut changed.primitive {
+    if drawing != *session.drawing() {
+        actions.push(Action::Live(Change::Draw { what, drawing }));
+    }
+}
+
+fn place(ui: &mut Ui, name: &str, p: &mut Point) {
+    let label = ui.label(name);
+    ui.horizontal(|ui| {
+        for value in p {
+            ui.add(DragValue::new(value).speed(0.5).max_decimals(1).suffix(" mm")).labelled_by(label.id);
+        }
+    });
+    ui.end_row();
+}
+
+fn radius(ui: &mut Ui, name: &str, r: &mut f64) {
+    let label = ui.label(name);
+    let drag = DragValue::new(r).speed(0.5).max_decimals(1).range(LEAST_MM..=1e6).suffix(" mm");
+    ui.add(drag).labelled_by(label.id);
+    ui.end_row();
+}
+
+fn count(ui: &mut Ui, points: usize) {
+    ui.label("Points");
+    ui.label(points.to_string());
+    ui.end_row();
+}
+
+fn numbers_of_part(ui: &mut Ui, part: &mut Part, point: Option<usize>) {
+    Grid::new("part").num_columns(2).spacing([8.0, 4.0]).show(ui, |ui| match &mut part.primitive {
         Primitive::Circle { center, radius: r } => {
             place(ui, "Centre", center);
             radius(ui, "Radius", r);
@@ -108,26 +161,18 @@ fn numbers(ui: &mut Ui, session: &Session, index: usize, actions: &mut Actions) 
             place(ui, "To", b);
             radius(ui, "Second radius", s);
         }
-        Primitive::Path { points } => {
-            if let Some(point) = session.sketching().point.and_then(|k| points.get_mut(k)) {
+        Primitive::Path { points } => match point.and_then(|k| points.get_mut(k)) {
+            Some(point) => {
                 place(ui, "Point", &mut point.at);
                 ui.label("");
                 ui.checkbox(&mut point.corner, "Corner").on_hover_text("Sharp, not round (K)");
                 ui.end_row();
-            } else {
-                ui.label("Points");
-                ui.label(points.len().to_string());
-                ui.end_row();
             }
-        }
+            None => count(ui, points.len()),
+        },
     });
     let tip = "Cut this part out of what was drawn before it";
-    ui.checkbox(&mut changed.cut, "Cut out").on_hover_text(tip);
-    if changed != *part {
-        let mut drawing = session.drawing().clone();
-        drawing.parts[index] = changed;
-        actions.push(Action::Live(Change::Draw { what: "Change part", drawing }));
-    }
+    ui.checkbox(&mut part.cut, "Cut out").on_hover_text(tip);
 }
 
 fn body(ui: &mut Ui, session: &Session, state: &mut paper::State, actions: &mut Actions) {
@@ -176,9 +221,10 @@ fn body(ui: &mut Ui, session: &Session, state: &mut paper::State, actions: &mut 
         actions.push(Action::Sketch(Sketch::Open(false)));
     }
     if session.design().drawing.is_some() {
-        let tip = "Draw the present body anew, with few points, in place of this drawing";
+        let tip = "Draw the present body anew, with few points, in place of these parts; the tracks stay";
         if wide(ui, true, Button::new("Trace the present body"), width).on_hover_text(tip).clicked() {
-            let drawing = Drawing::of(&session.design().outline);
+            let tracks = session.drawing().tracks.clone();
+            let drawing = Drawing { tracks, ..Drawing::of(&session.design().outline) };
             actions.push(Action::Change(Change::Draw { what: "Trace the body", drawing }));
         }
     }

@@ -1,7 +1,7 @@
 //! The hand on the sheet: drawing parts, picking them out, pulling their handles.
 
 use super::Sheet;
-use crate::outline::drawing::{Part, PathPoint, Primitive};
+use crate::outline::drawing::{Item, Part, PathPoint, Primitive};
 use crate::outline::{Drawing, Point, polygon};
 use crate::studio::action::Action;
 use crate::studio::change::Change;
@@ -24,12 +24,14 @@ const STRAY: f64 = 2.0;
 pub enum Hand {
     #[default]
     Nothing,
-    /// Moves a part, or one of its handles. The drawing and the pointer as they were when it took hold.
-    Holds { drawing: Drawing, part: usize, handle: Option<usize>, from: Point },
+    /// Moves a part or a track, or one of its handles. The drawing and the pointer as they were when it took hold.
+    Holds { drawing: Drawing, item: Item, handle: Option<usize>, from: Point },
     /// A freehand line, mm.
     Line(Vec<Point>),
     /// The corners of a polygon so far, mm.
     Corners(Vec<Point>),
+    /// The points of a track so far, mm.
+    Track(Vec<Point>),
     /// A circle or a capsule, from where it was begun to where the pointer is, mm.
     Spans(Point, Point),
     /// Moves the sheet.
@@ -84,7 +86,7 @@ pub fn act(ui: &mut Ui, sheet: &Sheet<'_>, hand: &mut Hand, response: &Response,
     }
     if response.drag_stopped_by(PointerButton::Primary) {
         match pointer {
-            Some(at) if pencil == Pencil::Polygon => click(sheet, hand, at, actions),
+            Some(at) if matches!(pencil, Pencil::Polygon | Pencil::Track) => click(sheet, hand, at, actions),
             _ => finish(sheet, hand, actions),
         }
     }
@@ -102,12 +104,19 @@ pub fn act(ui: &mut Ui, sheet: &Sheet<'_>, hand: &mut Hand, response: &Response,
             actions.push(Action::Escape);
         }
     }
-    let closes = matches!(hand, Hand::Corners(_)) && (key(Key::Enter) || response.double_clicked());
-    if closes {
+    let ends = match hand {
+        Hand::Corners(_) => key(Key::Enter) || response.double_clicked(),
+        // The second click of a double click falls on the last point, which ends it.
+        Hand::Track(_) => key(Key::Enter),
+        _ => false,
+    };
+    if ends {
         finish(sheet, hand, actions);
     }
-    // Another pencil leaves a polygon that is not closed.
-    if pencil != Pencil::Polygon && matches!(hand, Hand::Corners(_)) {
+    // Another pencil leaves what is not closed or ended.
+    if matches!((&*hand, pencil), (Hand::Corners(_), p) if p != Pencil::Polygon)
+        || matches!((&*hand, pencil), (Hand::Track(_), p) if p != Pencil::Track)
+    {
         *hand = Hand::Nothing;
     }
     if response.hovered() {
@@ -122,59 +131,55 @@ pub fn act(ui: &mut Ui, sheet: &Sheet<'_>, hand: &mut Hand, response: &Response,
 /// What lies under the pointer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Under {
-    /// A handle of the part that is picked out.
+    /// A handle of what is picked out.
     Handle(usize),
-    /// The middle of a segment of its path.
+    /// The middle of a segment of it.
     Middle(usize),
-    Part(usize),
+    Item(Item),
     Nothing,
 }
 
 pub fn under(sheet: &Sheet<'_>, p: Point) -> Under {
     let reach = REACH * sheet.mm_per_pixel();
+    let drawing = sheet.session.drawing();
     let nearest = |points: Vec<Point>| {
         let near = points.into_iter().map(|q| polygon::length(p, q)).enumerate().filter(|(_, d)| *d <= reach);
         near.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(k, _)| k)
     };
     if let Some(selected) = sheet.selected() {
-        if let Some(handle) = nearest(selected.handles()) {
+        if let Some(handle) = nearest(drawing.handles(selected)) {
             return Under::Handle(handle);
         }
-        if let Some(middle) = nearest(selected.middles()) {
+        if let Some(middle) = nearest(drawing.middles(selected)) {
             return Under::Middle(middle);
         }
     }
-    let parts = &sheet.session.drawing().parts;
-    // What was drawn last lies on top.
-    parts.iter().rposition(|part| part.primitive.contains(p)).map_or(Under::Nothing, Under::Part)
+    drawing.under(p, reach).map_or(Under::Nothing, Under::Item)
 }
 
 fn begin(sheet: &Sheet<'_>, hand: Hand, press: Point, actions: &mut Actions) -> Hand {
     let sketching = sheet.session.sketching();
-    let holds = |drawing: Drawing, part, handle| Hand::Holds { drawing, part, handle, from: press };
+    let holds = |drawing: Drawing, item, handle| Hand::Holds { drawing, item, handle, from: press };
     let drawing = || sheet.session.drawing().clone();
     match sketching.pencil {
         Pencil::Sketch => Hand::Line(vec![press]),
         Pencil::Circle | Pencil::Capsule => Hand::Spans(press, press),
         // A drag is a click that was not held still.
-        Pencil::Polygon => hand,
-        Pencil::Select => match (under(sheet, press), sketching.part) {
-            (Under::Handle(handle), Some(part)) => {
-                actions.push(Action::Sketch(Sketch::Select(Some(part), Some(handle))));
-                holds(drawing(), part, Some(handle))
+        Pencil::Polygon | Pencil::Track => hand,
+        Pencil::Select => match (under(sheet, press), sketching.item) {
+            (Under::Handle(handle), Some(item)) => {
+                actions.push(Action::Sketch(Sketch::Select(Some(item), Some(handle))));
+                holds(drawing(), item, Some(handle))
             }
-            (Under::Middle(after), Some(part)) => {
-                let mut drawing = drawing();
-                if let Some(part) = drawing.parts.get_mut(part) {
-                    part.primitive = part.primitive.with_point(after, press);
-                }
+            (Under::Middle(after), Some(item)) => {
+                let drawing = sheet.session.drawing().with_point(item, after, press);
                 actions.push(Action::Live(Change::Draw { what: "Add point", drawing: drawing.clone() }));
-                actions.push(Action::Sketch(Sketch::Select(Some(part), Some(after + 1))));
-                holds(drawing, part, Some(after + 1))
+                actions.push(Action::Sketch(Sketch::Select(Some(item), Some(after + 1))));
+                holds(drawing, item, Some(after + 1))
             }
-            (Under::Part(part), _) => {
-                actions.push(Action::Sketch(Sketch::Select(Some(part), None)));
-                holds(drawing(), part, None)
+            (Under::Item(item), _) => {
+                actions.push(Action::Sketch(Sketch::Select(Some(item), None)));
+                holds(drawing(), item, None)
             }
             _ => Hand::Pans,
         },
@@ -184,17 +189,12 @@ fn begin(sheet: &Sheet<'_>, hand: Hand, press: Point, actions: &mut Actions) -> 
 fn drag(sheet: &Sheet<'_>, hand: &mut Hand, at: Point, response: &Response, actions: &mut Actions) {
     let mm = sheet.mm_per_pixel();
     match hand {
-        Hand::Holds { drawing, part, handle, from } => {
-            let mut changed = drawing.clone();
-            let Some(moved) = changed.parts.get_mut(*part) else { return };
-            let what = match handle {
-                Some(handle) => {
-                    moved.primitive = moved.primitive.pulled(*handle, at, LEAST * mm);
-                    "Move point"
-                }
-                None => {
-                    moved.primitive = moved.primitive.moved([at[0] - from[0], at[1] - from[1]]);
-                    "Move part"
+        Hand::Holds { drawing, item, handle, from } => {
+            let (what, changed) = match (*handle, *item) {
+                (Some(handle), item) => ("Move point", drawing.with_pulled(item, handle, at, LEAST * mm)),
+                (None, item) => {
+                    let what = if matches!(item, Item::Part(_)) { "Move part" } else { "Move track" };
+                    (what, drawing.with_moved(item, [at[0] - from[0], at[1] - from[1]]))
                 }
             };
             // A point that was just put in is moved within the same step.
@@ -209,7 +209,7 @@ fn drag(sheet: &Sheet<'_>, hand: &mut Hand, at: Point, response: &Response, acti
             let moved = sheet.camera.panned(response.drag_delta());
             actions.push(Action::Sketch(Sketch::Camera(Some(moved))));
         }
-        Hand::Line(_) | Hand::Corners(_) | Hand::Nothing => {}
+        Hand::Line(_) | Hand::Corners(_) | Hand::Track(_) | Hand::Nothing => {}
     }
 }
 
@@ -220,11 +220,20 @@ fn draw(line: &mut Vec<Point>, to: Point, step: f64) {
     }
 }
 
-/// Puts the part that the hand was drawing into the drawing.
+/// Puts what the hand was drawing into the drawing.
 fn finish(sheet: &Sheet<'_>, hand: &mut Hand, actions: &mut Actions) {
     let sketching = sheet.session.sketching();
-    if matches!(hand, Hand::Corners(corners) if corners.len() < 3) {
-        return;
+    match hand {
+        Hand::Corners(corners) if corners.len() < 3 => return,
+        Hand::Track(track) if track.len() < 2 => return,
+        Hand::Track(track) => {
+            let mut drawing = sheet.session.drawing().clone();
+            drawing.tracks.push(std::mem::take(track));
+            *hand = Hand::Nothing;
+            let last = Item::Track(drawing.tracks.len() - 1);
+            return put(drawing, "Draw a track", last, actions);
+        }
+        _ => {}
     }
     if let Some(primitive) = std::mem::take(hand).pending(sketching.pencil, sheet.mm_per_pixel()) {
         add(sheet, primitive, actions);
@@ -241,19 +250,24 @@ fn add(sheet: &Sheet<'_>, primitive: Primitive, actions: &mut Actions) {
     };
     let mut drawing = sheet.session.drawing().clone();
     drawing.parts.push(Part { primitive, cut });
-    let last = drawing.parts.len() - 1;
+    let last = Item::Part(drawing.parts.len() - 1);
+    put(drawing, what, last, actions);
+}
+
+/// One step of undo, with what is new picked out.
+fn put(drawing: Drawing, what: &'static str, new: Item, actions: &mut Actions) {
     actions.push(Action::Change(Change::Draw { what, drawing }));
-    actions.push(Action::Sketch(Sketch::Select(Some(last), None)));
+    actions.push(Action::Sketch(Sketch::Select(Some(new), None)));
 }
 
 fn click(sheet: &Sheet<'_>, hand: &mut Hand, at: Point, actions: &mut Actions) {
     let sketching = sheet.session.sketching();
     match sketching.pencil {
         Pencil::Select => {
-            let selected = match (under(sheet, at), sketching.part) {
-                (Under::Handle(handle), part) => (part, Some(handle)),
-                (Under::Middle(_), part) => (part, None),
-                (Under::Part(part), _) => (Some(part), None),
+            let selected = match (under(sheet, at), sketching.item) {
+                (Under::Handle(handle), item) => (item, Some(handle)),
+                (Under::Middle(_), item) => (item, None),
+                (Under::Item(item), _) => (Some(item), None),
                 (Under::Nothing, _) => (None, None),
             };
             actions.push(Action::Sketch(Sketch::Select(selected.0, selected.1)));
@@ -271,6 +285,20 @@ fn click(sheet: &Sheet<'_>, hand: &mut Hand, at: Point, actions: &mut Actions) {
             }
             *hand = Hand::Corners(corners);
             if closes {
+                finish(sheet, hand, actions);
+            }
+        }
+        Pencil::Track => {
+            let mut track = match std::mem::take(hand) {
+                Hand::Track(track) => track,
+                _ => Vec::new(),
+            };
+            let ends = track.last().is_some_and(|&last| polygon::length(last, at) <= REACH * sheet.mm_per_pixel());
+            if !ends {
+                track.push(at);
+            }
+            *hand = Hand::Track(track);
+            if ends {
                 finish(sheet, hand, actions);
             }
         }

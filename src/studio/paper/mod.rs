@@ -9,7 +9,7 @@ use super::panels::Actions;
 use super::session::Session;
 use super::sketching::Sketch;
 use super::viewport::camera::Camera;
-use crate::outline::drawing::Primitive;
+use crate::outline::drawing::Item;
 use crate::outline::{Drawing, Point, polygon};
 use eframe::egui::{Rect, Role, Sense, Ui, WidgetInfo};
 use surface::Surface;
@@ -50,10 +50,9 @@ impl Sheet<'_> {
         f64::from(1.0 / self.camera.scale)
     }
 
-    /// The primitive that is picked out.
-    fn selected(&self) -> Option<&Primitive> {
-        let part = self.session.sketching().part?;
-        self.session.drawing().parts.get(part).map(|part| &part.primitive)
+    /// What is picked out.
+    fn selected(&self) -> Option<Item> {
+        self.session.sketching().item.filter(|&item| self.session.drawing().has(item))
     }
 }
 
@@ -81,7 +80,7 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Act
 /// Shows the drawing, and the body as it is.
 fn fit(session: &Session, rect: Rect) -> Camera {
     let drawn = session.drawing().parts.iter().map(|part| part.primitive.polygon());
-    let mut points: Vec<Point> = drawn.flatten().collect();
+    let mut points: Vec<Point> = drawn.flatten().chain(session.drawing().tracks.iter().flatten().copied()).collect();
     if !points.is_empty() && !session.sketching().fresh {
         points.extend(&session.design().outline.outer);
     }

@@ -3,7 +3,7 @@
 use super::hand::{Hand, Under, under};
 use super::{Sheet, State};
 use crate::outline::Point;
-use crate::outline::drawing::Primitive;
+use crate::outline::drawing::{Item, Primitive};
 use crate::picture::palette::Palette;
 use crate::studio::sketching::Pencil;
 use crate::studio::style;
@@ -37,21 +37,37 @@ pub fn show(ui: &Ui, sheet: &Sheet<'_>, state: &State, pointer: Option<Pos2>) {
         }
     }
     let sketching = session.sketching();
-    for (k, part) in session.drawing().parts.iter().enumerate() {
-        let selected = sketching.part == Some(k);
+    let drawing = session.drawing();
+    let paper = ui.visuals().extreme_bg_color;
+    for (k, part) in drawing.parts.iter().enumerate() {
+        let item = Item::Part(k);
+        let selected = sketching.item == Some(item);
         let color = if part.cut { ui.visuals().warn_fg_color } else { accent };
         let stroke = if selected { Stroke::new(2.0, color) } else { Stroke::new(0.8, color.gamma_multiply(0.55)) };
         closed(&painter, part.primitive.polygon().into_iter().map(screen), stroke);
         if selected {
-            handles(&painter, sheet, &part.primitive, color, ui.visuals().extreme_bg_color);
+            handles(&painter, sheet, item, color, paper);
         }
     }
-    pending(&painter, sheet, &state.hand, accent, pointer);
+    let thread = style::color32(palette.track);
+    for (k, points) in drawing.tracks.iter().enumerate() {
+        let item = Item::Track(k);
+        let selected = sketching.item == Some(item);
+        track(&painter, sheet, points, thread, if selected { 3.0 } else { 2.0 });
+        if selected {
+            handles(&painter, sheet, item, thread, paper);
+        }
+    }
+    let ink = if sketching.pencil == Pencil::Track { thread } else { accent };
+    pending(&painter, sheet, &state.hand, ink, pointer);
     let hovers = pointer.filter(|_| sketching.pencil == Pencil::Select && state.hand == Hand::Nothing);
-    if let Some(Under::Part(k)) = hovers.map(|p| under(sheet, camera.to_body(rect, p)))
-        && let Some(part) = session.drawing().parts.get(k)
-    {
-        closed(&painter, part.primitive.polygon().into_iter().map(screen), Stroke::new(1.6, accent));
+    match hovers.map(|p| under(sheet, camera.to_body(rect, p))) {
+        Some(Under::Item(Item::Part(k))) => {
+            let points = drawing.parts[k].primitive.polygon();
+            closed(&painter, points.into_iter().map(screen), Stroke::new(1.6, accent));
+        }
+        Some(Under::Item(Item::Track(k))) => track(&painter, sheet, &drawing.tracks[k], thread, 3.0),
+        _ => {}
     }
     captions(ui, sheet, state);
 }
@@ -100,14 +116,28 @@ fn closed(painter: &Painter, points: impl Iterator<Item = Pos2>, stroke: Stroke)
     painter.add(Shape::closed_line(points.collect(), stroke));
 }
 
-/// Points of a path are round, its corners square; between them are the places where one can be put in.
-fn handles(painter: &Painter, sheet: &Sheet<'_>, primitive: &Primitive, color: Color32, paper: Color32) {
+/// A thread with a knot at either end, so that it is no outline to the eye.
+fn track(painter: &Painter, sheet: &Sheet<'_>, points: &[Point], color: Color32, width: f32) {
+    let points: Vec<Pos2> = points.iter().map(|&p| sheet.camera.to_screen(sheet.rect, p)).collect();
+    for end in points.first().into_iter().chain(points.last()) {
+        painter.circle_filled(*end, width + 1.5, color);
+    }
+    painter.add(Shape::line(points, Stroke::new(width, color)));
+}
+
+/// Points of a path or track are round, corners of a path square; between them are the places where one can be put in.
+fn handles(painter: &Painter, sheet: &Sheet<'_>, item: Item, color: Color32, paper: Color32) {
     let screen = |p: Point| sheet.camera.to_screen(sheet.rect, p);
-    for p in primitive.middles() {
+    let drawing = sheet.session.drawing();
+    for p in drawing.middles(item) {
         painter.circle(screen(p), 2.5, paper, Stroke::new(1.0, color.gamma_multiply(0.7)));
     }
-    let is_corner = |k: usize| matches!(primitive, Primitive::Path { points } if points[k].corner);
-    for (k, p) in primitive.handles().into_iter().enumerate() {
+    let primitive = match item {
+        Item::Part(k) => drawing.parts.get(k).map(|part| &part.primitive),
+        Item::Track(_) => None,
+    };
+    let is_corner = |k: usize| matches!(primitive, Some(Primitive::Path { points }) if points[k].corner);
+    for (k, p) in drawing.handles(item).into_iter().enumerate() {
         let fill = if sheet.session.sketching().point == Some(k) { color } else { paper };
         let stroke = Stroke::new(1.5, color);
         if is_corner(k) {
@@ -137,6 +167,13 @@ fn pending(painter: &Painter, sheet: &Sheet<'_>, hand: &Hand, color: Color32, po
                 painter.circle_filled(screen(p), if k == 0 { HANDLE + 1.0 } else { 3.0 }, color);
             }
         }
+        Hand::Track(track) => {
+            let points: Vec<Pos2> = track.iter().copied().map(screen).chain(pointer).collect();
+            painter.add(Shape::line(points, stroke));
+            for &p in track {
+                painter.circle_filled(screen(p), 3.5, color);
+            }
+        }
         Hand::Spans(..) => {
             if let Some(primitive) = hand.pending(sheet.session.sketching().pencil, sheet.mm_per_pixel()) {
                 let points: Vec<Pos2> = primitive.polygon().into_iter().map(screen).collect();
@@ -155,14 +192,16 @@ fn captions(ui: &Ui, sheet: &Sheet<'_>, state: &State) {
     let title = painter.text(corner, Align2::LEFT_TOP, "Outline", FontId::proportional(15.0), strong);
     let hint = match (session.sketching().pencil, &state.hand) {
         (_, Hand::Corners(_)) => "click the first corner, or press Enter, to close it",
-        (Pencil::Select, _) if session.sketching().part.is_some() => {
+        (_, Hand::Track(_)) => "click the last point again, or press Enter, to end it; Escape drops it",
+        (Pencil::Select, _) if session.sketching().item.is_some() => {
             "drag the points; drag a small dot to put one in; Delete removes"
         }
-        (Pencil::Select, _) => "click a part to change it",
+        (Pencil::Select, _) => "click a part or a track to change it",
         (Pencil::Sketch, _) => "draw a line around; its ends are joined",
         (Pencil::Polygon, _) => "click the corners",
         (Pencil::Circle, _) => "drag from the middle",
         (Pencil::Capsule, _) => "drag from one end to the other",
+        (Pencil::Track, _) => "click the points of a line inside the body; tendons can run along it",
     };
     let weak = ui.visuals().weak_text_color();
     let at = title.right_bottom() + vec2(8.0, -1.5);

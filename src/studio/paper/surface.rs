@@ -91,6 +91,7 @@ mod tests {
                 Part { primitive: circle(5.0, 20.0), cut: true },
                 Part::joined(circle(500.0, 30.0)),
             ],
+            ..Drawing::default()
         };
         let mut surface = Surface::default();
         surface.follow(&drawing);
