@@ -25,7 +25,8 @@ pub enum Hand {
     #[default]
     Nothing,
     /// Moves a part or a track, or one of its handles. The drawing and the pointer as they were when it took hold.
-    Holds { drawing: Drawing, item: Item, handle: Option<usize>, from: Point },
+    /// `what` is done so far in this step of undo.
+    Holds { drawing: Drawing, item: Item, handle: Option<usize>, from: Point, what: &'static str },
     /// A freehand line, mm.
     Line(Vec<Point>),
     /// The corners of a polygon so far, mm.
@@ -159,7 +160,7 @@ pub fn under(sheet: &Sheet<'_>, p: Point) -> Under {
 
 fn begin(sheet: &Sheet<'_>, hand: Hand, press: Point, actions: &mut Actions) -> Hand {
     let sketching = sheet.session.sketching();
-    let holds = |drawing: Drawing, item, handle| Hand::Holds { drawing, item, handle, from: press };
+    let holds = |drawing, item, handle, what| Hand::Holds { drawing, item, handle, from: press, what };
     let drawing = || sheet.session.drawing().clone();
     match sketching.pencil {
         Pencil::Sketch => Hand::Line(vec![press]),
@@ -169,17 +170,20 @@ fn begin(sheet: &Sheet<'_>, hand: Hand, press: Point, actions: &mut Actions) -> 
         Pencil::Select => match (under(sheet, press), sketching.item) {
             (Under::Handle(handle), Some(item)) => {
                 actions.push(Action::Sketch(Sketch::Select(Some(item), Some(handle))));
-                holds(drawing(), item, Some(handle))
+                holds(drawing(), item, Some(handle), "Move point")
             }
             (Under::Middle(after), Some(item)) => {
                 let drawing = sheet.session.drawing().with_point(item, after, press);
-                actions.push(Action::Live(Change::Draw { what: "Add point", drawing: drawing.clone() }));
+                let what = "Add point";
+                actions.push(Action::Live(Change::Draw { what, drawing: drawing.clone() }));
                 actions.push(Action::Sketch(Sketch::Select(Some(item), Some(after + 1))));
-                holds(drawing, item, Some(after + 1))
+                // Where it is then moved to is the same step.
+                holds(drawing, item, Some(after + 1), what)
             }
             (Under::Item(item), _) => {
                 actions.push(Action::Sketch(Sketch::Select(Some(item), None)));
-                holds(drawing(), item, None)
+                let what = if matches!(item, Item::Part(_)) { "Move part" } else { "Move track" };
+                holds(drawing(), item, None, what)
             }
             _ => Hand::Pans,
         },
@@ -189,20 +193,12 @@ fn begin(sheet: &Sheet<'_>, hand: Hand, press: Point, actions: &mut Actions) -> 
 fn drag(sheet: &Sheet<'_>, hand: &mut Hand, at: Point, response: &Response, actions: &mut Actions) {
     let mm = sheet.mm_per_pixel();
     match hand {
-        Hand::Holds { drawing, item, handle, from } => {
-            let (what, changed) = match (*handle, *item) {
-                (Some(handle), item) => ("Move point", drawing.with_pulled(item, handle, at, LEAST * mm)),
-                (None, item) => {
-                    let what = if matches!(item, Item::Part(_)) { "Move part" } else { "Move track" };
-                    (what, drawing.with_moved(item, [at[0] - from[0], at[1] - from[1]]))
-                }
+        Hand::Holds { drawing, item, handle, from, what } => {
+            let changed = match *handle {
+                Some(handle) => drawing.with_pulled(*item, handle, at, LEAST * mm),
+                None => drawing.with_moved(*item, [at[0] - from[0], at[1] - from[1]]),
             };
-            // A point that was just put in is moved within the same step.
-            let what = match sheet.session.history().in_gesture() {
-                true if sheet.session.history().undo_label() == Some("Add point") => "Add point",
-                _ => what,
-            };
-            actions.push(Action::Live(Change::Draw { what, drawing: changed }));
+            actions.push(Action::Live(Change::Draw { what: *what, drawing: changed }));
         }
         Hand::Spans(_, to) => *to = at,
         Hand::Pans => {
