@@ -12,9 +12,10 @@ use super::refine::{Fill, Refiner};
 use super::sample::{Bends, Boundary, Closeness, Extra, Rim, sample};
 use super::smooth::Sliding;
 use super::symmetry::{Axis, Half, unfold};
+use super::tracks::Sampled;
 use super::{Mesh, generate, smooth, tracks};
 use crate::outline::{Outline, Point};
-use std::cell::{Cell, OnceCell};
+use std::cell::{Cell, OnceCell, RefCell};
 
 /// Boundary spacings tried, relative to the evenly dense one.
 const SPACINGS: [f64; 18] =
@@ -94,6 +95,8 @@ pub(super) struct Subject<'a> {
     whole: &'a Outline,
     rim: Rim<'a>,
     tracks: &'a [Vec<Point>],
+    /// Their nodes at the spacing that was tried last.
+    sampled: RefCell<Option<(f64, Sampled)>>,
     axis: Option<Axis>,
     height: f64,
     /// What is lost of the closeness by taking the image of one half for the other, mm.
@@ -179,6 +182,7 @@ impl<'a> Subject<'a> {
             whole: outline,
             rim,
             tracks,
+            sampled: RefCell::new(None),
             axis: None,
             height: height(outline),
             off: 0.0,
@@ -381,8 +385,12 @@ impl<'a> Subject<'a> {
     }
 
     fn refiner(&self, boundary: &Boundary, h: f64, fill: Fill) -> Option<Refiner<'a>> {
-        let tracks = tracks::sample(self.tracks, self.whole, h);
-        Refiner::new(boundary, &tracks, self.rim.curves, self.axis.is_some(), h, fill)
+        // The next attempts mostly have the same spacing.
+        let mut sampled = self.sampled.borrow_mut();
+        let known = sampled.take().filter(|(spacing, _)| *spacing == h);
+        let (_, tracks) = sampled.insert(known.unwrap_or_else(|| (h, tracks::sample(self.tracks, self.whole, h))));
+        self.budget.spend(std::mem::take(&mut tracks.work));
+        Refiner::new(boundary, tracks, self.rim.curves, self.axis.is_some(), h, fill)
     }
 
     /// Smooths, and checks what came out.

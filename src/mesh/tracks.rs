@@ -2,6 +2,7 @@
 
 use super::grid::Grid;
 use crate::outline::{Outline, Point, polygon};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Nearest that a track comes to the boundary, in spacings: what is nearer is cut off, for it would force flat triangles.
 const CLEARANCE: f64 = 0.45;
@@ -13,7 +14,13 @@ const MERGE: f64 = 0.3;
 pub(super) struct Sampled {
     pub nodes: Vec<Point>,
     pub segments: Vec<[usize; 2]>,
+    /// Work it took, in units of about 0.1 us.
+    pub work: usize,
 }
+
+/// Units for a stop, of which the distance from the rim takes most; and how many tries for a crossing weigh one.
+const STOP_WORK: usize = 10;
+const TRIES: usize = 20;
 
 /// The tracks with a node about every `h`, where they cross each other, and at their own corners; only where they run well
 /// inside the body. Nodes closer than a fraction of `h` are joined, so that lines drawn nearly alike become one.
@@ -25,9 +32,12 @@ pub(super) fn sample(tracks: &[Vec<Point>], outline: &Outline, h: f64) -> Sample
     let bounds = outline.bounding_box();
     let rim = Grid::new(outline.polygons().flat_map(polygon::sides).collect());
     let pieces: Vec<(Point, Point)> = tracks.iter().flat_map(|t| t.windows(2).map(|w| (w[0], w[1]))).collect();
+    let mut places = Places::new(MERGE * h);
+    let mut known = BTreeSet::new();
+    sampled.work = pieces.len() * pieces.len() / TRIES;
     // Corners first, so that what falls together with them goes there.
     for &p in tracks.iter().flatten().filter(|&&p| outline.contains(p) && rim.distance(p) > CLEARANCE * h) {
-        place(&mut sampled.nodes, p, MERGE * h);
+        places.put(p);
     }
     for track in tracks {
         let mut before: Option<usize> = None;
@@ -35,12 +45,13 @@ pub(super) fn sample(tracks: &[Vec<Point>], outline: &Outline, h: f64) -> Sample
             for t in stops((w[0], w[1]), &pieces, bounds, h, k == 0) {
                 let p = polygon::lerp(w[0], w[1], t);
                 let inside = outline.contains(p) && rim.distance(p) > CLEARANCE * h;
-                let node = inside.then(|| place(&mut sampled.nodes, p, MERGE * h));
+                let node = inside.then(|| places.put(p));
+                sampled.work += STOP_WORK;
                 if let (Some(a), Some(b)) = (before, node)
                     && a != b
                 {
                     let segment = [a.min(b), a.max(b)];
-                    if !sampled.segments.contains(&segment) && clear(&rim, sampled.nodes[a], sampled.nodes[b], h) {
+                    if known.insert(segment) && clear(&rim, places.nodes[a], places.nodes[b], h) {
                         sampled.segments.push(segment);
                     }
                 }
@@ -48,6 +59,8 @@ pub(super) fn sample(tracks: &[Vec<Point>], outline: &Outline, h: f64) -> Sample
             }
         }
     }
+    sampled.nodes = places.nodes;
+    sampled.work += sampled.segments.len() * sampled.segments.len() / TRIES;
     without_crossings(&mut sampled);
     sampled
 }
@@ -97,13 +110,30 @@ fn meet(a: Point, b: Point, c: Point, d: Point) -> Option<f64> {
     (t > 0.0 && t < 1.0 && (0.0..=1.0).contains(&u)).then_some(t)
 }
 
-/// The node at `p`, or near it.
-fn place(nodes: &mut Vec<Point>, p: Point, near: f64) -> usize {
-    if let Some(found) = nodes.iter().position(|q| polygon::length(*q, p) < near) {
-        return found;
+/// Nodes, no two of them nearer than a distance; looked up by cells of that size.
+struct Places {
+    nodes: Vec<Point>,
+    near: f64,
+    cells: BTreeMap<[i64; 2], Vec<usize>>,
+}
+
+impl Places {
+    fn new(near: f64) -> Self {
+        Self { nodes: Vec::new(), near, cells: BTreeMap::new() }
     }
-    nodes.push(p);
-    nodes.len() - 1
+
+    /// The first node near `p`, or a new one there.
+    fn put(&mut self, p: Point) -> usize {
+        let [x, y] = p.map(|v| (v / self.near).floor() as i64);
+        let around = (-1..=1).flat_map(|i| (-1..=1).map(move |j| [x.saturating_add(i), y.saturating_add(j)]));
+        let found = around.filter_map(|cell| self.cells.get(&cell)).flatten().copied();
+        let found = found.filter(|&n| polygon::length(self.nodes[n], p) < self.near).min();
+        found.unwrap_or_else(|| {
+            self.nodes.push(p);
+            self.cells.entry([x, y]).or_default().push(self.nodes.len() - 1);
+            self.nodes.len() - 1
+        })
+    }
 }
 
 fn clear(rim: &Grid, a: Point, b: Point, h: f64) -> bool {
@@ -131,5 +161,5 @@ fn without_crossings(sampled: &mut Sampled) {
             used.len() - 1
         });
     }
-    *sampled = Sampled { nodes: used, segments: kept };
+    *sampled = Sampled { nodes: used, segments: kept, work: sampled.work };
 }

@@ -27,7 +27,7 @@ use serde::{Deserialize, Serialize};
 const MAX_PARTS: usize = 10_000;
 const MAX_POINTS: usize = 200_000;
 /// Points of all tracks together, at most: every piece is tried against every other for crossings, on every mesh that is tried.
-const MAX_TRACK_POINTS: usize = 1000;
+const MAX_TRACK_POINTS: usize = 200;
 /// Largest coordinate and radius, mm.
 const MAX_MM: f64 = 1e7;
 /// How far the drawing of an outline may stray from it, as a fraction of the longer side of its box: less than the mesh does.
@@ -103,7 +103,7 @@ impl Drawing {
             part.primitive.check(MAX_MM).map_err(|(at, why)| (format!("parts[{k}].{at}"), why))?;
         }
         if self.tracks.iter().map(Vec::len).sum::<usize>() > MAX_TRACK_POINTS {
-            return Err(("tracks".into(), "more than 1000 points"));
+            return Err(("tracks".into(), "more than 200 points"));
         }
         for (k, line) in self.tracks.iter().enumerate() {
             track::check(line, MAX_MM).map_err(|(at, why)| (format!("tracks[{k}]{at}"), why))?;
@@ -274,7 +274,7 @@ mod tests {
         assert!(old.tracks.is_empty() && !old.to_text().unwrap().contains("tracks"));
         assert!(is_drawing(b"(\n  tracks: [[(0, 0), (1, 1)]], parts: [])"));
         let many = Drawing { parts: Vec::new(), tracks: vec![vec![[0.0; 2]; MAX_TRACK_POINTS + 1]] };
-        assert_eq!(many.check(), Err(("tracks".into(), "more than 1000 points")));
+        assert_eq!(many.check(), Err(("tracks".into(), "more than 200 points")));
     }
 
     #[test]
