@@ -171,7 +171,7 @@ impl Tour<'_> {
             Question::Activations(_) => Vec::new(),
         };
         let shapes = key::solve(design, question, [true, true], self.cancel)?;
-        let bytes = picture(design, &shapes, &targets, SIZE)?;
+        let bytes = picture(design, &shapes, &targets, None, SIZE)?;
         let text = if targets.is_empty() { text.to_owned() } else { errors(&shapes) };
         self.save(title, &bytes, &text)
     }

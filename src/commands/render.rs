@@ -4,14 +4,15 @@ use super::error::CommandError;
 use super::output::{say, write_file};
 use super::{document, key};
 use crate::design::animation::activations_at;
-use crate::design::{Design, Target};
+use crate::design::{Design, Target, file};
 use crate::engine::{Question, Shape};
 use crate::picture::palette::Palette;
-use crate::picture::raster;
 use crate::picture::scene::{self, Options};
+use crate::picture::{Texture, raster};
 use clap::Args;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 /// Draw both plushies, idealized left and realizable right, as PNG
@@ -34,6 +35,9 @@ pub struct Render {
     /// Width and height in pixels, each 16 to 8192
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = parse_size)]
     pub size: (u32, u32),
+    /// Leave the design's texture out
+    #[arg(long)]
+    pub no_texture: bool,
 }
 
 impl Render {
@@ -59,10 +63,23 @@ impl Render {
             Question::Activations(_) => Vec::new(),
         };
         let shapes = key::solve(&design, question, [true, true], cancel)?;
-        let bytes = picture(&design, &shapes, &targets, self.size)?;
+        let texture = if self.no_texture { None } else { texture(&design, &self.design, out)? };
+        let bytes = picture(&design, &shapes, &targets, texture.as_ref(), self.size)?;
         write_file(&self.output, &bytes, cancel)?;
         say(out, &format!("{}: {} x {} pixels", self.output.display(), self.size.0, self.size.1))?;
         key::balanced(key::unbalanced(&place, &shapes))
+    }
+}
+
+/// The texture of a design; one that cannot be read is not drawn, and that is said.
+fn texture(design: &Design, from: &Path, out: &mut dyn Write) -> Result<Option<Arc<Texture>>, CommandError> {
+    let Some(path) = file::texture_path(design, from) else { return Ok(None) };
+    match Texture::read(&path) {
+        Ok(texture) => Ok(Some(Arc::new(texture))),
+        Err(error) => {
+            say(out, &format!("note: drawn without its texture {}: {error}", path.display()))?;
+            Ok(None)
+        }
     }
 }
 
@@ -71,9 +88,10 @@ pub fn picture(
     design: &Design,
     [idealized, realizable]: &[Shape; 2],
     targets: &[Target],
+    texture: Option<&Arc<Texture>>,
     size: (u32, u32),
 ) -> Result<Vec<u8>, CommandError> {
-    let left = Options { targets, ..Options::default() };
+    let left = Options { targets, texture, ..Options::default() };
     // The realizable plushie has no fibres.
     let right = Options { fibers: false, ..left };
     let background = Palette::of(left.theme).background;

@@ -92,6 +92,7 @@ pub fn to_text(design: &Design) -> Result<String, ron::Error> {
         controller,
         drawing,
         texture,
+        texture_box,
         gravity,
         stiffness_map,
     } = design;
@@ -104,6 +105,9 @@ pub fn to_text(design: &Design) -> Result<String, ron::Error> {
     field(out, "tendons", tendons, 1)?;
     if texture.is_some() {
         field(out, "texture", texture, 0)?;
+    }
+    if texture_box.is_some() {
+        field(out, "texture_box", texture_box, 0)?;
     }
     if gravity.is_some() {
         field(out, "gravity", gravity, 0)?;
@@ -185,6 +189,11 @@ fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
         let _ = folder.sync_all();
     }
     Ok(())
+}
+
+/// Where a design that was read from `file` finds its texture.
+pub fn texture_path(design: &Design, file: &Path) -> Option<PathBuf> {
+    design.texture.as_deref().map(|texture| parent(file).join(texture))
 }
 
 /// The folder of a file.

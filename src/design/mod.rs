@@ -63,9 +63,12 @@ pub struct Design {
     /// The parts that the outline was, or will be, drawn from; in its coordinates.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub drawing: Option<Drawing>,
-    /// Picture stretched over the rest silhouette's box, a path relative to the design file.
+    /// Picture on the body at rest, a path relative to the design file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub texture: Option<String>,
+    /// Lower left and upper right corner of the texture, mm; those of the rest silhouette's box if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub texture_box: Option<[Point; 2]>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gravity: Option<Gravity>,
     /// Factor on the moduli of each triangle.
@@ -180,6 +183,7 @@ impl Design {
             controller: ControllerSettings::default(),
             drawing: None,
             texture: None,
+            texture_box: None,
             gravity: None,
             stiffness_map: None,
         }
@@ -204,6 +208,11 @@ impl Design {
     /// Lines along which edges of the mesh run, and shall run in every other one, mm: those of the drawing.
     pub fn tracks(&self) -> &[Track] {
         self.drawing.as_ref().map_or(&[], |drawing| &drawing.tracks)
+    }
+
+    /// Lower left and upper right corner of the texture, mm.
+    pub fn texture_rect(&self) -> [Point; 2] {
+        self.texture_box.unwrap_or_else(|| self.outline.bounding_box().into())
     }
 
     /// The longer side of the rest silhouette's box, mm: pose errors are stated in it.

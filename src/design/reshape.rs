@@ -65,6 +65,12 @@ pub fn reshape(design: &mut Design, body: Body) -> Report {
     design.mesh.nodes.iter_mut().for_each(shift);
     design.pins.iter_mut().filter_map(|pin| pin.position.as_mut()).for_each(shift);
     design.poses.iter_mut().flat_map(|pose| &mut pose.targets).for_each(|target| shift(&mut target.to));
+    // The picture stays where it was, whatever box the new silhouette has.
+    design.texture_box = design.texture.is_some().then(|| {
+        let mut corners = design.texture_rect();
+        corners.iter_mut().for_each(shift);
+        corners
+    });
     design.outline = outline;
     design.drawing = drawing;
     remesh::carry(design, mesh, fibers)
@@ -80,6 +86,7 @@ mod tests {
     #[test]
     fn what_is_drawn_to_the_left_moves_the_origin_and_nothing_else() {
         let mut design = bundled::ALL[0].design().unwrap();
+        design.texture = Some("robot.png".into());
         let before = design.clone();
         let mut drawing = Drawing::of(&design.outline);
         let [x, y] = [-30.0, 0.5 * design.body_length_mm()];
@@ -101,6 +108,8 @@ mod tests {
         assert!((high[0] - before.outline.bounding_box().1[0] - 50.0).abs() < 0.01 * high[0]);
         assert_eq!(design.poses.last().unwrap().targets[0].to, [7.0 - corner[0], 8.0 - corner[1]]);
         assert_eq!(design.pins.last().unwrap().position, Some([5.0 - corner[0], 6.0 - corner[1]]));
+        let moved = |p: Point| [p[0] - corner[0], p[1] - corner[1]];
+        assert_eq!(design.texture_rect(), before.texture_rect().map(moved));
         for (new, old) in design.pins.iter().zip(&before.pins) {
             let [a, b] = [(&design.mesh, new), (&before.mesh, old)].map(|(m, pin)| m.position(&pin.at, &m.nodes));
             assert!(polygon::length(a, [b[0] - corner[0], b[1] - corner[1]]) < 0.01 * high[1], "{a:?} {b:?}");

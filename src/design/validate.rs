@@ -130,6 +130,11 @@ pub(super) fn settings(design: &Design) -> Check {
     if let Some(drawing) = &design.drawing {
         drawing.check().or_else(|(at, why)| fail(format!("drawing.{at}"), Problem::Drawing(why)))?;
     }
+    if let Some([low, high]) = &design.texture_box {
+        point("texture_box[0]", low)?;
+        point("texture_box[1]", high)?;
+        (0..2).try_for_each(|axis| positive("texture_box", high[axis] - low[axis]))?;
+    }
     match &design.texture {
         Some(path) if path.is_empty() => fail("texture", Problem::Empty),
         _ => Ok(()),

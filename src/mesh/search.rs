@@ -96,7 +96,7 @@ pub(super) struct Subject<'a> {
     rim: Rim<'a>,
     tracks: &'a [Vec<Point>],
     /// Their nodes at the spacing that was tried last.
-    sampled: RefCell<Option<(f64, Sampled)>>,
+    sampled: RefCell<Option<(f64, Option<Sampled>)>>,
     axis: Option<Axis>,
     height: f64,
     /// What is lost of the closeness by taking the image of one half for the other, mm.
@@ -389,6 +389,7 @@ impl<'a> Subject<'a> {
         let mut sampled = self.sampled.borrow_mut();
         let known = sampled.take().filter(|(spacing, _)| *spacing == h);
         let (_, tracks) = sampled.insert(known.unwrap_or_else(|| (h, tracks::sample(self.tracks, self.whole, h))));
+        let tracks = tracks.as_mut()?;
         self.budget.spend(std::mem::take(&mut tracks.work));
         Refiner::new(boundary, tracks, self.rim.curves, self.axis.is_some(), h, fill)
     }

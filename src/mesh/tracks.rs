@@ -18,17 +18,21 @@ pub(super) struct Sampled {
     pub work: usize,
 }
 
+/// Most nodes of the tracks on an area of one spacing squared: twice those of an even mesh.
+const MOST: f64 = 2.3;
 /// Units for a stop, of which the distance from the rim takes most; and how many tries for a crossing weigh one.
 const STOP_WORK: usize = 10;
 const TRIES: usize = 20;
 
 /// The tracks with a node about every `h`, where they cross each other, and at their own corners; only where they run well
-/// inside the body. Nodes closer than a fraction of `h` are joined, so that lines drawn nearly alike become one.
-pub(super) fn sample(tracks: &[Vec<Point>], outline: &Outline, h: f64) -> Sampled {
+/// inside the body. Nodes closer than a fraction of `h` are joined, so that lines drawn nearly alike become one. `None` where
+/// they fill the body with more nodes than a mesh has room for.
+pub(super) fn sample(tracks: &[Vec<Point>], outline: &Outline, h: f64) -> Option<Sampled> {
     let mut sampled = Sampled::default();
     if tracks.is_empty() {
-        return sampled;
+        return Some(sampled);
     }
+    let most = (MOST * outline.area() / (h * h)) as usize + 2 * tracks.len();
     let bounds = outline.bounding_box();
     let rim = Grid::new(outline.polygons().flat_map(polygon::sides).collect());
     let pieces: Vec<(Point, Point)> = tracks.iter().flat_map(|t| t.windows(2).map(|w| (w[0], w[1]))).collect();
@@ -57,12 +61,15 @@ pub(super) fn sample(tracks: &[Vec<Point>], outline: &Outline, h: f64) -> Sample
                 }
                 before = node;
             }
+            if places.nodes.len() > most {
+                return None;
+            }
         }
     }
     sampled.nodes = places.nodes;
     sampled.work += sampled.segments.len() * sampled.segments.len() / TRIES;
     without_crossings(&mut sampled);
-    sampled
+    Some(sampled)
 }
 
 /// Parameters of the nodes along a piece: its ends, its crossings with all pieces, and even steps between them. What is

@@ -26,7 +26,7 @@ pub use drawing::Drawing;
 pub use import::{
     Background, EXTENSIONS, Format, Holes, Import, Imported, MAX_FILE_BYTES, Pieces, import, import_file, read_file,
 };
-pub use texture::{MAX_TEXTURE_PX, texture};
+pub use texture::{MAX_TEXTURE_PX, read_texture, shrunk, texture};
 
 use grid::Grid;
 use regions::Shapes;

@@ -63,6 +63,11 @@ pub(super) fn texture(bytes: &[u8], [low, high]: [Point; 2]) -> Result<RgbaImage
     Ok(cut(&picture, low, high, size))
 }
 
+/// The whole picture, the right way up.
+pub(super) fn decoded(bytes: &[u8]) -> Result<RgbaImage, OutlineError> {
+    Ok(decode(bytes)?.0.into_rgba8())
+}
+
 /// How many pixels of a picture, along each axis, one working pixel stands for.
 fn working_factor(width: usize, height: usize) -> usize {
     width.max(height).div_ceil(WORKING_SIDE).max(1)

@@ -1,8 +1,9 @@
 //! The picture of a plushie: what its file shows within the silhouette's box.
 
-use super::{Format, Import, Imported, OutlineError, Point, picture, svg};
+use super::{Format, Import, Imported, OutlineError, Point, import, picture, svg};
 use image::{ImageFormat, RgbaImage};
 use std::io::Cursor;
+use std::path::Path;
 
 /// Longest side of a texture, pixels: 0.15 mm on 300 mm.
 pub const MAX_TEXTURE_PX: u32 = 2048;
@@ -25,6 +26,26 @@ pub fn texture(bytes: &[u8], import: &Import, imported: &Imported) -> Result<Vec
     let unwritable = |e: image::ImageError| OutlineError::Unreadable { format: "texture", reason: e.to_string() };
     picture.write_to(&mut png, ImageFormat::Png).map_err(unwritable)?;
     Ok(png.into_inner())
+}
+
+/// Reads a texture back, a PNG or JPEG; a side longer than [`MAX_TEXTURE_PX`] is averaged down.
+///
+/// # Errors
+/// What the system says of the file, or what is wrong with the picture.
+pub fn read_texture(path: &Path) -> Result<RgbaImage, OutlineError> {
+    let bytes = import::read_file(path)?;
+    if bytes.len() > import::MAX_FILE_BYTES {
+        return Err(OutlineError::TooLarge);
+    }
+    let picture = picture::decoded(&bytes)?;
+    let size = [picture.width(), picture.height()];
+    let fitted = fitted(size.map(f64::from), f64::from(MAX_TEXTURE_PX));
+    Ok(if fitted == size { picture } else { shrunk(&picture, fitted) })
+}
+
+/// A picture of fewer pixels: each the mean of those that it covers, with opacity as the weight of a colour.
+pub fn shrunk(picture: &RgbaImage, size: [u32; 2]) -> RgbaImage {
+    cut(picture, [0.0; 2], [f64::from(picture.width()), f64::from(picture.height())], size)
 }
 
 /// Width and height of a texture of `size` pixels shrunk so that its longer side has at most `longest`.

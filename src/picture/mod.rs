@@ -7,8 +7,13 @@ pub mod palette;
 pub mod quality;
 pub mod raster;
 pub mod scene;
+mod texture;
+mod textured;
+
+pub use texture::{Level, Texture};
 
 use crate::outline::Point;
+use std::sync::Arc;
 
 /// Straight (not premultiplied) sRGB colour with alpha.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,6 +26,14 @@ pub enum Item {
         points: Vec<Point>,
         triangles: Vec<[usize; 3]>,
         color: Color,
+    },
+    /// Triangles over `points` with a picture on them; `places` says where each point lies in it, 0 to 1 from the upper left
+    /// corner. What lies outside of it is clear.
+    Picture {
+        points: Vec<Point>,
+        places: Vec<Point>,
+        triangles: Vec<[usize; 3]>,
+        texture: Arc<Texture>,
     },
     /// A polyline, round caps and joins.
     Line {

@@ -1,5 +1,6 @@
 //! Scenes to PNG, without a graphics adapter.
 
+use super::textured::{self, Corner};
 use super::{Color, Item, Scene};
 use crate::outline::Point;
 use tiny_skia::{
@@ -47,7 +48,9 @@ impl Bounds {
         let mut bounds = Self { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
         for item in scenes.into_iter().flat_map(|scene| &scene.items) {
             match item {
-                Item::Mesh { points, .. } | Item::Line { points, .. } => points.iter().for_each(|p| bounds.add(p)),
+                Item::Mesh { points, .. } | Item::Picture { points, .. } | Item::Line { points, .. } => {
+                    points.iter().for_each(|p| bounds.add(p));
+                }
                 Item::Disc { center, .. } => bounds.add(center),
             }
         }
@@ -87,8 +90,13 @@ impl View {
         }
     }
 
+    fn exact(&self, p: &Point) -> Point {
+        [self.x0 + self.scale * p[0], self.y0 - self.scale * p[1]]
+    }
+
     fn place(&self, p: &Point) -> (f32, f32) {
-        ((self.x0 + self.scale * p[0]) as f32, (self.y0 - self.scale * p[1]) as f32)
+        let [x, y] = self.exact(p);
+        (x as f32, y as f32)
     }
 }
 
@@ -98,6 +106,14 @@ fn paint_scene(pixmap: &mut PixmapMut, scene: &Scene, view: &View) {
             Item::Mesh { points, triangles, color } => {
                 if let Some(path) = mesh_path(points, triangles, view) {
                     pixmap.fill_path(&path, &paint(*color), FillRule::Winding, Transform::identity(), None);
+                }
+            }
+            Item::Picture { points, places, triangles, texture } => {
+                let corner = |n: usize| Some(Corner { at: view.exact(points.get(n)?), place: *places.get(n)? });
+                for t in triangles {
+                    if let [Some(a), Some(b), Some(c)] = t.map(corner) {
+                        textured::triangle(pixmap, [a, b, c], texture);
+                    }
                 }
             }
             Item::Line { points, width, color, closed } => {

@@ -1,20 +1,23 @@
-//! Builds the drawing of one plushie: body, fibres, tendons, winches, pins, targets, stages of discovery.
+//! Builds the drawing of one plushie: body, texture, fibres, tendons, winches, pins, targets, stages of discovery.
 //!
-//! Painting order is from the body upward: felt, outline, fibres or a stage of discovery, tendons, winches, pins,
+//! Painting order is from the body upward: felt, texture, outline, fibres or a stage of discovery, tendons, winches, pins,
 //! targets. Fibres are drawn in the order of their contraction, so that the active ones lie on top.
 
 use super::palette::{Palette, Theme, mix, with_alpha};
-use super::{Color, Item, Scene};
+use super::{Color, Item, Scene, Texture};
 use crate::design::{Design, Target};
 use crate::discovery::Stages;
 use crate::engine::Shape;
 use crate::mesh::Mesh;
 use crate::outline::Point;
+use std::sync::Arc;
 
 /// What to draw beside the body.
 #[derive(Clone, Copy, Debug)]
 pub struct Options<'a> {
     pub theme: Theme,
+    /// The picture on the body, if it shall be drawn.
+    pub texture: Option<&'a Arc<Texture>>,
     /// Muscle fibres, coloured by contraction. Without contractions in the shape all are passive.
     pub fibers: bool,
     /// Tendons and winches of the design's networks.
@@ -49,6 +52,7 @@ impl Default for Options<'_> {
     fn default() -> Self {
         Self {
             theme: Theme::Light,
+            texture: None,
             fibers: true,
             networks: true,
             pins: true,
@@ -86,7 +90,7 @@ pub fn scene(design: &Design, shape: &Shape, options: &Options<'_>) -> Scene {
     }
     let palette = Palette::of(options.theme);
     let items = &mut scene.items;
-    body(items, mesh, shape, &palette);
+    body(items, design, shape, &palette, options.texture);
     match options.stage {
         Some((stage, stages)) => draw_stage(items, design, shape, &palette, stage, stages),
         None => {
@@ -107,9 +111,19 @@ pub fn scene(design: &Design, shape: &Shape, options: &Options<'_>) -> Scene {
     scene
 }
 
-fn body(items: &mut Vec<Item>, mesh: &Mesh, shape: &Shape, palette: &Palette) {
-    let triangles = mesh.triangles.clone();
-    items.push(Item::Mesh { points: shape.nodes.clone(), triangles, color: palette.body });
+fn body(items: &mut Vec<Item>, design: &Design, shape: &Shape, palette: &Palette, texture: Option<&Arc<Texture>>) {
+    let mesh = &design.mesh;
+    let (points, triangles) = (shape.nodes.clone(), mesh.triangles.clone());
+    if let Some(texture) = texture {
+        // Felt shows through where the picture is clear.
+        items.push(Item::Mesh { points: points.clone(), triangles: triangles.clone(), color: palette.body });
+        let [low, high] = design.texture_rect();
+        let place = |p: &Point| [(p[0] - low[0]) / (high[0] - low[0]), (high[1] - p[1]) / (high[1] - low[1])];
+        let places = mesh.nodes.iter().map(place).collect();
+        items.push(Item::Picture { points, places, triangles, texture: texture.clone() });
+    } else {
+        items.push(Item::Mesh { points, triangles, color: palette.body });
+    }
     for edge in mesh.boundary() {
         let points = edge.iter().map(|&n| shape.nodes[n]).collect();
         items.push(Item::Line { points, width: size::SEAM, color: palette.seam, closed: true });
