@@ -96,3 +96,26 @@ fn capsule_fragment(in: Capsule) -> @location(0) vec4f {
     }
     return shade(in.color, coverage);
 }
+
+@group(1) @binding(0) var skin: texture_2d<f32>;
+@group(1) @binding(1) var skin_sampler: sampler;
+
+struct Picture {
+    @builtin(position) position: vec4f,
+    // From the upper left corner of the texture, 0 to 1.
+    @location(0) place: vec2f,
+}
+
+@vertex
+fn picture_vertex(@location(0) position: vec2f, @location(1) place: vec2f) -> Picture {
+    return Picture(vec4f(to_clip(position), 0.0, 1.0), place);
+}
+
+@fragment
+fn picture_fragment(in: Picture) -> @location(0) vec4f {
+    // Its colours are premultiplied.
+    let color = textureSample(skin, skin_sampler, in.place);
+    // Its outermost pixels do not go on beyond it.
+    let inside = all(in.place >= vec2f(0.0)) && all(in.place <= vec2f(1.0));
+    return shade(vec4f(color.rgb / max(color.a, 1e-6), color.a), select(0.0, 1.0, inside));
+}

@@ -824,6 +824,65 @@ fn a_new_plushie_is_drawn_on_an_empty_sheet() {
 }
 
 #[test]
+fn the_texture_is_read_aside_shown_and_hidden() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("bar.plush");
+    let mut design = bar();
+    design.texture = Some("bar.png".into());
+    plushwright::design::file::write(&path, &design).unwrap();
+    image::RgbaImage::from_pixel(3000, 1000, image::Rgba([200, 30, 30, 255]))
+        .save(folder.path().join("bar.png"))
+        .unwrap();
+    // Without a texture the switch says why it cannot be used.
+    let mut window = window(bar());
+    let is_disabled = |window: &Window| window.get_by_label("Show the texture").accesskit_node().is_disabled();
+    assert!(is_disabled(&window) && session(&window).cannot_texture().unwrap().contains("has no texture"));
+    let open = |window: &mut Window| {
+        press(window, Modifiers::COMMAND, Key::O);
+        type_path(window, &path);
+        press(window, Modifiers::NONE, Key::Enter);
+        wait(window, |s| s.cannot_texture().is_none_or(|why| why.contains("missing")));
+        settle(window);
+    };
+    open(&mut window);
+    let texture = session(&window).texture().expect("it was read").clone();
+    assert!((texture.levels()[0].width, texture.levels()[0].height) == (2048, 683));
+    assert!(!is_disabled(&window) && session(&window).look().texture);
+    click(&mut window, "Show the texture");
+    assert!(!session(&window).look().texture);
+    press(&mut window, Modifiers::NONE, Key::X);
+    assert!(session(&window).look().texture && !session(&window).history().is_modified());
+    // It is read once, and nothing is drawn while nothing changes.
+    pose(&mut window, "Idealized view");
+    assert!(Arc::ptr_eq(&texture, session(&window).texture().unwrap()));
+    window.run();
+    assert_eq!(window.output().viewport_output.values().next().unwrap().repaint_delay, Duration::MAX);
+    // Saved elsewhere, and there again, it names the same file.
+    std::fs::create_dir(folder.path().join("sub")).unwrap();
+    let moved = folder.path().join("sub/bar.plush");
+    press(&mut window, Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
+    type_path(&mut window, &moved);
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    for _ in 0..2 {
+        let saved = plushwright::design::file::read(&moved).unwrap();
+        assert_eq!(saved.texture.as_deref(), Some("../bar.png"));
+        press(&mut window, Modifiers::COMMAND, Key::S);
+    }
+    assert!(Arc::ptr_eq(&texture, session(&window).texture().unwrap()));
+    // A picture that is gone is said to be, and the plushie is shown without it.
+    std::fs::remove_file(folder.path().join("bar.png")).unwrap();
+    open(&mut window);
+    let said = |window: &Window| session(window).messages().list().last().unwrap().clone();
+    assert!(session(&window).texture().is_none() && is_disabled(&window));
+    assert!(
+        said(&window).level == Level::Warning && said(&window).text.contains("cannot be shown"),
+        "{:?}",
+        said(&window)
+    );
+    wait(&mut window, |s| s.shapes().realizable.is_some());
+}
+
+#[test]
 fn an_example_opens_from_the_menu() {
     let mut window = window(bar());
     click(&mut window, "Examples");

@@ -1,9 +1,15 @@
-//! `new --texture` through the built program: which part of a file becomes the picture of the plushie, and what stays behind where
-//! something fails.
+//! The picture of a plushie: which part of a file it becomes, where it is drawn, and what stays behind where something fails.
 
 use image::{DynamicImage, Rgba, RgbaImage};
+use plushwright::design::{Design, file};
+use plushwright::engine::Shape;
+use plushwright::outline::Point;
+use plushwright::picture::palette::{Palette, Theme};
+use plushwright::picture::scene::{Options, scene};
+use plushwright::picture::{Texture, raster};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::sync::Arc;
 
 /// Upper left, upper right, lower left, lower right.
 const QUADRANTS: [[u8; 3]; 4] = [[200, 30, 30], [20, 140, 40], [30, 40, 190], [60, 60, 60]];
@@ -180,4 +186,129 @@ fn another_resolution_keeps_the_texture_also_in_another_folder() {
         assert!(done.status.success(), "{done:?}");
         assert_eq!(stated(&folder.path(output)).as_deref(), Some(texture));
     }
+}
+
+const RED: [u8; 3] = [210, 20, 30];
+const BLUE: [u8; 3] = [20, 40, 220];
+
+/// A plushie 200 x 100 mm, its left half red, its right half blue.
+fn two_colours() -> (Folder, Design) {
+    let folder = Folder::new();
+    let halves = RgbaImage::from_fn(220, 120, |x, y| match (x, y) {
+        (10..110, 10..110) => Rgba([RED[0], RED[1], RED[2], 255]),
+        (110..210, 10..110) => Rgba([BLUE[0], BLUE[1], BLUE[2], 255]),
+        _ => Rgba([0; 4]),
+    });
+    halves.save(folder.path("a.png")).unwrap();
+    folder.texture("a.png", &["--height", "100", "--fibers", "200"]);
+    let design = file::read(&folder.path("a.plush")).unwrap();
+    (folder, design)
+}
+
+const SIZE: (u32, u32) = (1200, 600);
+
+/// Where the place of a body that fills the box is in the right view of a picture of [`SIZE`].
+fn in_picture(p: Point, nodes: &[Point]) -> [u32; 2] {
+    let (low, high) = plushwright::outline::polygon::bounding_box(nodes);
+    let scale = ((600.0 - 72.0) / (high[0] - low[0])).min((600.0 - 72.0) / (high[1] - low[1]));
+    let at = |axis: usize| scale * (p[axis] - 0.5 * (low[axis] + high[axis]));
+    [(900.0 + at(0)).round() as u32, (300.0 - at(1)).round() as u32]
+}
+
+fn is_near(picture: &RgbaImage, [x, y]: [u32; 2], expected: [u8; 3]) -> bool {
+    let Rgba(found) = *picture.get_pixel(x, y);
+    (0..3).all(|k| found[k].abs_diff(expected[k]) <= 3)
+}
+
+#[test]
+fn the_halves_of_a_texture_are_where_they_are_at_rest_and_in_a_pose() {
+    let (folder, design) = two_colours();
+    let texture = Arc::new(Texture::read(&file::texture_path(&design, &folder.path("a.plush")).unwrap()).unwrap());
+    let rest = design.mesh.nodes.clone();
+    // Bent to an arc and leant over, by hand: no solver is asked.
+    let bent = |p: &Point| {
+        let (sin, cos) = (0.006 * (p[0] - 100.0)).sin_cos();
+        let r = 160.0 - p[1];
+        [r * sin + 0.2 * p[1], -r * cos]
+    };
+    for nodes in [rest.clone(), rest.iter().map(bent).collect()] {
+        let shape = Shape { nodes: nodes.clone(), ..Shape::default() };
+        let options = Options { texture: Some(&texture), fibers: false, ..Options::default() };
+        let scene = scene(&design, &shape, &options);
+        let png = raster::png(&scene, &scene, SIZE, Palette::of(Theme::Light).background).unwrap();
+        let picture = image::load_from_memory(&png).unwrap().into_rgba8();
+        let (mut red, mut blue) = (0, 0);
+        for t in &design.mesh.triangles {
+            let middle = |nodes: &[Point]| [0, 1].map(|k| t.iter().map(|&n| nodes[n][k]).sum::<f64>() / 3.0);
+            // Beside the line on which they meet.
+            let expected = match middle(&rest)[0] {
+                ..95.0 => RED,
+                105.0.. => BLUE,
+                _ => continue,
+            };
+            let at = in_picture(middle(&nodes), &nodes);
+            assert!(
+                is_near(&picture, at, expected),
+                "{:?} at {at:?}, not {expected:?}",
+                picture.get_pixel(at[0], at[1])
+            );
+            *(if expected == RED { &mut red } else { &mut blue }) += 1;
+        }
+        assert!(red > 30 && blue > 30, "{red} {blue}");
+    }
+}
+
+#[test]
+fn the_texture_is_rendered_left_out_and_missed_without_failing() {
+    let (folder, design) = two_colours();
+    let nodes = &design.mesh.nodes;
+    let [left, right] = [[37.0, 47.0], [163.0, 47.0]].map(|p| in_picture(p, nodes));
+    let felt = Palette::of(Theme::Light).body;
+    let felt = [felt.0, felt.1, felt.2];
+    let render = |options: &[&str]| {
+        let output = folder.run(&[&["render", "a.plush", "-o", "a-out.png", "--size", "1200x600"], options].concat());
+        assert!(output.status.success() && output.stderr.is_empty(), "{output:?}");
+        (image::open(folder.path("a-out.png")).unwrap().into_rgba8(), String::from_utf8(output.stdout).unwrap())
+    };
+    let (picture, said) = render(&[]);
+    assert!(is_near(&picture, left, RED) && is_near(&picture, right, BLUE) && !said.contains("note"), "{said}");
+    let (picture, _) = render(&["--no-texture"]);
+    assert!(is_near(&picture, left, felt) && is_near(&picture, right, felt));
+    for broken in [None, Some("no picture")] {
+        std::fs::remove_file(folder.path("a.texture.png")).unwrap();
+        if let Some(text) = broken {
+            std::fs::write(folder.path("a.texture.png"), text).unwrap();
+        }
+        let (picture, said) = render(&[]);
+        assert!(is_near(&picture, left, felt), "{said}");
+        assert!(said.contains("note: drawn without its texture a.texture.png: "), "{said}");
+        std::fs::write(folder.path("a.texture.png"), "").unwrap();
+    }
+}
+
+#[test]
+fn another_silhouette_leaves_the_texture_where_it_is() {
+    let (folder, _) = two_colours();
+    // A head on the left end moves the corner of the box by 40 mm and 10 mm.
+    let head = "(parts: [
+        (primitive: Path(points: [(at: (0, 0), corner: true), (at: (200, 0), corner: true), (at: (200, 100), corner: true),
+            (at: (0, 100), corner: true)])),
+        (primitive: Circle(center: (20, 50), radius: 60)),
+    ])";
+    std::fs::write(folder.path("head.ron"), head).unwrap();
+    let output = folder.run(&["reshape", "a.plush", "head.ron", "-o", "b.plush", "--fibers", "300"]);
+    assert!(output.status.success(), "{output:?}");
+    let design = file::read(&folder.path("b.plush")).unwrap();
+    let [low, high] = design.texture_rect();
+    for (found, expected) in [low, high].into_iter().flatten().zip([40.0, 10.0, 240.0, 110.0]) {
+        assert!((found - expected).abs() < 0.2, "{low:?} {high:?}");
+    }
+    let output = folder.run(&["render", "b.plush", "-o", "b.png", "--size", "1200x600"]);
+    assert!(output.status.success(), "{output:?}");
+    let picture = image::open(folder.path("b.png")).unwrap().into_rgba8();
+    let at = |p: Point| in_picture(p, &design.mesh.nodes);
+    let felt = Palette::of(Theme::Light).body;
+    // Left and right of the line on which the halves meet; the head has no picture.
+    assert!(is_near(&picture, at([133.0, 61.0]), RED) && is_near(&picture, at([147.0, 61.0]), BLUE));
+    assert!(is_near(&picture, at([25.0, 61.0]), [felt.0, felt.1, felt.2]));
 }

@@ -193,7 +193,7 @@ fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
 
 /// Where a design that was read from `file` finds its texture.
 pub fn texture_path(design: &Design, file: &Path) -> Option<PathBuf> {
-    design.texture.as_deref().map(|texture| parent(file).join(texture))
+    design.texture.as_deref().map(|texture| file.with_file_name(texture))
 }
 
 /// The folder of a file.

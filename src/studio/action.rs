@@ -39,6 +39,7 @@ pub enum Action {
     DeleteSelected,
     SetTool(Tool),
     SetTheme(Theme),
+    ShowTexture(bool),
     ShowFibers(bool),
     ShowNetworks(bool),
     /// Shows or hides a view; one always stays.

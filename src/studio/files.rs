@@ -226,7 +226,7 @@ impl Session {
                     Err(why) => self.messages.error(format!("The export failed: {why}")),
                 }
             }
-            Report::Proposed { .. } | Report::Meshed { .. } | Report::Broken { .. } => {}
+            Report::Proposed { .. } | Report::Meshed { .. } | Report::Textured { .. } | Report::Broken { .. } => {}
         }
     }
 
@@ -311,7 +311,7 @@ impl Session {
 
     fn save(&mut self, path: PathBuf) {
         let path = if path.extension().is_none() { path.with_extension("plush") } else { path };
-        let design = match &self.path {
+        let design = match &self.origin {
             Some(from) => file::seen_from(self.design(), from, &path),
             None => None,
         };

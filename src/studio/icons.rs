@@ -11,6 +11,7 @@ pub enum Icon {
     Hand,
     Pin,
     Fit,
+    Texture,
     Fibers,
     Networks,
     LeftView,
@@ -106,6 +107,12 @@ pub fn draw(icon: Icon, rect: Rect, color: Color32) -> Vec<Shape> {
             line(&[(0.94, 0.68), (0.94, 0.94), (0.68, 0.94)]),
             line(&[(0.32, 0.94), (0.06, 0.94), (0.06, 0.68)]),
             dot(0.5, 0.5, 0.1),
+        ],
+        // A picture in its frame: a hill and the sun.
+        Icon::Texture => vec![
+            line(&[(0.06, 0.12), (0.94, 0.12), (0.94, 0.88), (0.06, 0.88), (0.06, 0.12)]),
+            line(&[(0.08, 0.8), (0.36, 0.46), (0.56, 0.68), (0.7, 0.54), (0.92, 0.8)]),
+            dot(0.7, 0.33, 0.09),
         ],
         Icon::Fibers => vec![
             line(&[(0.08, 0.88), (0.5, 0.1), (0.92, 0.88), (0.08, 0.88)]),

@@ -5,6 +5,7 @@ use crate::design::{Design, FiberSet};
 use crate::engine::Proposal;
 use crate::mesh::Mesh;
 use crate::outline::Changes;
+use crate::picture::Texture;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -24,6 +25,10 @@ pub enum Report {
     Meshed {
         serial: u64,
         made: Result<Box<Made>, String>,
+    },
+    Textured {
+        path: PathBuf,
+        texture: Result<Arc<Texture>, String>,
     },
     /// With what was changed to get a clean outline.
     Imported(Result<Box<(Design, Changes)>, String>),

@@ -29,6 +29,7 @@ pub mod session;
 mod shortcuts;
 pub mod sketching;
 pub mod style;
+mod texturing;
 pub mod viewport;
 
 use crate::design::{Design, bundled};

@@ -7,6 +7,7 @@ use super::jobs::{Jobs, Report, Wake};
 use super::meshing::Meshing;
 use super::messages::Messages;
 use super::sketching::{Sketch, Sketching};
+use super::texturing::Texturing;
 use super::viewport::Plushie;
 use super::viewport::camera::Camera;
 use crate::design::history::History;
@@ -55,6 +56,7 @@ pub struct Playback {
 
 pub struct Look {
     pub theme: Theme,
+    pub texture: bool,
     pub fibers: bool,
     pub networks: bool,
     pub views: Views,
@@ -135,6 +137,9 @@ pub struct Services {
 pub struct Session {
     pub(super) history: History,
     pub(super) path: Option<PathBuf>,
+    /// The file that the document was read from: what it names is found from there.
+    pub(super) origin: Option<PathBuf>,
+    pub(super) texturing: Texturing,
     pub(super) pose: Option<usize>,
     pub(super) selection: Selection,
     pub(super) tool: Tool,
@@ -171,12 +176,21 @@ impl Session {
         Self {
             pose: first_pose(&design),
             history: History::new(design.clone()),
+            origin: path.clone(),
             path,
+            texturing: Texturing::default(),
             selection: Selection::Nothing,
             tool: Tool::Drag,
             mode: Mode::Pose,
             playback: Playback { time_s: 0.0, playing: false, looping: true },
-            look: Look { theme: Theme::Light, fibers: true, networks: true, views: Views::Both, camera: None },
+            look: Look {
+                theme: Theme::Light,
+                texture: true,
+                fibers: true,
+                networks: true,
+                views: Views::Both,
+                camera: None,
+            },
             quality: Quality::Balanced,
             discovery: Discovery {
                 parameters: Parameters::default(),
@@ -212,7 +226,9 @@ impl Session {
         self.sketching = Sketching::default();
         self.pose = first_pose(&design);
         self.history = History::new(design);
+        self.origin = path.clone();
         self.path = path;
+        self.texturing = Texturing::default();
         self.selection = Selection::Nothing;
         self.mode = Mode::Pose;
         self.playback.time_s = 0.0;
@@ -243,6 +259,7 @@ impl Session {
             Action::DeleteSelected => self.delete_selected(),
             Action::SetTool(tool) => self.tool = tool,
             Action::SetTheme(theme) => self.look.theme = theme,
+            Action::ShowTexture(shown) => self.look.texture = shown,
             Action::ShowFibers(shown) => self.look.fibers = shown,
             Action::ShowNetworks(shown) => self.look.networks = shown,
             Action::ShowView(plushie, shown) => self.look.views = self.look.views.with(plushie, shown),
@@ -296,6 +313,7 @@ impl Session {
             self.key_pose();
         }
         self.clamp();
+        self.follow_texture();
         // Nobody sees the plushies while the outline is drawn.
         if !self.sketching.open {
             self.ask();
@@ -423,6 +441,7 @@ impl Session {
                 self.discovery.stage = Stage::Result;
             }
             Report::Meshed { serial, made } => self.take_mesh(serial, made),
+            Report::Textured { path, texture } => self.take_texture(path, texture),
             Report::Broken { job, why } => {
                 self.discovery.running = None;
                 self.cancel_remesh();

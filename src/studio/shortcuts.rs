@@ -127,6 +127,9 @@ fn plain_keys(ctx: &Context, session: &Session, panels: &mut panels::State, acti
             actions.push(action);
         }
     }
+    if session.cannot_texture().is_none() && pressed(Key::X) {
+        actions.push(Action::ShowTexture(!session.look.texture));
+    }
     // A focused button is pressed by Space and Enter.
     let free = ctx.memory(|m| m.focused()).is_none();
     if free && pressed(Key::Space) {

@@ -133,7 +133,21 @@ fn shown(ui: &mut Ui, session: &Session, actions: &mut Actions) {
         actions.push(Action::Fit);
     }
     let look = &session.look;
-    ui.add_enabled_ui(!session.sketching().open, |ui| drawn(ui, look, actions));
+    ui.add_enabled_ui(!session.sketching().open, |ui| {
+        texture(ui, session, actions);
+        drawn(ui, look, actions);
+    });
+}
+
+fn texture(ui: &mut Ui, session: &Session, actions: &mut Actions) {
+    let cannot = session.cannot_texture();
+    let tip = cannot.unwrap_or("Show the texture: the picture that the plushie was made of (X)");
+    ui.add_enabled_ui(cannot.is_none(), |ui| {
+        let shown = session.look.texture && cannot.is_none();
+        if icons::toggle(ui, Icon::Texture, "Show the texture", tip, shown).clicked() {
+            actions.push(Action::ShowTexture(!session.look.texture));
+        }
+    });
 }
 
 fn drawn(ui: &mut Ui, look: &Look, actions: &mut Actions) {

@@ -1,13 +1,14 @@
-//! Turns a [`Scene`] into what the shaders draw: filled triangles with a fading fringe, and capsules.
+//! Turns a [`Scene`] into what the shaders draw: filled triangles with a fading fringe, textured ones, and capsules.
 //!
 //! A capsule is a segment with a radius: round lines are chains of them, discs are capsules of no length, rings have an
 //! inner radius. Everything is anti-aliased by the shaders alone, so one sample a pixel is enough.
 
 use crate::mesh::Mesh;
 use crate::outline::Point;
-use crate::picture::{Color, Item, Scene};
+use crate::picture::{Color, Item, Scene, Texture};
 use bytemuck::{Pod, Zeroable};
 use std::ops::Range;
+use std::sync::Arc;
 
 /// A corner of a filled triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -35,11 +36,23 @@ pub struct Capsule {
     pub color: [u8; 4],
 }
 
+/// A corner of a triangle with a picture on it.
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Textured {
+    /// mm.
+    pub position: [f32; 2],
+    /// From the upper left corner of the texture, 0 to 1.
+    pub place: [f32; 2],
+}
+
 /// A run of primitives of one kind, in painting order.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Batch {
     /// Range of corners.
     Fill(Range<u32>),
+    /// Range of textured corners.
+    Picture(Range<u32>),
     /// Range of capsules.
     Capsules(Range<u32>),
 }
@@ -47,6 +60,9 @@ pub enum Batch {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Geometry {
     pub corners: Vec<Corner>,
+    pub textured: Vec<Textured>,
+    /// On all of these: a scene has one texture at most.
+    pub texture: Option<Arc<Texture>>,
     pub capsules: Vec<Capsule>,
     pub batches: Vec<Batch>,
 }
@@ -60,6 +76,10 @@ impl Geometry {
         for item in &scene.items {
             match item {
                 Item::Mesh { points, triangles, color } => geometry.fill(points, triangles, *color),
+                Item::Picture { points, places, triangles, texture } => {
+                    geometry.picture(points, places, triangles);
+                    geometry.texture = Some(texture.clone());
+                }
                 Item::Line { points, width, color, closed } => geometry.line(points, *width, *color, *closed),
                 Item::Disc { center, radius, fill, stroke } => geometry.disc(*center, *radius, *fill, *stroke),
             }
@@ -87,6 +107,14 @@ impl Geometry {
             }
         }
         self.note(Batch::Fill(start..self.corners.len() as u32));
+    }
+
+    fn picture(&mut self, points: &[Point], places: &[Point], triangles: &[[usize; 3]]) {
+        let start = self.textured.len() as u32;
+        let corner = |n: usize| Textured { position: f32s(points[n]), place: f32s(places[n]) };
+        let whole = triangles.iter().filter(|t| t.iter().all(|&n| n < points.len().min(places.len())));
+        self.textured.extend(whole.flat_map(|t| t.map(corner)));
+        self.note(Batch::Picture(start..self.textured.len() as u32));
     }
 
     fn line(&mut self, points: &[Point], width: f32, color: Color, closed: bool) {
@@ -123,9 +151,9 @@ impl Geometry {
     /// Adds a batch, to the one before if that is of the same kind.
     fn note(&mut self, batch: Batch) {
         match (self.batches.last_mut(), &batch) {
-            (Some(Batch::Fill(run)), Batch::Fill(new)) | (Some(Batch::Capsules(run)), Batch::Capsules(new)) => {
-                run.end = new.end;
-            }
+            (Some(Batch::Fill(run)), Batch::Fill(new))
+            | (Some(Batch::Picture(run)), Batch::Picture(new))
+            | (Some(Batch::Capsules(run)), Batch::Capsules(new)) => run.end = new.end,
             _ => self.batches.push(batch),
         }
     }
@@ -183,6 +211,18 @@ mod tests {
             let away = corner.position.map(|x| if x > 5.0 { 1.0 } else { -1.0 });
             assert_eq!(corner.outward, away);
         }
+    }
+
+    #[test]
+    fn a_texture_lies_between_what_is_below_and_above_it() {
+        let texture = Arc::new(Texture::of(image::RgbaImage::new(2, 2)));
+        let Item::Mesh { points, triangles, .. } = square() else { panic!() };
+        let places = vec![[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]];
+        let picture = Item::Picture { points, places, triangles, texture: texture.clone() };
+        let geometry = Geometry::of(&Scene { items: vec![square(), picture, square()] });
+        assert_eq!(geometry.batches, [Batch::Fill(0..30), Batch::Picture(0..6), Batch::Fill(30..60)]);
+        assert_eq!(geometry.textured[4], Textured { position: [10.0, 10.0], place: [1.0, 0.0] });
+        assert!(geometry.texture.is_some_and(|t| Arc::ptr_eq(&t, &texture)));
     }
 
     #[test]

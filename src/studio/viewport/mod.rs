@@ -6,6 +6,7 @@ pub mod geometry;
 pub mod hit;
 mod picture;
 pub mod renderer;
+mod skin;
 pub mod thumbnail;
 mod tools;
 

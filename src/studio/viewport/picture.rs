@@ -5,9 +5,9 @@ use super::renderer::ViewCallback;
 use super::{Pane, Plushie, solved};
 use crate::design::Design;
 use crate::engine::{Proposal, Shape};
-use crate::picture::Scene;
 use crate::picture::palette::Theme;
 use crate::picture::scene::{self, Options, Stage};
+use crate::picture::{Scene, Texture};
 use crate::studio::session::{Mode, Selection, Session};
 use eframe::egui::Ui;
 use std::sync::Arc;
@@ -17,6 +17,7 @@ struct Drawn {
     design: Arc<Design>,
     shape: Option<Arc<Shape>>,
     proposal: Option<Arc<Proposal>>,
+    texture: Option<Arc<Texture>>,
     options: (Stage, Option<usize>, Mode, Selection, Theme, bool, bool),
 }
 
@@ -27,6 +28,7 @@ impl Drawn {
             design: session.design().clone(),
             shape: solved(session, plushie).cloned(),
             proposal: session.shown_proposal().cloned(),
+            texture: shown_texture(session).cloned(),
             options: (
                 session.discovery.stage,
                 session.pose,
@@ -46,6 +48,7 @@ impl Drawn {
         Arc::ptr_eq(&self.design, &other.design)
             && same(&self.shape, &other.shape)
             && same(&self.proposal, &other.proposal)
+            && same(&self.texture, &other.texture)
             && self.options == other.options
     }
 }
@@ -73,6 +76,10 @@ impl Picture {
     }
 }
 
+fn shown_texture(session: &Session) -> Option<&Arc<Texture>> {
+    session.texture().filter(|_| session.look.texture)
+}
+
 fn draw(session: &Session, plushie: Plushie, shape: &Shape) -> Scene {
     let look = &session.look;
     let selected_target = match session.selection {
@@ -81,6 +88,7 @@ fn draw(session: &Session, plushie: Plushie, shape: &Shape) -> Scene {
     };
     let options = Options {
         theme: look.theme,
+        texture: shown_texture(session),
         fibers: look.fibers && plushie == Plushie::Idealized,
         networks: look.networks,
         pins: true,

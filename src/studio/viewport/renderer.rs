@@ -1,7 +1,8 @@
 //! Draws plushies with wgpu inside egui's pass. Knows nothing of panels, tools or designs.
 
 use super::camera::Camera;
-use super::geometry::{Batch, Capsule, Corner, Geometry};
+use super::geometry::{Batch, Capsule, Corner, Geometry, Textured};
+use super::skin::Skin;
 use bytemuck::{Pod, Zeroable};
 use egui_wgpu::wgpu;
 use egui_wgpu::{CallbackResources, CallbackTrait, RenderState, ScreenDescriptor};
@@ -27,8 +28,10 @@ pub struct ViewCallback {
 /// Pipelines and the buffers of every view.
 struct Renderer {
     fill: wgpu::RenderPipeline,
+    picture: wgpu::RenderPipeline,
     capsule: wgpu::RenderPipeline,
     layout: wgpu::BindGroupLayout,
+    skin: Skin,
     linear_target: f32,
     views: HashMap<u64, View>,
 }
@@ -37,6 +40,7 @@ struct View {
     uniform: wgpu::Buffer,
     bind_group: wgpu::BindGroup,
     corners: wgpu::Buffer,
+    textured: wgpu::Buffer,
     capsules: wgpu::Buffer,
     /// What the buffers hold.
     geometry: Arc<Geometry>,
@@ -99,10 +103,12 @@ impl Renderer {
                 count: None,
             }],
         });
-        let pipeline = |name: &str, buffer: wgpu::VertexBufferLayout<'_>, topology| {
+        let skin = Skin::new(device);
+        let plain = &[Some(&layout)][..];
+        let pipeline = |name: &str, bind_group_layouts, buffer: wgpu::VertexBufferLayout<'_>, topology| {
             let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some(name),
-                bind_group_layouts: &[Some(&layout)],
+                bind_group_layouts,
                 immediate_size: 0,
             });
             device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
@@ -136,6 +142,11 @@ impl Renderer {
             step_mode: wgpu::VertexStepMode::Vertex,
             attributes: &wgpu::vertex_attr_array![0 => Float32x2, 1 => Float32x2, 2 => Float32, 3 => Unorm8x4],
         };
+        let textured = wgpu::VertexBufferLayout {
+            array_stride: size_of::<Textured>() as u64,
+            step_mode: wgpu::VertexStepMode::Vertex,
+            attributes: &wgpu::vertex_attr_array![0 => Float32x2, 1 => Float32x2],
+        };
         let capsule = wgpu::VertexBufferLayout {
             array_stride: size_of::<Capsule>() as u64,
             step_mode: wgpu::VertexStepMode::Instance,
@@ -143,10 +154,13 @@ impl Renderer {
                 0 => Float32x2, 1 => Float32x2, 2 => Float32, 3 => Float32, 4 => Unorm8x4
             ],
         };
+        let (list, strip) = (wgpu::PrimitiveTopology::TriangleList, wgpu::PrimitiveTopology::TriangleStrip);
         Self {
-            fill: pipeline("fill", corner, wgpu::PrimitiveTopology::TriangleList),
-            capsule: pipeline("capsule", capsule, wgpu::PrimitiveTopology::TriangleStrip),
+            fill: pipeline("fill", plain, corner, list),
+            picture: pipeline("picture", &[Some(&layout), Some(&skin.layout)], textured, list),
+            capsule: pipeline("capsule", plain, capsule, strip),
             layout,
+            skin,
             linear_target: if format.is_srgb() { 1.0 } else { 0.0 },
             views: HashMap::new(),
         }
@@ -166,8 +180,12 @@ impl Renderer {
         queue.write_buffer(&view.uniform, 0, bytemuck::bytes_of(&uniform));
         if !Arc::ptr_eq(&view.geometry, &call.geometry) {
             upload(device, queue, &mut view.corners, bytemuck::cast_slice(&call.geometry.corners));
+            upload(device, queue, &mut view.textured, bytemuck::cast_slice(&call.geometry.textured));
             upload(device, queue, &mut view.capsules, bytemuck::cast_slice(&call.geometry.capsules));
             view.geometry = call.geometry.clone();
+        }
+        if let Some(texture) = &call.geometry.texture {
+            self.skin.follow(device, queue, texture);
         }
     }
 
@@ -179,6 +197,13 @@ impl Renderer {
                 Batch::Fill(range) => {
                     pass.set_pipeline(&self.fill);
                     pass.set_vertex_buffer(0, view.corners.slice(..));
+                    pass.draw(range.clone(), 0..1);
+                }
+                Batch::Picture(range) => {
+                    let Some(skin) = self.skin.bind_group() else { continue };
+                    pass.set_pipeline(&self.picture);
+                    pass.set_bind_group(1, skin, &[]);
+                    pass.set_vertex_buffer(0, view.textured.slice(..));
                     pass.draw(range.clone(), 0..1);
                 }
                 Batch::Capsules(range) => {
@@ -208,6 +233,7 @@ impl View {
             uniform,
             bind_group,
             corners: vertex_buffer(device, 0),
+            textured: vertex_buffer(device, 0),
             capsules: vertex_buffer(device, 0),
             geometry: Arc::default(),
         }
