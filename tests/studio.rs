@@ -729,12 +729,14 @@ fn a_tendon_track_is_drawn_changed_and_becomes_edges_of_the_body() {
     assert_eq!(session(&window).history().undo_label(), Some("Draw a track"));
     // A second one, ended with Enter, is deleted again by its button; then a part of undo brings it back and takes it.
     press(&mut window, Modifiers::NONE, Key::R);
-    for p in [[15.0, 8.0], [40.0, 8.0]] {
+    for p in [[15.0, 8.0], [40.0, -8.0]] {
         let p = at(&window, p);
         click_at(&mut window, p);
     }
     press(&mut window, Modifiers::NONE, Key::Enter);
     assert_eq!(tracks(&window).len(), 2);
+    // It leaves the body, the first one does not.
+    window.get_by_label_contains("cut off where they leave the body: 2.");
     click(&mut window, "Delete track 2");
     press(&mut window, Modifiers::COMMAND, Key::Z);
     assert_eq!(tracks(&window).len(), 2);

@@ -193,6 +193,12 @@ fn body(ui: &mut Ui, session: &Session, state: &mut paper::State, actions: &mut 
     if let Some(trouble) = &trouble {
         ui.label(RichText::new(trouble).color(ui.visuals().warn_fg_color));
     }
+    let cut_off: Vec<String> =
+        (0..surface.tracks.len()).filter(|&k| surface.is_cut_off(k)).map(|k| (k + 1).to_string()).collect();
+    if trouble.is_none() && !cut_off.is_empty() {
+        let text = format!("Tracks are cut off where they leave the body: {}.", cut_off.join(", "));
+        ui.label(RichText::new(text).color(ui.visuals().weak_text_color()));
+    }
     let resolution = session.resolution();
     ui.horizontal(|ui| {
         let label = ui.label("Muscle fibres");

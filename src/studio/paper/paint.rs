@@ -50,10 +50,10 @@ pub fn show(ui: &Ui, sheet: &Sheet<'_>, state: &State, pointer: Option<Pos2>) {
         }
     }
     let thread = style::color32(palette.track);
-    for (k, points) in drawing.tracks.iter().enumerate() {
+    for k in 0..drawing.tracks.len() {
         let item = Item::Track(k);
         let selected = sketching.item == Some(item);
-        track(&painter, sheet, points, thread, if selected { 3.0 } else { 2.0 });
+        track(&painter, sheet, state, k, thread, if selected { 3.0 } else { 2.0 });
         if selected {
             handles(&painter, sheet, item, thread, paper);
         }
@@ -66,7 +66,7 @@ pub fn show(ui: &Ui, sheet: &Sheet<'_>, state: &State, pointer: Option<Pos2>) {
             let points = drawing.parts[k].primitive.polygon();
             closed(&painter, points.into_iter().map(screen), Stroke::new(1.6, accent));
         }
-        Some(Under::Item(Item::Track(k))) => track(&painter, sheet, &drawing.tracks[k], thread, 3.0),
+        Some(Under::Item(Item::Track(k))) => track(&painter, sheet, state, k, thread, 3.0),
         _ => {}
     }
     captions(ui, sheet, state);
@@ -116,13 +116,21 @@ fn closed(painter: &Painter, points: impl Iterator<Item = Pos2>, stroke: Stroke)
     painter.add(Shape::closed_line(points.collect(), stroke));
 }
 
-/// A thread with a knot at either end, so that it is no outline to the eye.
-fn track(painter: &Painter, sheet: &Sheet<'_>, points: &[Point], color: Color32, width: f32) {
-    let points: Vec<Pos2> = points.iter().map(|&p| sheet.camera.to_screen(sheet.rect, p)).collect();
-    for end in points.first().into_iter().chain(points.last()) {
-        painter.circle_filled(*end, width + 1.5, color);
+/// A thread with a knot at either end, so that it is no outline to the eye; thin and dashed where it leaves the body.
+fn track(painter: &Painter, sheet: &Sheet<'_>, state: &State, index: usize, color: Color32, width: f32) {
+    let screen = |p: Point| sheet.camera.to_screen(sheet.rect, p);
+    let points = &sheet.session.drawing().tracks[index];
+    for &end in points.first().into_iter().chain(points.last()) {
+        painter.circle_filled(screen(end), width + 1.5, color);
     }
-    painter.add(Shape::line(points, Stroke::new(width, color)));
+    for stretch in state.surface.tracks.get(index).into_iter().flatten() {
+        let ends = stretch.ends.map(screen);
+        if stretch.inside {
+            painter.line_segment(ends, Stroke::new(width, color));
+        } else {
+            painter.extend(Shape::dashed_line(&ends, Stroke::new(0.6 * width, color), 3.0, 4.0));
+        }
+    }
 }
 
 /// Points of a path or track are round, corners of a path square; between them are the places where one can be put in.

@@ -1,4 +1,5 @@
-//! What the parts of a drawing cover together, cut into trapezoids that can be filled, and what there is to say about it.
+//! What the parts of a drawing cover together, cut into trapezoids that can be filled; which stretches of its tracks lie in it; and what
+//! there is to say about it.
 
 use crate::outline::drawing::Regions;
 use crate::outline::{Drawing, Point, polygon};
@@ -13,6 +14,8 @@ pub struct Surface {
     pub regions: Regions,
     /// Corners in their order around each; they cover the regions exactly, mm.
     pub trapezoids: Vec<[Point; 4]>,
+    /// The tracks in stretches that lie inside or outside.
+    pub tracks: Vec<Vec<Stretch>>,
     /// Width and height of the box around everything, mm.
     pub size: [f64; 2],
     /// Without specks.
@@ -22,7 +25,20 @@ pub struct Surface {
     pub trouble: Option<String>,
 }
 
+/// A straight stretch of a track, mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stretch {
+    pub ends: [Point; 2],
+    /// Whether it lies in the body.
+    pub inside: bool,
+}
+
 impl Surface {
+    /// Whether something of a track is outside, where no mesh can follow it.
+    pub fn is_cut_off(&self, track: usize) -> bool {
+        self.tracks.get(track).is_some_and(|stretches| stretches.iter().any(|stretch| !stretch.inside))
+    }
+
     pub fn follow(&mut self, drawing: &Drawing) {
         if self.of.as_ref() == Some(drawing) {
             return;
@@ -39,8 +55,33 @@ impl Surface {
         let (low, high) = polygon::bounding_box(&points);
         let size = if points.is_empty() { [0.0; 2] } else { [high[0] - low[0], high[1] - low[1]] };
         let trapezoids = trapezoids(&regions);
-        *self = Self { of: Some(drawing.clone()), regions, trapezoids, size, pieces, holes, trouble };
+        let tracks = drawing.tracks.iter().map(|track| stretches(track, &regions)).collect();
+        *self = Self { of: Some(drawing.clone()), regions, trapezoids, tracks, size, pieces, holes, trouble };
     }
+}
+
+/// Cuts a track where it crosses the boundary.
+fn stretches(track: &[Point], regions: &Regions) -> Vec<Stretch> {
+    let cross = |u: Point, v: Point| u[0] * v[1] - u[1] * v[0];
+    let way = |a: Point, b: Point| [b[0] - a[0], b[1] - a[1]];
+    let inside = |p: Point| regions.iter().flatten().filter(|ring| polygon::contains(ring, p)).count() % 2 == 1;
+    let mut cut = Vec::new();
+    for piece in track.windows(2) {
+        let [a, b] = [piece[0], piece[1]];
+        let meets = |(c, d): (Point, Point)| {
+            let (along, side, off) = (way(a, b), way(c, d), way(a, c));
+            let (t, u) = (cross(off, side) / cross(along, side), cross(off, along) / cross(along, side));
+            (t > 0.0 && t < 1.0 && (0.0..=1.0).contains(&u)).then_some(t)
+        };
+        let mut stops: Vec<f64> = regions.iter().flatten().flat_map(|r| polygon::sides(r)).filter_map(meets).collect();
+        stops.extend([0.0, 1.0]);
+        stops.sort_by(f64::total_cmp);
+        cut.extend(stops.windows(2).filter(|w| w[0] < w[1]).map(|w| Stretch {
+            ends: [polygon::lerp(a, b, w[0]), polygon::lerp(a, b, w[1])],
+            inside: inside(polygon::lerp(a, b, w[0].midpoint(w[1]))),
+        }));
+    }
+    cut
 }
 
 /// Cuts regions at the heights of all their corners.
@@ -80,6 +121,18 @@ fn trapezoids(regions: &Regions) -> Vec<[Point; 4]> {
 mod tests {
     use super::*;
     use crate::outline::drawing::{Part, Primitive};
+
+    #[test]
+    fn a_track_is_cut_where_it_crosses_the_boundary() {
+        let square = |low: f64, high: f64| vec![[low, low], [high, low], [high, high], [low, high]];
+        let regions = vec![vec![square(0.0, 30.0), square(10.0, 20.0)]];
+        let found = stretches(&[[-5.0, 15.0], [25.0, 15.0], [25.0, 5.0]], &regions);
+        let expected = [(-5.0, 0.0, false), (0.0, 10.0, true), (10.0, 20.0, false), (20.0, 25.0, true)];
+        for (stretch, (from, to, inside)) in found.iter().zip(expected) {
+            assert_eq!(*stretch, Stretch { ends: [[from, 15.0], [to, 15.0]], inside });
+        }
+        assert!(found.len() == 5 && found[4].inside);
+    }
 
     #[test]
     fn trapezoids_cover_the_regions_exactly() {
