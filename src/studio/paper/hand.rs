@@ -198,7 +198,7 @@ fn drag(sheet: &Sheet<'_>, hand: &mut Hand, at: Point, response: &Response, acti
                 Some(handle) => drawing.with_pulled(*item, handle, at, LEAST * mm),
                 None => drawing.with_moved(*item, [at[0] - from[0], at[1] - from[1]]),
             };
-            actions.push(Action::Live(Change::Draw { what: *what, drawing: changed }));
+            actions.push(Action::Live(Change::Draw { what, drawing: changed }));
         }
         Hand::Spans(_, to) => *to = at,
         Hand::Pans => {
