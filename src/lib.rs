@@ -33,7 +33,8 @@
 //! *Contraction* `alpha_c`: how much an element's rest length is shortened. *Activation* `beta`: how much cable a winch
 //! has wound; the contraction of its tendons is `Z beta` (*winch synergy*). *Tension* `tau = dU/dGamma`, with the
 //! *deformation* `Gamma = length - alpha`. *Idealized plushie*: a fibre on every mesh edge beside the accepted
-//! networks. *Realizable plushie*: the accepted winch-tendon networks alone.
+//! networks. *Realizable plushie*: the accepted winch-tendon networks alone. *Track* of a drawing: a line along which mesh edges
+//! run; of a winch: its cable over time. *Texture*: the picture on the felt, in a box of rest coordinates.
 //!
 //! # Invariants
 //! - The core never imports the window: `cargo build --no-default-features` builds everything but `studio`.

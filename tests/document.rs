@@ -5,6 +5,7 @@ mod support;
 use plushwright::design::file::{self, TextError};
 use plushwright::design::{Design, Easing, EditError, FORMAT_VERSION, FiberSet, Gravity, History, Keyframe, Material};
 use plushwright::design::{Pin, Pose, edit};
+use plushwright::outline::Drawing;
 use std::fs;
 use std::sync::Arc;
 use support::{Random, rectangle, rigged};
@@ -124,6 +125,9 @@ fn text_gives_back_every_bit() {
         design.name = "quotes \" and \\ and\nline breaks, ümlauts, 縫いぐるみ".into();
         design.stiffness_map = (seed % 2 == 0).then(|| vec![random.between(1e-12, 1e12); 12]);
         design.texture = (seed % 3 == 0).then(|| "pictures/pig.png".into());
+        design.texture_box = (seed % 6 == 0).then(|| [[-1.0 / 3.0, random.between(-9.0, 0.0)], [1e-3, 0.1 + 0.2]]);
+        let tracks = vec![vec![[random.between(-1e3, 1e3), 0.1], [2.0 / 3.0, 1e-9], [5.0, 6.0]]];
+        design.drawing = (seed % 4 == 0).then(|| Drawing { tracks, ..Drawing::default() });
         design.material = Material::StVenantKirchhoff { mu: f64::MIN_POSITIVE, lambda: 0.1 + 0.2 };
         design.fibers.set = FiberSet::Routings(vec![vec![0, 1, 0], vec![3, 4]]);
         for _ in 0..60 {
@@ -273,6 +277,12 @@ fn validation_says_what_and_where() {
         (|d| d.poses[0].name = " ".into(), "poses[0].name: is empty"),
         (|d| d.poses[0].targets[0].weight = -1.0, "poses[0].targets[0].weight: -1 is negative"),
         (|d| d.stiffness_map = Some(vec![1.0]), "stiffness_map: has 1 entries for 48 triangles"),
+        (|d| d.texture_box = Some([[0.0, 5.0], [9.0, 5.0]]), "texture_box: 0 is not greater than zero"),
+        (|d| d.texture_box = Some([[0.0, f64::NAN], [9.0, 5.0]]), "texture_box[0]: NaN is not a finite number"),
+        (
+            |d| d.drawing = Some(Drawing { tracks: vec![vec![[0.0; 2]]], ..Drawing::default() }),
+            "drawing.tracks[0]: a track needs at least two points",
+        ),
         (|d| d.fabrication.spool_radius_mm = 0.0, "fabrication.spool_radius_mm: 0 is not greater than zero"),
         (|d| d.controller.encoder_lines = 0, "controller.encoder_lines: 0 is not greater than zero"),
     ];

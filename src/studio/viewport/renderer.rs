@@ -258,3 +258,6 @@ fn vertex_buffer(device: &wgpu::Device, at_least: u64) -> wgpu::Buffer {
         mapped_at_creation: false,
     })
 }
+
+#[cfg(test)]
+mod tests;
