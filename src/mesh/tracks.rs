@@ -18,6 +18,8 @@ pub(super) struct Sampled {
     pub work: usize,
 }
 
+/// Longest segment, in spacings: one and a half steps, and what joining adds at either end, with room for rounding.
+const LONGEST: f64 = 1.5 + 2.0 * MERGE + 0.1;
 /// Most nodes of the tracks on an area of one spacing squared: twice those of an even mesh.
 const MOST: f64 = 2.3;
 /// Units for a stop, of which the distance from the rim takes most; and how many tries for a crossing weigh one.
@@ -67,8 +69,7 @@ pub(super) fn sample(tracks: &[Vec<Point>], outline: &Outline, h: f64) -> Option
         }
     }
     sampled.nodes = places.nodes;
-    sampled.work += sampled.segments.len() * sampled.segments.len() / TRIES;
-    without_crossings(&mut sampled);
+    without_crossings(&mut sampled, LONGEST * h);
     Some(sampled)
 }
 
@@ -131,31 +132,41 @@ impl Places {
 
     /// The first node near `p`, or a new one there.
     fn put(&mut self, p: Point) -> usize {
-        let [x, y] = p.map(|v| (v / self.near).floor() as i64);
-        let around = (-1..=1).flat_map(|i| (-1..=1).map(move |j| [x.saturating_add(i), y.saturating_add(j)]));
-        let found = around.filter_map(|cell| self.cells.get(&cell)).flatten().copied();
+        let cell = p.map(|v| (v / self.near).floor() as i64);
+        let found = around(cell).filter_map(|cell| self.cells.get(&cell)).flatten().copied();
         let found = found.filter(|&n| polygon::length(self.nodes[n], p) < self.near).min();
         found.unwrap_or_else(|| {
             self.nodes.push(p);
-            self.cells.entry([x, y]).or_default().push(self.nodes.len() - 1);
+            self.cells.entry(cell).or_default().push(self.nodes.len() - 1);
             self.nodes.len() - 1
         })
     }
+}
+
+/// A cell and its eight neighbours.
+fn around([x, y]: [i64; 2]) -> impl Iterator<Item = [i64; 2]> {
+    (-1..=1).flat_map(move |i| (-1..=1).map(move |j| [x.saturating_add(i), y.saturating_add(j)]))
 }
 
 fn clear(rim: &Grid, a: Point, b: Point, h: f64) -> bool {
     (1..4).all(|k| rim.distance(polygon::lerp(a, b, f64::from(k) / 4.0)) > 0.5 * CLEARANCE * h)
 }
 
-/// Joining nodes may have made segments cross; the later ones go. Nodes without a segment go too.
-fn without_crossings(sampled: &mut Sampled) {
+/// Joining nodes may have made segments cross; the later ones go. Nodes without a segment go too. No segment is longer than
+/// `longest`.
+fn without_crossings(sampled: &mut Sampled, longest: f64) {
     let nodes = &sampled.nodes;
     let mut kept: Vec<[usize; 2]> = Vec::new();
+    // Segments by where their middles are: those of two that cross are no farther apart than either is long.
+    let mut cells: BTreeMap<[i64; 2], Vec<[usize; 2]>> = BTreeMap::new();
     for &[a, b] in &sampled.segments {
-        let crosses = kept.iter().any(|&[c, d]| {
+        let cell = polygon::lerp(nodes[a], nodes[b], 0.5).map(|v| (v / longest).floor() as i64);
+        let mut near = around(cell).filter_map(|cell| cells.get(&cell)).flatten();
+        let crosses = near.any(|&[c, d]| {
             ![c, d].contains(&a) && ![c, d].contains(&b) && meet(nodes[a], nodes[b], nodes[c], nodes[d]).is_some()
         });
         if !crosses {
+            cells.entry(cell).or_default().push([a, b]);
             kept.push([a, b]);
         }
     }
