@@ -19,7 +19,7 @@ const FAR: f64 = 0.4;
 const MARKS: [usize; 4] = [10, 20, 40, 80];
 /// Longest run, iterations. Each is begun anew for an answer, so the longer ones are spaced by a part of their length.
 const MOST: usize = 200;
-const SPACING: usize = 20;
+const SPACING: usize = 40;
 /// The part that counts as good.
 const GOOD: f64 = 0.01;
 /// Random postures from which the best known optimum is sought, besides rest and the answer itself.

@@ -185,7 +185,7 @@ impl Compiled {
             // The tracker starts from rest as well. Wound from there all at once, a soft body may end elsewhere than the
             // realizable plushie did.
             let beside = beside.map(|x| question.settle(from, x, &stop).0);
-            pull_thoroughly(&mut question, beside.as_ref().unwrap_or(&start), &stop)
+            pull_thoroughly(&mut question, beside.as_ref().unwrap_or(&start), &start, &stop)
         } else {
             wind_from_all(&mut question, last.is_some().then_some(&start), &beta, &stop)
         };
@@ -247,10 +247,16 @@ fn wind_thoroughly(question: &mut soft_ik::Question, start: &Posture, stop: &dyn
 }
 
 /// The fibres, frame by frame to the end: each ends in equilibrium, so that a state which would snap elsewhere is noticed and
-/// left. The best pose on the way counts.
-fn pull_thoroughly(question: &mut soft_ik::Question, start: &Posture, stop: &dyn Fn() -> bool) -> Answer {
+/// left. The best pose on the way counts, and what the hand has found.
+fn pull_thoroughly(
+    question: &mut soft_ik::Question,
+    start: &Posture,
+    hand: &Posture,
+    stop: &dyn Fn() -> bool,
+) -> Answer {
     let mut tracker = Tracker::within(question, start, stop);
-    let mut best = Answer { posture: start.clone(), iterations: 0, factorizations: 0, converged: false };
+    let found = if hand.in_equilibrium() && hand.objective < start.objective { hand } else { start };
+    let mut best = Answer { posture: found.clone(), iterations: 0, factorizations: 0, converged: false };
     for _ in 0..THOROUGH_FRAMES {
         let frame = tracker.frame(question, Quality::Accurate, stop);
         best.iterations += frame.iterations;

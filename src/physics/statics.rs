@@ -29,6 +29,11 @@ impl Default for StaticsSettings {
 
 /// Newton steps after which a search counts as slow, and more is done in each ([`Patience`]).
 const PATIENCE: usize = 15;
+/// A Newton step that leaves at most this part of the residual is followed by steps with the same factor, each of which must
+/// leave at most `REUSED` of it: Newton's method squares the part that is left, these steps about double it.
+const CONTRACTING: f64 = 0.03;
+const REUSED: f64 = 0.1;
+const MAX_REUSES: usize = 8;
 /// Armijo: the part of the predicted decrease that must be met.
 const SUFFICIENT_DECREASE: f64 = 1e-4;
 /// Halvings before a step counts as failed: a factor of about 1e-12.
@@ -306,7 +311,49 @@ fn newton(
         patience.learn(t);
         x.copy_from_slice(trial);
         model.gradient(x, gradient);
+        let quick = !slow && t == 1.0 && form == HessianForm::Exact && norm(gradient) <= CONTRACTING * state.residual;
+        if quick
+            && reuse_factor(
+                model,
+                x,
+                settings.tolerance * state.force_scale,
+                [&mut *gradient, step, trial, trial_gradient],
+            )
+        {
+            energy = model.energy(x);
+        }
     }
+}
+
+/// Steps with the factor of the last Newton step, while each leaves little of the residual: where the Hessian hardly changes
+/// any more, a solve does what would take a factorisation. Whether any was taken.
+fn reuse_factor(model: &mut Model, x: &mut [f64], enough: f64, buffers: [&mut Vec<f64>; 4]) -> bool {
+    let [gradient, step, trial, trial_gradient] = buffers;
+    let mut taken = false;
+    for _ in 0..MAX_REUSES {
+        let residual = norm(gradient);
+        if residual <= enough {
+            break;
+        }
+        for (s, g) in step.iter_mut().zip(gradient.iter()) {
+            *s = -g;
+        }
+        model.solve(step);
+        if model.step_limit(x, step) < 1.0 {
+            break;
+        }
+        for ((p, x), s) in trial.iter_mut().zip(x.iter()).zip(step.iter()) {
+            *p = x + s;
+        }
+        model.gradient(trial, trial_gradient);
+        if norm(trial_gradient) > REUSED * residual {
+            break;
+        }
+        x.copy_from_slice(trial);
+        std::mem::swap(gradient, trial_gradient);
+        taken = true;
+    }
+    taken
 }
 
 /// The same as [`solve`], and on from an equilibrium that is not stable: by symmetry Newton's method may end on a ridge of the

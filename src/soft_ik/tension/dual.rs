@@ -147,7 +147,7 @@ impl Subproblem<'_> {
 /// Running sums in a dot product: independent of each other, so that they can be computed side by side.
 const LANES: usize = 8;
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let (mut a, mut b) = (a.chunks_exact(LANES), b[..a.len()].chunks_exact(LANES));
     let mut sums = [0.0; LANES];
     for (a, b) in (&mut a).zip(&mut b) {
@@ -173,7 +173,7 @@ fn dot3(a: &[f64], b: &[f64], c: &[f64]) -> f64 {
 }
 
 /// `y += factor x`.
-fn axpy(factor: f64, x: &[f64], y: &mut [f64]) {
+pub(super) fn axpy(factor: f64, x: &[f64], y: &mut [f64]) {
     for (y, x) in y.iter_mut().zip(x) {
         *y += factor * x;
     }

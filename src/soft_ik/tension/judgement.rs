@@ -4,7 +4,7 @@ use super::fiber::Fiber;
 use super::run::{LARGEST_PROXIMAL, LEAST_PROXIMAL, REJECTION_GROWTH, Run, STANDSTILL};
 use super::step::longest;
 use super::workspace::Workspace;
-use crate::physics::statics;
+use crate::physics::{HessianForm, statics};
 use crate::soft_ik::Question;
 
 /// A step is good where `O` fell by at least this part of what its model promised, and poor below that part.
@@ -53,7 +53,7 @@ pub(in crate::soft_ik) struct Best {
 impl Run {
     /// Compares `O` at the equilibrium that the state is on its way to, `x - u`, with what the last step promised. Keeps it if
     /// it is the best, and lets `nu` follow success.
-    pub(super) fn judge(&mut self, question: &Question, work: &mut Workspace) -> Verdict {
+    pub(super) fn judge(&mut self, question: &Question, form: HessianForm, work: &mut Workspace) -> Verdict {
         let n = self.x.len();
         let rows = 2 * question.objective.targets.len();
         let u = &work.solved[(rows + 1) * n..];
@@ -80,8 +80,8 @@ impl Run {
             self.returned = false;
             self.best.objective = f64::INFINITY;
         }
-        if let Some((before, promised)) = self.before {
-            let ratio = (before - self.now) / promised.max(f64::MIN_POSITIVE);
+        if let Some(step) = self.before.filter(|step| step.telling) {
+            let ratio = (step.objective - self.now) / step.promised.max(f64::MIN_POSITIVE);
             if verified && self.now > self.best.objective * (1.0 + 1e-9) && ratio < 0.0 {
                 self.stagnant += 1;
                 return Verdict::Back;
@@ -105,7 +105,9 @@ impl Run {
                 self.stagnant += 1;
             }
         }
-        if verified && self.now < self.best.objective && question.model.body.smallest_determinant(&work.pulled) > 0.0 {
+        // Where the Hessian had to be projected the body may snap on its way there.
+        let foreseen = verified && form == HessianForm::Exact && self.now < self.best.objective;
+        if foreseen && question.model.body.smallest_determinant(&work.pulled) > 0.0 {
             self.best.objective = self.now;
             self.best.x.copy_from_slice(&work.pulled);
             self.best.fibers.copy_from_slice(&self.fibers);
@@ -122,6 +124,7 @@ impl Run {
         self.adrift = 0;
         self.returned = true;
         self.before = None;
+        self.bend.interrupt();
         self.set_laws(question, work);
         self.gradient_now(question, work);
     }

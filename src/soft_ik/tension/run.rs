@@ -3,6 +3,7 @@
 //! Where no reason is given for a constant, here or in the judgement, it is the best of those tried on seeded cold drags of 40 %
 //! of the body length on the bundled shapes (1 to 4 targets, 414 fibres; other seeds than those of `plushwright bench cold`).
 
+use super::bend::Bend;
 use super::fiber::Fiber;
 use super::judgement::{Best, Verdict, value};
 use super::step::longest;
@@ -43,6 +44,17 @@ pub(in crate::soft_ik) struct Progress {
     pub gain: f64,
 }
 
+/// A step in tension.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Chosen {
+    /// `O` at the equilibrium near the state before it.
+    pub objective: f64,
+    /// How much the step promised to lower it.
+    pub promised: f64,
+    /// Whether the body moved enough by it for the outcome to be its own, not what settles on the way.
+    pub telling: bool,
+}
+
 /// A state between iterations.
 pub(in crate::soft_ik) struct Run {
     pub x: Vec<f64>,
@@ -61,9 +73,9 @@ pub(in crate::soft_ik) struct Run {
     pub(super) reach: f64,
     /// Present limit on a target's pull, length.
     pub(super) pull: f64,
-    /// `O` at the equilibrium near the state before its step, and how much the step promised to lower it; not known for a
-    /// fresh run.
-    pub(super) before: Option<(f64, f64)>,
+    /// The last step in tension; none of a fresh run.
+    pub(super) before: Option<Chosen>,
+    pub(super) bend: Bend,
     /// The multipliers of the step before, and whether there was one since the run began.
     pub(super) q: Vec<f64>,
     pub(super) warm: bool,
@@ -90,6 +102,7 @@ impl Run {
             .zip(&start.beta)
             .map(|(winch, beta)| Fiber::new(winch, *beta, elements, &start.x, work.softness))
             .collect();
+        let rows = 2 * question.objective.targets.len();
         let mut run = Self {
             x: start.x.clone(),
             gradient: vec![0.0; start.x.len()],
@@ -100,7 +113,8 @@ impl Run {
             reach: LONGEST_STEP,
             pull: FIRST_PULL * work.size,
             before: None,
-            q: vec![0.0; 2 * question.objective.targets.len()],
+            bend: Bend::new(fibers.len(), rows),
+            q: vec![0.0; rows + 1],
             warm: false,
             best: Best { objective: f64::INFINITY, x: start.x.clone(), fibers: fibers.clone() },
             fibers,
@@ -150,6 +164,7 @@ impl Run {
         self.stagnant = 0;
         self.mark = f64::INFINITY;
         self.before = None;
+        self.bend.forget();
         for fiber in &mut self.fibers {
             fiber.releases = 0;
         }
@@ -212,13 +227,15 @@ impl Run {
         if !self.solve_sides(question, work, stop) {
             return None;
         }
-        if self.judge(question, work) == Verdict::Back {
+        if self.judge(question, form, work) == Verdict::Back {
             let stuck = self.nu >= LARGEST_PROXIMAL * work.rho;
             self.go_back(question, work);
             let moved = if stuck { 0.0 } else { f64::INFINITY };
             return Some(Progress { factorizations, moved, settled: stuck, gain: f64::INFINITY });
         }
+        let rows = 2 * question.objective.targets.len();
         let limited = self.linearise(question, work);
+        self.bend_row(work);
         self.before = None;
         if self.unverified <= UNBALANCED && !self.choose(question, work, stop) {
             return None;
@@ -227,12 +244,16 @@ impl Run {
             self.balance(work);
         }
         let (step, changed) = self.take(question, form, work);
+        match self.before {
+            Some(_) => self.bend.leave(&work.jacobian[..rows * self.fibers.len()], &work.now, &work.next, step),
+            None => self.bend.interrupt(),
+        }
         if limited && step >= 0.5 {
             self.pull *= 2.0;
         }
         self.note(question, work);
         let gentle = self.nu <= LARGEST_FIRST * work.rho;
-        let promised = self.before.map_or(f64::INFINITY, |(_, promised)| promised);
+        let promised = self.before.map_or(f64::INFINITY, |step| step.promised);
         if !limited && (gentle && promised <= STANDSTILL * self.now.abs() || self.stagnant > STAGNANT) {
             return Some(Progress { factorizations, moved: 0.0, settled: true, gain: promised });
         }

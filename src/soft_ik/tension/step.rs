@@ -1,7 +1,7 @@
 //! One step of the all-at-once method: the linear solves, the choice of tensions, the motion that follows.
 
 use super::dual::Subproblem;
-use super::run::{LARGEST_PROXIMAL, Run, STANDSTILL};
+use super::run::{Chosen, LARGEST_PROXIMAL, Run, STANDSTILL};
 use super::workspace::Workspace;
 use crate::physics::{HessianForm, statics};
 use crate::soft_ik::{PointTarget, Question};
@@ -9,6 +9,8 @@ use std::time::Instant;
 
 /// A Newton step is taken without a line search where at most this part of the unbalanced forces is left after it.
 const BALANCING: f64 = 0.5;
+/// The outcome of a step is its own where it moves the body by this part of what the way to equilibrium does.
+const TELLING: f64 = 0.5;
 /// Right-hand sides that are solved for at once, where there are many targets.
 const COLUMNS: usize = 64;
 
@@ -57,7 +59,7 @@ impl Run {
         }
     }
 
-    /// `J`, `c`, `r_0` and the limits. Whether a target's pull was limited.
+    /// `J`, `c`, `r_0` and the limits; the last row of `J` is left for [`Self::bend_row`]. Whether a target's pull was limited.
     pub(super) fn linearise(&self, question: &Question, work: &mut Workspace) -> bool {
         let clock = Instant::now();
         let n = self.x.len();
@@ -70,7 +72,7 @@ impl Run {
             }
         }
         let count = self.fibers.len();
-        work.jacobian.resize(count * rows, 0.0);
+        work.jacobian.resize(count * (rows + 1), 0.0);
         work.row.resize(columns, 0.0);
         let elements = &question.model.contractile.elements;
         for (k, fiber) in self.fibers.iter().enumerate() {
@@ -82,7 +84,7 @@ impl Run {
             work.now[k] = fiber.tension;
             work.limits[k] = fiber.limits(&elements[fiber.element], work.cables.lengths[k]);
         }
-        work.residual.resize(rows, 0.0);
+        work.residual.resize(rows + 1, 0.0);
         let mut limited = false;
         for (t, target) in targets.iter().enumerate() {
             let [dx, dy] = target.offset(&work.pulled);
@@ -99,6 +101,15 @@ impl Run {
         limited
     }
 
+    /// Appends the row that stands for the curvature left out.
+    pub(super) fn bend_row(&mut self, work: &mut Workspace) {
+        let (last, count) = (work.residual.len() - 1, self.fibers.len());
+        let (jacobian, row) = work.jacobian.split_at_mut(last * count);
+        self.bend.arrive(jacobian, &work.residual[..last]);
+        row.copy_from_slice(&self.bend.row);
+        work.residual[last] = 0.0;
+    }
+
     /// The step in tension, and `dx = -u - H^-1 G^T dtau` that follows; shorter by a larger `nu` where it is too long.
     ///
     /// Leaves `O` before it and the decrease that it promises in `before`; nothing where that is an increase: `H` is so near
@@ -107,12 +118,14 @@ impl Run {
         let first = self.nu;
         let n = self.x.len();
         let rows = work.residual.len();
+        let targets = rows - 1;
         let most = self.reach * work.size;
         self.q.resize(rows, 0.0);
         let mut q = std::mem::take(&mut self.q);
         if !std::mem::replace(&mut self.warm, true) {
             q.copy_from_slice(&work.residual);
         }
+        let mut own = 0.0;
         for _ in 0..8 {
             let clock = Instant::now();
             let problem = Subproblem {
@@ -140,7 +153,8 @@ impl Run {
             }
             work.unbalanced = self.gradient.iter().zip(&work.dx).fold(0.0, |m, (g, d)| f64::max(m, (g - d).abs()));
             question.model.solve(&mut work.dx);
-            let u = &work.solved[(rows + 1) * n..];
+            let u = &work.solved[(targets + 1) * n..];
+            own = longest(&work.dx);
             for (d, u) in work.dx.iter_mut().zip(u) {
                 *d -= u;
             }
@@ -153,7 +167,8 @@ impl Run {
         self.q = q;
         let promised = self.promise(work);
         if promised >= -STANDSTILL * self.now.abs() {
-            self.before = Some((self.now, promised));
+            let telling = own >= TELLING * longest(&work.solved[(targets + 1) * n..]);
+            self.before = Some(Chosen { objective: self.now, promised, telling });
         } else {
             self.nu = first;
         }
@@ -216,8 +231,7 @@ impl Run {
 
     /// A Newton step of the statics under the tensions as they are.
     pub(super) fn balance(&self, work: &mut Workspace) {
-        let rows = work.residual.len();
-        for (d, u) in work.dx.iter_mut().zip(&work.solved[(rows + 1) * self.x.len()..]) {
+        for (d, u) in work.dx.iter_mut().zip(&work.solved[work.residual.len() * self.x.len()..]) {
             *d = -u;
         }
         work.next.copy_from_slice(&work.now);
