@@ -14,6 +14,8 @@ const MAX_PAINTED: f64 = 3e9;
 const MAX_STACKED: f64 = 1.2e8;
 /// What a group that is composed as a whole costs: it is cleared, cut and copied.
 const COMPOSING: f64 = 4.0;
+/// What a step of a filter costs besides: a blur takes several passes, between two conversions of colour.
+const FILTERING: f64 = 64.0;
 /// How far beyond the box a group that is composed as a whole is painted at most, in sizes of the box: what resvg allows.
 const LAYER_MARGIN: f32 = 2.0;
 /// A drawing that leaves fewer pixels than this on the longer side is refused.
@@ -69,7 +71,9 @@ impl Work {
         let pictures = if group.should_isolate() {
             // Each step of a filter makes another one.
             let steps: usize = group.filters().iter().map(|filter| filter.primitives().len()).sum();
-            (1 + steps) as f64 * self.part(group.abs_layer_bounding_box().to_rect(), LAYER_MARGIN)
+            let part = self.part(group.abs_layer_bounding_box().to_rect(), LAYER_MARGIN);
+            self.painted += FILTERING * steps as f64 * part;
+            (1 + steps) as f64 * part
         } else {
             0.0
         };
