@@ -76,7 +76,7 @@ fn window(design: Design) -> Window {
 
 fn window_with(design: Design, services: Services) -> Window {
     let mut given = Some((design, services));
-    let mut window = Harness::builder().with_size(vec2(1280.0, 800.0)).build_ui_state(
+    let mut window = Harness::builder().with_max_steps(32).with_size(vec2(1280.0, 800.0)).build_ui_state(
         move |ui, studio: &mut Option<Studio>| {
             let studio = studio.get_or_insert_with(|| {
                 let (design, services) = given.take().expect("made once");
