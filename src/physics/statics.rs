@@ -1,7 +1,8 @@
 //! Statics: where the plushie comes to rest (minimum of `E`), by an inversion-safe Newton method.
 //!
 //! The exact Hessian is factorised; only where that fails the projected one takes its place. A step is first capped so that
-//! no triangle comes near inversion, then halved until the energy falls enough (Armijo).
+//! no triangle comes near inversion, then halved until the energy falls enough (Armijo). Near equilibrium, where the Hessian
+//! hardly changes any more, steps are repeated with the same factor (Shamanskii's method).
 
 use super::continuation;
 use super::energy::HessianForm;
@@ -33,6 +34,7 @@ const PATIENCE: usize = 15;
 /// leave at most `REUSED` of it: Newton's method squares the part that is left, these steps about double it.
 const CONTRACTING: f64 = 0.03;
 const REUSED: f64 = 0.1;
+/// At the slowest rate these leave 1e-8 of the residual, and one more Newton step does the rest.
 const MAX_REUSES: usize = 8;
 /// Armijo: the part of the predicted decrease that must be met.
 const SUFFICIENT_DECREASE: f64 = 1e-4;

@@ -124,7 +124,7 @@ impl Run {
         self.adrift = 0;
         self.returned = true;
         self.before = None;
-        self.bend.interrupt();
+        self.secant.interrupt();
         self.set_laws(question, work);
         self.gradient_now(question, work);
     }

@@ -3,9 +3,9 @@
 //! Where no reason is given for a constant, here or in the judgement, it is the best of those tried on seeded cold drags of 40 %
 //! of the body length on the bundled shapes (1 to 4 targets, 414 fibres; other seeds than those of `plushwright bench cold`).
 
-use super::bend::Bend;
 use super::fiber::Fiber;
 use super::judgement::{Best, Verdict, value};
+use super::secant::Secant;
 use super::step::longest;
 use super::workspace::Workspace;
 use crate::physics::{HessianForm, Model};
@@ -75,7 +75,7 @@ pub(in crate::soft_ik) struct Run {
     pub(super) pull: f64,
     /// The last step in tension; none of a fresh run.
     pub(super) before: Option<Chosen>,
-    pub(super) bend: Bend,
+    pub(super) secant: Secant,
     /// The multipliers of the step before, and whether there was one since the run began.
     pub(super) q: Vec<f64>,
     pub(super) warm: bool,
@@ -113,7 +113,7 @@ impl Run {
             reach: LONGEST_STEP,
             pull: FIRST_PULL * work.size,
             before: None,
-            bend: Bend::new(fibers.len(), rows),
+            secant: Secant::new(fibers.len(), rows),
             q: vec![0.0; rows + 1],
             warm: false,
             best: Best { objective: f64::INFINITY, x: start.x.clone(), fibers: fibers.clone() },
@@ -164,7 +164,7 @@ impl Run {
         self.stagnant = 0;
         self.mark = f64::INFINITY;
         self.before = None;
-        self.bend.forget();
+        self.secant.forget();
         for fiber in &mut self.fibers {
             fiber.releases = 0;
         }
@@ -235,7 +235,7 @@ impl Run {
         }
         let rows = 2 * question.objective.targets.len();
         let limited = self.linearise(question, work);
-        self.bend_row(work);
+        self.append_secant(work);
         self.before = None;
         if self.unverified <= UNBALANCED && !self.choose(question, work, stop) {
             return None;
@@ -244,9 +244,8 @@ impl Run {
             self.balance(work);
         }
         let (step, changed) = self.take(question, form, work);
-        match self.before {
-            Some(_) => self.bend.leave(&work.jacobian[..rows * self.fibers.len()], &work.now, &work.next, step),
-            None => self.bend.interrupt(),
+        if self.before.is_some() {
+            self.secant.leave(&work.jacobian[..rows * self.fibers.len()], &work.now, &work.next, step);
         }
         if limited && step >= 0.5 {
             self.pull *= 2.0;

@@ -59,7 +59,7 @@ impl Run {
         }
     }
 
-    /// `J`, `c`, `r_0` and the limits; the last row of `J` is left for [`Self::bend_row`]. Whether a target's pull was limited.
+    /// `J`, `c`, `r_0` and the limits; the last row of `J` is left for [`Self::append_secant`]. Whether a target's pull was limited.
     pub(super) fn linearise(&self, question: &Question, work: &mut Workspace) -> bool {
         let clock = Instant::now();
         let n = self.x.len();
@@ -101,12 +101,12 @@ impl Run {
         limited
     }
 
-    /// Appends the row that stands for the curvature left out.
-    pub(super) fn bend_row(&mut self, work: &mut Workspace) {
+    /// Fills the last row of `J`, which stands for the curvature left out, with residual zero.
+    pub(super) fn append_secant(&mut self, work: &mut Workspace) {
         let (last, count) = (work.residual.len() - 1, self.fibers.len());
         let (jacobian, row) = work.jacobian.split_at_mut(last * count);
-        self.bend.arrive(jacobian, &work.residual[..last]);
-        row.copy_from_slice(&self.bend.row);
+        self.secant.arrive(jacobian, &work.residual[..last]);
+        row.copy_from_slice(&self.secant.row);
         work.residual[last] = 0.0;
     }
 
@@ -118,7 +118,6 @@ impl Run {
         let first = self.nu;
         let n = self.x.len();
         let rows = work.residual.len();
-        let targets = rows - 1;
         let most = self.reach * work.size;
         self.q.resize(rows, 0.0);
         let mut q = std::mem::take(&mut self.q);
@@ -153,7 +152,7 @@ impl Run {
             }
             work.unbalanced = self.gradient.iter().zip(&work.dx).fold(0.0, |m, (g, d)| f64::max(m, (g - d).abs()));
             question.model.solve(&mut work.dx);
-            let u = &work.solved[(targets + 1) * n..];
+            let u = &work.solved[rows * n..];
             own = longest(&work.dx);
             for (d, u) in work.dx.iter_mut().zip(u) {
                 *d -= u;
@@ -167,7 +166,7 @@ impl Run {
         self.q = q;
         let promised = self.promise(work);
         if promised >= -STANDSTILL * self.now.abs() {
-            let telling = own >= TELLING * longest(&work.solved[(targets + 1) * n..]);
+            let telling = own >= TELLING * longest(&work.solved[rows * n..]);
             self.before = Some(Chosen { objective: self.now, promised, telling });
         } else {
             self.nu = first;

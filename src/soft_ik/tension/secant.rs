@@ -13,7 +13,7 @@ use super::dual::{axpy, dot};
 const LEAST_COSINE: f64 = 0.1;
 
 /// What the last step has shown of the curvature.
-pub(super) struct Bend {
+pub(super) struct Secant {
     /// `J` where the last step began, row after row, and the step; nothing where there is no such step.
     jacobian: Vec<f64>,
     step: Vec<f64>,
@@ -23,7 +23,7 @@ pub(super) struct Bend {
     pub row: Vec<f64>,
 }
 
-impl Bend {
+impl Secant {
     pub fn new(elements: usize, rows: usize) -> Self {
         let zero = || vec![0.0; elements];
         Self { jacobian: vec![0.0; elements * rows], step: zero(), taken: false, change: zero(), row: zero() }
@@ -82,33 +82,33 @@ mod tests {
 
     #[test]
     fn the_row_gives_the_change_of_the_gradient_along_the_step() {
-        let ([a, b], mut bend) = ([[2.0, 1.0], [3.5, 1.5]], Bend::new(2, 2));
+        let ([a, b], mut secant) = ([[2.0, 1.0], [3.5, 1.5]], Secant::new(2, 2));
         let ((_, before), (r, after)) = (residuals(a), residuals(b));
-        bend.leave(&before, &a, &b, 1.0);
-        bend.arrive(&after, &r);
+        secant.leave(&before, &a, &b, 1.0);
+        secant.arrive(&after, &r);
         let s = [b[0] - a[0], b[1] - a[1]];
-        let along = dot(&bend.row, &s);
+        let along = dot(&secant.row, &s);
         for k in 0..2 {
             let w: f64 = (0..2).map(|i| (after[2 * i + k] - before[2 * i + k]) * r[i]).sum();
-            assert!((bend.row[k] * along - w).abs() < 1e-12, "{k}");
+            assert!((secant.row[k] * along - w).abs() < 1e-12, "{k}");
         }
         // Without a step nothing is learnt; with other targets nothing is known.
-        let row = bend.row.clone();
-        bend.arrive(&before, &r);
-        assert_eq!(bend.row, row);
-        bend.forget();
-        assert_eq!(bend.row, [0.0, 0.0]);
+        let row = secant.row.clone();
+        secant.arrive(&before, &r);
+        assert_eq!(secant.row, row);
+        secant.forget();
+        assert_eq!(secant.row, [0.0, 0.0]);
     }
 
     #[test]
     fn negative_curvature_is_left_out() {
-        let ([a, b], mut bend) = ([[2.0, 1.0], [2.5, 1.0]], Bend::new(2, 2));
+        let ([a, b], mut secant) = ([[2.0, 1.0], [2.5, 1.0]], Secant::new(2, 2));
         let ((_, before), (r, after)) = (residuals(a), residuals(b));
-        bend.leave(&before, &a, &b, 1.0);
-        bend.arrive(&after, &[-r[0].abs(), 0.0]);
-        assert_eq!(bend.row, [0.0, 0.0]);
-        bend.leave(&before, &a, &b, 0.0);
-        bend.arrive(&after, &[1.0, 0.0]);
-        assert_eq!(bend.row, [0.0, 0.0], "no part of the step was taken");
+        secant.leave(&before, &a, &b, 1.0);
+        secant.arrive(&after, &[-r[0].abs(), 0.0]);
+        assert_eq!(secant.row, [0.0, 0.0]);
+        secant.leave(&before, &a, &b, 0.0);
+        secant.arrive(&after, &[1.0, 0.0]);
+        assert_eq!(secant.row, [0.0, 0.0], "no part of the step was taken");
     }
 }
