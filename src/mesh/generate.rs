@@ -62,7 +62,8 @@ pub struct Meshed {
 ///
 /// # Errors
 /// [`MeshError::Unreachable`] names the least count found possible where the outline needs more edges than asked for;
-/// [`MeshError::TooFine`] where there is none, [`MeshError::TooIntricate`] where none was found within a bound on work.
+/// [`MeshError::TooFine`] where there is none, [`MeshError::TooIntricate`] where none was found within a bound on work;
+/// [`MeshError::IntricateTracks`] instead of both where there is one without the tracks.
 pub fn generate(outline: &Outline, fibers: usize) -> Result<Mesh, MeshError> {
     build(outline, &Request::fibers(fibers)).map(|meshed| meshed.mesh)
 }
@@ -127,7 +128,19 @@ pub fn build_or_finer(outline: &Outline, request: &Request) -> Result<(Meshed, u
             return Ok(found);
         }
     }
-    Err(if whole.has_given_up() { MeshError::TooIntricate } else { MeshError::TooFine { most: MAX_FIBERS } })
+    Err(refusal(outline, request, whole.has_given_up()))
+}
+
+/// Why there is no mesh. Whether the tracks are the cause is tried out: without them it takes about as long as a mesh does.
+fn refusal(outline: &Outline, request: &Request, has_given_up: bool) -> MeshError {
+    let bare = Request { tracks: Vec::new(), ..request.clone() };
+    if !request.tracks.is_empty() && build_or_finer(outline, &bare).is_ok() {
+        MeshError::IntricateTracks
+    } else if has_given_up {
+        MeshError::TooIntricate
+    } else {
+        MeshError::TooFine { most: MAX_FIBERS }
+    }
 }
 
 /// About how many edges a mesh with edges of this length has.
@@ -276,6 +289,21 @@ mod tests {
             assert!(mesh.nodes.contains(corner));
         }
         assert_eq!(Quality::of(&mesh).bridges, 0);
+    }
+
+    #[test]
+    fn tracks_are_named_where_they_are_the_cause() {
+        let tracked = |track: Vec<Point>| Request { tracks: vec![track], ..Request::fibers(60) };
+        let along = tracked(vec![[20.0, 30.0], [180.0, 30.0]]);
+        for has_given_up in [false, true] {
+            let why = refusal(&rectangle(200.0, 60.0), &along, has_given_up);
+            assert_eq!(why, MeshError::IntricateTracks);
+            assert!(why.to_string().contains("fewer points"), "{why}");
+        }
+        // Where there is no mesh without them either, or no track at all, it is the outline.
+        let none = refusal(&Outline::default(), &along, true);
+        assert_eq!(none, MeshError::TooIntricate);
+        assert_eq!(refusal(&rectangle(200.0, 60.0), &Request::fibers(60), true), MeshError::TooIntricate);
     }
 
     #[test]

@@ -57,6 +57,10 @@ pub enum MeshError {
         "the outline is too intricate: no mesh with good triangles was found within the work allowed; fill its holes or widen its thin parts"
     )]
     TooIntricate,
+    #[error(
+        "the tendon tracks are too intricate: the outline can be meshed, but no mesh with good triangles that follows them was found within the work allowed; give them fewer points, keep them farther apart, let them cross less often, or leave them out (`remesh --no-tracks`)"
+    )]
+    IntricateTracks,
     #[error("the mesh has no triangles")]
     Empty,
     #[error("node {node} of the mesh is not finite")]

@@ -1,6 +1,7 @@
 //! Tracks: lines inside the body along which edges run, so that a thread can follow them.
 
 use super::grid::Grid;
+use super::search::Budget;
 use crate::outline::{Outline, Point, polygon};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -14,22 +15,20 @@ const MERGE: f64 = 0.3;
 pub(super) struct Sampled {
     pub nodes: Vec<Point>,
     pub segments: Vec<[usize; 2]>,
-    /// Work it took, in units of about 0.1 us.
-    pub work: usize,
 }
 
 /// Longest segment, in spacings: one and a half steps, and what joining adds at either end, with room for rounding.
 const LONGEST: f64 = 1.5 + 2.0 * MERGE + 0.1;
 /// Most nodes of the tracks on an area of one spacing squared: twice those of an even mesh.
 const MOST: f64 = 2.3;
-/// Units for a stop, of which the distance from the rim takes most; and how many tries for a crossing weigh one.
+/// Units of work for a stop, of which the distance from the rim takes most; and how many tries for a crossing weigh one.
 const STOP_WORK: usize = 10;
 const TRIES: usize = 20;
 
 /// The tracks with a node about every `h`, where they cross each other, and at their own corners; only where they run well
 /// inside the body. Nodes closer than a fraction of `h` are joined, so that lines drawn nearly alike become one. `None` where
-/// they fill the body with more nodes than a mesh has room for.
-pub(super) fn sample(tracks: &[Vec<Point>], outline: &Outline, h: f64) -> Option<Sampled> {
+/// they fill the body with more nodes than a mesh has room for; what it took to find that out is spent as well.
+pub(super) fn sample(tracks: &[Vec<Point>], outline: &Outline, h: f64, budget: &Budget) -> Option<Sampled> {
     let mut sampled = Sampled::default();
     if tracks.is_empty() {
         return Some(sampled);
@@ -40,7 +39,7 @@ pub(super) fn sample(tracks: &[Vec<Point>], outline: &Outline, h: f64) -> Option
     let pieces: Vec<(Point, Point)> = tracks.iter().flat_map(|t| t.windows(2).map(|w| (w[0], w[1]))).collect();
     let mut places = Places::new(MERGE * h);
     let mut known = BTreeSet::new();
-    sampled.work = pieces.len() * pieces.len() / TRIES;
+    budget.spend(pieces.len() * pieces.len() / TRIES);
     // Corners first, so that what falls together with them goes there.
     for &p in tracks.iter().flatten().filter(|&&p| outline.contains(p) && rim.distance(p) > CLEARANCE * h) {
         places.put(p);
@@ -52,7 +51,7 @@ pub(super) fn sample(tracks: &[Vec<Point>], outline: &Outline, h: f64) -> Option
                 let p = polygon::lerp(w[0], w[1], t);
                 let inside = outline.contains(p) && rim.distance(p) > CLEARANCE * h;
                 let node = inside.then(|| places.put(p));
-                sampled.work += STOP_WORK;
+                budget.spend(STOP_WORK);
                 if let (Some(a), Some(b)) = (before, node)
                     && a != b
                 {
@@ -179,5 +178,5 @@ fn without_crossings(sampled: &mut Sampled, longest: f64) {
             used.len() - 1
         });
     }
-    *sampled = Sampled { nodes: used, segments: kept, work: sampled.work };
+    *sampled = Sampled { nodes: used, segments: kept };
 }

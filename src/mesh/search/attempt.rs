@@ -134,9 +134,9 @@ impl<'a> Subject<'a> {
         // The next attempts mostly have the same spacing.
         let mut sampled = self.sampled.borrow_mut();
         let known = sampled.take().filter(|(spacing, _)| *spacing == h);
-        let (_, tracks) = sampled.insert(known.unwrap_or_else(|| (h, tracks::sample(self.tracks, self.whole, h))));
-        let tracks = tracks.as_mut()?;
-        self.budget.spend(std::mem::take(&mut tracks.work));
+        let (_, tracks) =
+            sampled.insert(known.unwrap_or_else(|| (h, tracks::sample(self.tracks, self.whole, h, &self.budget))));
+        let tracks = tracks.as_ref()?;
         Refiner::new(boundary, tracks, self.rim.curves, self.axis.is_some(), h, fill)
     }
 
