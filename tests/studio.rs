@@ -14,6 +14,7 @@ use plushwright::picture::palette::Theme;
 use plushwright::studio::app::Studio;
 use plushwright::studio::messages::Level;
 use plushwright::studio::session::{Selection, Services, Session, Views};
+use plushwright::studio::sketching::Pencil;
 use plushwright::studio::viewport::Plushie;
 use plushwright::studio::viewport::camera::Camera;
 use std::sync::Arc;
@@ -770,6 +771,48 @@ fn a_tendon_track_is_drawn_changed_and_becomes_edges_of_the_body() {
     while session(&window).history().undo_label() != Some("Add target") {
         press(&mut window, Modifiers::COMMAND, Key::Z);
     }
+    assert_eq!(*session(&window).design(), before);
+}
+
+#[test]
+fn a_polygon_that_is_not_closed_is_kept() {
+    let mut window = with_network();
+    let before = session(&window).design().clone();
+    let clicked = |window: &mut Window, points: &[[f64; 2]]| {
+        for &p in points {
+            let p = on_sheet(window, BAR, p);
+            click_at(window, p);
+        }
+    };
+    press(&mut window, Modifiers::NONE, Key::O);
+    // Another pencil finishes three corners, as one step of undo, and drops two.
+    click(&mut window, "Polygon");
+    clicked(&mut window, &[[20.0, 20.0], [50.0, 20.0], [35.0, 55.0]]);
+    click(&mut window, "Circle");
+    let corners = |part: &Part| match &part.primitive {
+        Primitive::Path { points } => points.iter().filter(|p| p.corner).count(),
+        _ => 0,
+    };
+    assert_eq!((parts(&window).len(), corners(&parts(&window)[1])), (2, 3));
+    assert_eq!(session(&window).sketching().pencil, Pencil::Circle);
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(*session(&window).design(), before);
+    click(&mut window, "Polygon");
+    clicked(&mut window, &[[20.0, 20.0], [50.0, 20.0]]);
+    press(&mut window, Modifiers::NONE, Key::V);
+    assert_eq!(*session(&window).design(), before);
+    // So does closing the sheet; a track of two points is kept as well.
+    click(&mut window, "Tendon track");
+    clicked(&mut window, &[[20.0, 20.0], [100.0, 20.0]]);
+    click(&mut window, "Polygon");
+    assert_eq!(session(&window).drawing().tracks.len(), 1);
+    clicked(&mut window, &[[20.0, 20.0], [50.0, 20.0], [35.0, 55.0], [25.0, 50.0]]);
+    press(&mut window, Modifiers::NONE, Key::O);
+    assert!(!session(&window).sketching().open);
+    let drawing = session(&window).design().drawing.clone().expect("it was drawn");
+    assert_eq!((drawing.parts.len(), corners(&drawing.parts[1])), (2, 4));
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    press(&mut window, Modifiers::COMMAND, Key::Z);
     assert_eq!(*session(&window).design(), before);
 }
 

@@ -67,6 +67,7 @@ impl Studio {
         let mut actions = Vec::new();
         shortcuts::collect(&ctx, &self.session, &mut self.panels, typing, &mut actions);
         self.layout(ui, &mut actions);
+        self.paper.finish_before(&self.session, &mut actions);
         let changed = !actions.is_empty();
         for action in actions {
             if let Action::SetTheme(theme) = action {
@@ -104,7 +105,6 @@ impl Studio {
             panels::dialogs::show(ui.ctx(), session, actions);
             return;
         }
-        self.paper.let_go();
         let timeline =
             Panel::bottom("timeline").frame(bar).default_size(132.0).size_range(96.0..=320.0).resizable(true);
         let timeline = timeline.show(ui, |ui| {

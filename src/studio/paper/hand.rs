@@ -6,6 +6,7 @@ use crate::outline::{Drawing, Point, polygon};
 use crate::studio::action::Action;
 use crate::studio::change::Change;
 use crate::studio::panels::Actions;
+use crate::studio::session::Session;
 use crate::studio::sketching::{Pencil, Sketch};
 use eframe::egui::{CursorIcon, Event, Key, Modifiers, PointerButton, Popup, Response, Ui};
 
@@ -114,12 +115,6 @@ pub fn act(ui: &mut Ui, sheet: &Sheet<'_>, hand: &mut Hand, response: &Response,
     if ends {
         finish(sheet, hand, actions);
     }
-    // Another pencil leaves what is not closed or ended.
-    if matches!((&*hand, pencil), (Hand::Corners(_), p) if p != Pencil::Polygon)
-        || matches!((&*hand, pencil), (Hand::Track(_), p) if p != Pencil::Track)
-    {
-        *hand = Hand::Nothing;
-    }
     if response.hovered() {
         ui.ctx().set_cursor_icon(match (pencil, &*hand) {
             (_, Hand::Pans | Hand::Holds { .. }) => CursorIcon::Grabbing,
@@ -218,42 +213,48 @@ fn draw(line: &mut Vec<Point>, to: Point, step: f64) {
 
 /// Puts what the hand was drawing into the drawing.
 fn finish(sheet: &Sheet<'_>, hand: &mut Hand, actions: &mut Actions) {
-    let sketching = sheet.session.sketching();
     match hand {
-        Hand::Corners(corners) if corners.len() < 3 => return,
-        Hand::Track(track) if track.len() < 2 => return,
-        Hand::Track(track) => {
-            let mut drawing = sheet.session.drawing().clone();
-            drawing.tracks.push(std::mem::take(track));
-            *hand = Hand::Nothing;
-            let last = Item::Track(drawing.tracks.len() - 1);
-            return put(drawing, "Draw a track", last, actions);
-        }
-        _ => {}
-    }
-    if let Some(primitive) = std::mem::take(hand).pending(sketching.pencil, sheet.mm_per_pixel()) {
-        add(sheet, primitive, actions);
+        Hand::Corners(corners) if corners.len() < 3 => {}
+        Hand::Track(track) if track.len() < 2 => {}
+        _ => actions.extend(put_down(sheet.session, std::mem::take(hand), sheet.mm_per_pixel())),
     }
 }
 
-fn add(sheet: &Sheet<'_>, primitive: Primitive, actions: &mut Actions) {
-    let cut = sheet.session.sketching().cut;
+/// What puts it into the drawing, as one step of undo; nothing where there is too little of it. The scale matters to what is drawn
+/// freehand or by dragging alone.
+pub fn put_down(session: &Session, hand: Hand, mm_per_pixel: f64) -> Actions {
+    match hand {
+        Hand::Track(track) if track.len() < 2 => Vec::new(),
+        Hand::Track(track) => {
+            let mut drawing = session.drawing().clone();
+            drawing.tracks.push(track);
+            let last = Item::Track(drawing.tracks.len() - 1);
+            put(drawing, "Draw a track", last)
+        }
+        hand => match hand.pending(session.sketching().pencil, mm_per_pixel) {
+            Some(primitive) => add(session, primitive),
+            None => Vec::new(),
+        },
+    }
+}
+
+fn add(session: &Session, primitive: Primitive) -> Actions {
+    let cut = session.sketching().cut;
     let what = match (&primitive, cut) {
         (_, true) => "Cut out a part",
         (Primitive::Circle { .. }, _) => "Draw a circle",
         (Primitive::Capsule { .. }, _) => "Draw a capsule",
         (Primitive::Path { .. }, _) => "Draw a path",
     };
-    let mut drawing = sheet.session.drawing().clone();
+    let mut drawing = session.drawing().clone();
     drawing.parts.push(Part { primitive, cut });
     let last = Item::Part(drawing.parts.len() - 1);
-    put(drawing, what, last, actions);
+    put(drawing, what, last)
 }
 
 /// One step of undo, with what is new picked out.
-fn put(drawing: Drawing, what: &'static str, new: Item, actions: &mut Actions) {
-    actions.push(Action::Change(Change::Draw { what, drawing }));
-    actions.push(Action::Sketch(Sketch::Select(Some(new), None)));
+fn put(drawing: Drawing, what: &'static str, new: Item) -> Actions {
+    vec![Action::Change(Change::Draw { what, drawing }), Action::Sketch(Sketch::Select(Some(new), None))]
 }
 
 fn click(sheet: &Sheet<'_>, hand: &mut Hand, at: Point, actions: &mut Actions) {

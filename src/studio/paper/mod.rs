@@ -25,9 +25,23 @@ pub struct State {
 }
 
 impl State {
-    /// Drops what was being drawn.
-    pub fn let_go(&mut self) {
-        self.hand = hand::Hand::Nothing;
+    /// Puts a polygon or track that is not closed or ended into the drawing, before what ends drawing it is done: another pencil, a
+    /// body, a closed sheet. One of too few points is dropped.
+    pub fn finish_before(&mut self, session: &Session, actions: &mut Actions) {
+        if !session.sketching().open {
+            self.hand = hand::Hand::Nothing;
+            return;
+        }
+        let ends = |action: &Action| match action {
+            Action::Sketch(Sketch::Open(false) | Sketch::MakeBody) => true,
+            Action::Sketch(Sketch::Take(pencil)) => *pencil != session.sketching().pencil,
+            _ => false,
+        };
+        let is_open = matches!(self.hand, hand::Hand::Corners(_) | hand::Hand::Track(_));
+        if let Some(first) = actions.iter().position(ends).filter(|_| is_open) {
+            let finished = hand::put_down(session, std::mem::take(&mut self.hand), 1.0);
+            actions.splice(first..first, finished);
+        }
     }
 
     /// What is drawn, worked out anew only where it has changed.
