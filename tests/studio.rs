@@ -928,6 +928,37 @@ fn the_texture_is_read_aside_shown_and_hidden() {
 }
 
 #[test]
+fn the_picture_of_an_import_is_kept_as_texture() {
+    let folder = tempfile::tempdir().unwrap();
+    let picture = folder.path().join("block.svg");
+    let svg = r##"<svg xmlns="http://www.w3.org/2000/svg" width="200" height="100"><path d="M10 10h180v80h-180z" fill="#c81e1e"/></svg>"##;
+    std::fs::write(&picture, svg).unwrap();
+    let mut window = window(bar());
+    press(&mut window, Modifiers::COMMAND, Key::O);
+    type_path(&mut window, &picture);
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    click(&mut window, "Keep the picture as texture");
+    click(&mut window, "Create");
+    wait(&mut window, |s| s.texture().is_some());
+    settle(&mut window);
+    assert!(session(&window).history().is_modified());
+    // It waits where nobody sees it until the plushie has a place.
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    for name in ["one.plush", "two.plush"] {
+        let path = folder.path().join(name);
+        press(&mut window, Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
+        type_path(&mut window, &path);
+        press(&mut window, Modifiers::NONE, Key::Enter);
+        let saved = plushwright::design::file::read(&path).unwrap();
+        let expected = name.replace("plush", "texture.png");
+        assert_eq!(saved.texture.as_deref(), Some(expected.as_str()));
+        let texture = image::open(folder.path().join(expected)).unwrap().to_rgba8();
+        assert_eq!(texture.get_pixel(texture.width() / 2, texture.height() / 2).0, [200, 30, 30, 255]);
+    }
+    assert!(session(&window).texture().is_some() && !session(&window).history().is_modified());
+}
+
+#[test]
 fn an_example_opens_from_the_menu() {
     let mut window = window(bar());
     click(&mut window, "Examples");

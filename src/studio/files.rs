@@ -4,14 +4,15 @@
 //! field in the window takes their place.
 
 use super::action::FileAction;
-use super::jobs::Report;
+use super::jobs::{New, Report};
+use super::keeping::Kept;
 use super::meshing::Resolution;
 use super::session::Session;
 use super::sketching::{self, Pencil, Sketch};
 use crate::defaults;
 use crate::design::{Design, bundled, file};
 use crate::mesh::{self, Request};
-use crate::outline::{self, Changes, Holes, Import, Pieces};
+use crate::outline::{self, Holes, Import, Pieces};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -51,6 +52,8 @@ pub struct ImportChoice {
     pub fill_holes: bool,
     /// Names between commas; none for all.
     pub layers: String,
+    /// Whether what the file shows becomes the texture of the plushie.
+    pub texture: bool,
 }
 
 #[derive(Default)]
@@ -208,8 +211,10 @@ impl Session {
                 self.files.working = None;
                 match result {
                     Ok(imported) => {
-                        let (design, changes) = *imported;
+                        let New { design, changes, texture } = *imported;
                         self.open(design, None);
+                        self.origin = texture.as_ref().map(Kept::origin);
+                        self.kept = texture;
                         for line in changes.lines() {
                             self.messages.info(line);
                         }
@@ -250,6 +255,7 @@ impl Session {
                 largest_piece: false,
                 fill_holes: false,
                 layers: String::new(),
+                texture: false,
             },
         }));
     }
@@ -311,9 +317,13 @@ impl Session {
 
     fn save(&mut self, path: PathBuf) {
         let path = if path.extension().is_none() { path.with_extension("plush") } else { path };
-        let design = match &self.origin {
-            Some(from) => file::seen_from(self.design(), from, &path),
-            None => None,
+        let design = match (&self.kept, &self.origin) {
+            (Some(kept), _) => match kept.beside(self.design(), &path) {
+                Ok(design) => Some(design),
+                Err(error) => return self.messages.error(format!("The texture cannot be saved: {error}")),
+            },
+            (None, Some(from)) => file::seen_from(self.design(), from, &path),
+            (None, None) => None,
         };
         match file::write(&path, design.as_ref().unwrap_or(self.design())) {
             Ok(()) => {
@@ -360,7 +370,7 @@ fn plain(name: &str) -> String {
     if name.is_empty() { "plushie".to_owned() } else { name.to_lowercase() }
 }
 
-fn read_outline(path: &Path, choice: &ImportChoice) -> Result<(Design, Changes), String> {
+fn read_outline(path: &Path, choice: &ImportChoice) -> Result<New, String> {
     let import = Import {
         height_mm: Some(choice.height_mm),
         pieces: if choice.largest_piece { Pieces::Largest } else { Pieces::Refuse },
@@ -368,7 +378,12 @@ fn read_outline(path: &Path, choice: &ImportChoice) -> Result<(Design, Changes),
         layers: choice.layers.split(',').map(str::trim).filter(|name| !name.is_empty()).map(str::to_owned).collect(),
         ..Import::default()
     };
-    let mut imported = outline::import_file(path, &import).map_err(|e| e.to_string())?;
+    let bytes = outline::read_file(path).map_err(|e| e.to_string())?;
+    let mut imported = outline::import(&bytes, &import).map_err(|e| e.to_string())?;
+    let png = match choice.texture {
+        true => Some(outline::texture(&bytes, &import, &imported).map_err(|e| e.to_string())?),
+        false => None,
+    };
     let fibers = choice.fibers;
     let request = Request { tracks: imported.tracks().to_vec(), ..Request::fibers(fibers) };
     let (meshed, count) = mesh::build_or_finer(&imported.outline, &request).map_err(|e| e.to_string())?;
@@ -376,6 +391,8 @@ fn read_outline(path: &Path, choice: &ImportChoice) -> Result<(Design, Changes),
         imported.changes.notes.push(format!("the outline needs more than {fibers} fibres; it has {count}"));
     }
     let name = path.file_stem().map_or_else(|| "plushie".to_owned(), |s| s.to_string_lossy().into_owned());
-    let design = Design { drawing: imported.drawing, ..Design::new(name, imported.outline, meshed.mesh) };
-    Ok((design, imported.changes))
+    let mut design = Design { drawing: imported.drawing, ..Design::new(name, imported.outline, meshed.mesh) };
+    let texture = png.map(|png| Kept::new(&mut design, &png)).transpose();
+    let texture = texture.map_err(|e| format!("the texture cannot be kept: {e}"))?;
+    Ok(New { design, changes: imported.changes, texture })
 }

@@ -1,5 +1,6 @@
 //! Work that takes too long for a frame, each on a thread that reports back once.
 
+use super::keeping::Kept;
 use crate::design::reshape::Body;
 use crate::design::{Design, FiberSet};
 use crate::engine::Proposal;
@@ -31,7 +32,7 @@ pub enum Report {
         texture: Result<Arc<Texture>, String>,
     },
     /// With what was changed to get a clean outline.
-    Imported(Result<Box<(Design, Changes)>, String>),
+    Imported(Result<Box<New>, String>),
     Exported {
         folder: PathBuf,
         result: Result<(), String>,
@@ -41,6 +42,14 @@ pub enum Report {
         job: &'static str,
         why: String,
     },
+}
+
+/// A design made of an outline.
+pub struct New {
+    pub design: Design,
+    pub changes: Changes,
+    /// Its picture, where that is its texture.
+    pub texture: Option<Kept>,
 }
 
 /// What was meshed.

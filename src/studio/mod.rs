@@ -18,6 +18,7 @@ mod dragging;
 pub mod files;
 pub mod icons;
 pub mod jobs;
+pub mod keeping;
 pub mod meshing;
 pub mod messages;
 mod pacing;

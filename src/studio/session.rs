@@ -4,6 +4,7 @@ use super::action::{Action, FileAction};
 use super::change::{Change, Made};
 use super::files::Files;
 use super::jobs::{Jobs, Report, Wake};
+use super::keeping::Kept;
 use super::meshing::Meshing;
 use super::messages::Messages;
 use super::sketching::{Sketch, Sketching};
@@ -139,6 +140,8 @@ pub struct Session {
     pub(super) path: Option<PathBuf>,
     /// The file that the document was read from: what it names is found from there.
     pub(super) origin: Option<PathBuf>,
+    /// The texture of a document that was imported, until it is saved.
+    pub(super) kept: Option<Kept>,
     pub(super) texturing: Texturing,
     pub(super) pose: Option<usize>,
     pub(super) selection: Selection,
@@ -178,6 +181,7 @@ impl Session {
             history: History::new(design.clone()),
             origin: path.clone(),
             path,
+            kept: None,
             texturing: Texturing::default(),
             selection: Selection::Nothing,
             tool: Tool::Drag,
@@ -228,6 +232,7 @@ impl Session {
         self.history = History::new(design);
         self.origin = path.clone();
         self.path = path;
+        self.kept = None;
         self.texturing = Texturing::default();
         self.selection = Selection::Nothing;
         self.mode = Mode::Pose;

@@ -39,9 +39,7 @@ impl Session {
             Found::Picture(_) => None,
             Found::Trouble => Some("The texture of this plushie is missing or broken"),
             Found::Nothing if self.texturing.path.is_some() => Some("The texture is being read"),
-            Found::Nothing => {
-                Some("This plushie has no texture; “plushwright new PICTURE --texture” makes one with its picture")
-            }
+            Found::Nothing => Some("This plushie has no texture; the import has “Keep the picture as texture”"),
         }
     }
 

@@ -108,6 +108,9 @@ fn import_settings(ui: &mut Ui, edited: &mut PathDialog) {
         ui.add_space(12.0);
         ui.checkbox(&mut import.fill_holes, "Fill holes").on_hover_text("Make a solid body of it");
     });
+    let tip =
+        "Show on the plushie what the SVG, PNG or JPEG shows; saving puts it beside the plushie, NAME.texture.png";
+    ui.checkbox(&mut edited.import.texture, "Keep the picture as texture").on_hover_text(tip);
     ui.horizontal(|ui| {
         let label = ui.label("Layers");
         let field = TextEdit::singleline(&mut edited.import.layers).hint_text("all").desired_width(f32::INFINITY);
