@@ -58,7 +58,7 @@ pub enum MeshError {
     )]
     TooIntricate,
     #[error(
-        "the tendon tracks are too intricate: the outline can be meshed, but no mesh with good triangles that follows them was found within the work allowed; give them fewer points, keep them farther apart, let them cross less often, or leave them out (`remesh --no-tracks`)"
+        "the tendon tracks are too intricate: the outline can be meshed, but no mesh with good triangles that follows them was found within the work allowed; give them fewer points, keep them farther apart, let them cross less often, or leave them out"
     )]
     IntricateTracks,
     #[error("the mesh has no triangles")]

@@ -34,7 +34,9 @@ impl Primitive {
 pub(super) fn path(ring: &[Point], tolerance: f64) -> Primitive {
     let corners = Corners::of(ring, CORNER_REACH * tolerance);
     let kept = simplify(ring, COARSENESS * tolerance);
-    let mut places: Vec<usize> = kept.iter().filter_map(|p| ring.iter().position(|q| q == p)).collect();
+    // They come in the order of the ring, from anywhere on it.
+    let mut round = ring.iter().enumerate().cycle().take(2 * ring.len());
+    let mut places: Vec<usize> = kept.iter().filter_map(|p| round.find(|(_, q)| *q == p)).map(|(i, _)| i).collect();
     places.sort_unstable();
     places.dedup();
     for k in 0.. {
