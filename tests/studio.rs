@@ -959,6 +959,30 @@ fn the_picture_of_an_import_is_kept_as_texture() {
 }
 
 #[test]
+fn a_refused_import_can_be_asked_for_anew() {
+    let folder = tempfile::tempdir().unwrap();
+    let picture = folder.path().join("dots.svg");
+    let svg = r#"<svg xmlns="http://www.w3.org/2000/svg" width="200" height="100"><circle cx="50" cy="50" r="40"/><circle cx="150" cy="50" r="30"/></svg>"#;
+    std::fs::write(&picture, svg).unwrap();
+    let mut window = window(bar());
+    press(&mut window, Modifiers::COMMAND, Key::N);
+    type_path(&mut window, &folder.path().join("none.svg"));
+    assert!(window.query_by_label("There is no such file.").is_some());
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    type_path(&mut window, &picture);
+    assert!(window.query_by_label("There is no such file.").is_none());
+    click(&mut window, "Fill holes");
+    click(&mut window, "Create");
+    wait(&mut window, |s| !s.is_working());
+    settle(&mut window);
+    assert!(window.query_by_label_contains("2 separate pieces").is_some());
+    click(&mut window, "Largest piece only");
+    assert!(window.query_by_label_contains("2 separate pieces").is_none());
+    click(&mut window, "Create");
+    wait(&mut window, |s| s.design().name == "dots");
+}
+
+#[test]
 fn an_example_opens_from_the_menu() {
     let mut window = window(bar());
     click(&mut window, "Examples");

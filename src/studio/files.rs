@@ -4,7 +4,7 @@
 //! field in the window takes their place.
 
 use super::action::FileAction;
-use super::jobs::{New, Report};
+use super::jobs::{New, Refused, Report};
 use super::keeping::Kept;
 use super::meshing::Resolution;
 use super::session::Session;
@@ -12,7 +12,7 @@ use super::sketching::{self, Pencil, Sketch};
 use crate::defaults;
 use crate::design::{Design, bundled, file};
 use crate::mesh::{self, Request};
-use crate::outline::{self, Holes, Import, Pieces};
+use crate::outline::{self, Holes, Import, OutlineError, Pieces};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -39,6 +39,8 @@ pub struct PathDialog {
     pub purpose: Purpose,
     pub path: String,
     pub import: ImportChoice,
+    /// Why what was asked for last could not be had.
+    pub trouble: Option<String>,
 }
 
 /// How an outline is read and meshed.
@@ -191,7 +193,7 @@ impl Session {
                     (Some(path), Some(Dialog::Path(dialog))) => {
                         let path = if purpose == Purpose::Export { path.join(self.folder_name()) } else { path };
                         let path = path.to_string_lossy().into_owned();
-                        self.files.dialog = Some(Dialog::Path(PathDialog { path, ..dialog }));
+                        self.files.dialog = Some(Dialog::Path(PathDialog { path, trouble: None, ..dialog }));
                     }
                     (Some(path), _) if purpose == Purpose::Open => self.open_path(path),
                     (Some(path), _) => self.save(path),
@@ -221,7 +223,7 @@ impl Session {
                         // It is nowhere but here.
                         self.history.mark_unsaved();
                     }
-                    Err(why) => self.messages.error(why),
+                    Err(refused) => self.ask_again(*refused),
                 }
             }
             Report::Exported { folder, result } => {
@@ -257,6 +259,7 @@ impl Session {
                 layers: String::new(),
                 texture: false,
             },
+            trouble: None,
         }));
     }
 
@@ -311,8 +314,23 @@ impl Session {
         self.files.working = Some("Meshing the outline");
         self.jobs.start("Import", move || {
             let design = read_outline(&path, &choice);
-            Report::Imported(design.map(Box::new).map_err(|why| format!("{}: {why}", path.display())))
+            Report::Imported(design.map(Box::new).map_err(|why| Box::new(Refused { path, choice, why })))
         });
+    }
+
+    /// The dialog with what was chosen, so that another choice is at hand.
+    fn ask_again(&mut self, refused: Refused) {
+        let Refused { path, choice, why } = refused;
+        if self.files.dialog.is_some() {
+            self.messages.error(format!("{}: {why}", path.display()));
+            return;
+        }
+        self.files.dialog = Some(Dialog::Path(PathDialog {
+            purpose: Purpose::Import,
+            path: path.to_string_lossy().into_owned(),
+            import: choice,
+            trouble: Some(why),
+        }));
     }
 
     fn save(&mut self, path: PathBuf) {
@@ -370,6 +388,11 @@ fn plain(name: &str) -> String {
     if name.is_empty() { "plushie".to_owned() } else { name.to_lowercase() }
 }
 
+/// An error with the names that choices have in the dialog.
+fn in_the_window(error: OutlineError) -> String {
+    error.to_string().replace("--pieces largest", "“Largest piece only”").replace("--height", "“Height”")
+}
+
 fn read_outline(path: &Path, choice: &ImportChoice) -> Result<New, String> {
     let import = Import {
         height_mm: Some(choice.height_mm),
@@ -379,7 +402,7 @@ fn read_outline(path: &Path, choice: &ImportChoice) -> Result<New, String> {
         ..Import::default()
     };
     let bytes = outline::read_file(path).map_err(|e| e.to_string())?;
-    let mut imported = outline::import(&bytes, &import).map_err(|e| e.to_string())?;
+    let mut imported = outline::import(&bytes, &import).map_err(in_the_window)?;
     let png = match choice.texture {
         true => Some(outline::texture(&bytes, &import, &imported).map_err(|e| e.to_string())?),
         false => None,

@@ -1,5 +1,6 @@
 //! Work that takes too long for a frame, each on a thread that reports back once.
 
+use super::files::ImportChoice;
 use super::keeping::Kept;
 use crate::design::reshape::Body;
 use crate::design::{Design, FiberSet};
@@ -32,7 +33,7 @@ pub enum Report {
         texture: Result<Arc<Texture>, String>,
     },
     /// With what was changed to get a clean outline.
-    Imported(Result<Box<New>, String>),
+    Imported(Result<Box<New>, Box<Refused>>),
     Exported {
         folder: PathBuf,
         result: Result<(), String>,
@@ -50,6 +51,13 @@ pub struct New {
     pub changes: Changes,
     /// Its picture, where that is its texture.
     pub texture: Option<Kept>,
+}
+
+/// An outline that makes no design, as it was asked for.
+pub struct Refused {
+    pub path: PathBuf,
+    pub choice: ImportChoice,
+    pub why: String,
 }
 
 /// What was meshed.

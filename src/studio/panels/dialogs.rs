@@ -64,6 +64,8 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, actions: &mut Actio
         import_settings(ui, &mut edited);
     }
     let path = Path::new(edited.path.trim());
+    let is_known = path.exists() && !path.is_dir();
+    let is_wrong = !is_known && !path.is_dir() && !path.as_os_str().is_empty();
     let note = match dialog.purpose {
         Purpose::Export => {
             "Pattern, routings, winch tracks and controller program. The folder appears whole or not at all."
@@ -71,14 +73,21 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, actions: &mut Actio
         Purpose::SaveAs if path.is_file() && session.path.as_deref() != Some(path) => {
             "This file exists and will be replaced."
         }
+        Purpose::Open | Purpose::Import if is_wrong => "There is no such file.",
         Purpose::Import => "The filled shapes of the drawing are joined to one silhouette.",
         _ => "",
     };
     ui.label(RichText::new(note).small().weak());
+    if let Some(trouble) = &dialog.trouble {
+        ui.label(RichText::new(trouble).color(ui.visuals().error_fg_color));
+    }
     ui.add_space(10.0);
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         let verb = dialog.purpose.verb();
-        let ready = !edited.path.trim().is_empty();
+        let ready = match dialog.purpose {
+            Purpose::Open | Purpose::Import => is_known,
+            Purpose::SaveAs | Purpose::Export => !edited.path.trim().is_empty(),
+        };
         if (primary(ui, ready, verb, 100.0).clicked() || confirmed) && ready {
             actions.push(Action::File(edited.confirm()));
         }
@@ -87,6 +96,7 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, actions: &mut Actio
         }
     });
     if edited != *dialog {
+        edited.trouble = None;
         // Before anything that closes the dialog.
         actions.insert(0, Action::File(FileAction::EditDialog(edited)));
     }
