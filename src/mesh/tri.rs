@@ -36,8 +36,8 @@ pub(super) enum Way {
 }
 
 impl Tri {
-    /// The constrained Delaunay triangulation inside the `rim`, with `tracks` as edges too. `None` where segments cross or
-    /// nodes coincide.
+    /// The constrained Delaunay triangulation inside the `rim`, with `tracks` as edges too. `None` where segments cross,
+    /// nodes coincide or one is at no triangle: a ring that encloses nothing.
     pub fn new(points: Vec<Point>, rim: &[[usize; 2]], tracks: &[[usize; 2]]) -> Option<Self> {
         let corners = triangulate::triangles(&points, rim, tracks)?;
         let mut tri = Self {
@@ -54,6 +54,9 @@ impl Tri {
                 tri.at[c[k]] = t;
                 sides.push((sorted(c[k], c[(k + 1) % 3]), (t, k)));
             }
+        }
+        if tri.at.contains(&NONE) {
+            return None;
         }
         sides.sort_unstable();
         let mut tracks: Vec<[usize; 2]> = tracks.iter().map(|&[a, b]| sorted(a, b)).collect();
@@ -299,4 +302,18 @@ fn orient(a: Point, b: Point, c: Point) -> f64 {
 
 fn in_circle([a, b, c]: [Point; 3], d: Point) -> bool {
     robust::incircle(coord(a), coord(b), coord(c), coord(d)) > 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_node_outside_the_rim_is_refused() {
+        let mut points = vec![[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]];
+        let rim = [[0, 1], [1, 2], [2, 3], [3, 0]];
+        assert_eq!(Tri::new(points.clone(), &rim, &[]).unwrap().corners.len(), 2);
+        points.push([6.0, 2.0]);
+        assert!(Tri::new(points, &rim, &[]).is_none());
+    }
 }
