@@ -381,6 +381,11 @@ fn what_goes_wrong_is_said_and_can_be_dismissed() {
     click(&mut window, "Discard changes");
     window.get_by_label("Path").type_text("does-not-exist.plush");
     settle(&mut window);
+    assert!(window.query_by_label("There is no such file.").is_some());
+    let folder = tempfile::tempdir().unwrap();
+    let broken = folder.path().join("broken.plush");
+    std::fs::write(&broken, "not a plushie").unwrap();
+    type_path(&mut window, &broken);
     click(&mut window, "Open");
     assert!(session(&window).messages().list().iter().any(|m| m.level == Level::Error));
 }
