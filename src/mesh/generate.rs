@@ -62,8 +62,7 @@ pub struct Meshed {
 ///
 /// # Errors
 /// [`MeshError::Unreachable`] names the least count found possible where the outline needs more edges than asked for;
-/// [`MeshError::TooFine`] where there is none, [`MeshError::TooIntricate`] where none was found within a bound on work;
-/// [`MeshError::IntricateTracks`] instead of both where there is one without the tracks.
+/// [`MeshError::TooFine`] where there is none, [`MeshError::TooIntricate`] where none was found within a bound on work.
 pub fn generate(outline: &Outline, fibers: usize) -> Result<Mesh, MeshError> {
     build(outline, &Request::fibers(fibers)).map(|meshed| meshed.mesh)
 }
@@ -71,7 +70,8 @@ pub fn generate(outline: &Outline, fibers: usize) -> Result<Mesh, MeshError> {
 /// The mesh that is asked for. See [`generate()`].
 ///
 /// # Errors
-/// As [`generate()`]; a size in mm that is too coarse for the outline gives the coarsest mesh there is instead.
+/// As [`build_or_finer`], and [`MeshError::Unreachable`] for a count that the outline does not allow; a size in mm that is too
+/// coarse for it gives the coarsest mesh there is instead.
 pub fn build(outline: &Outline, request: &Request) -> Result<Meshed, MeshError> {
     match (request.size, build_or_finer(outline, request)?) {
         (Size::Fibers(asked), (_, nearest)) if nearest != asked => Err(MeshError::Unreachable { asked, nearest }),
@@ -83,7 +83,8 @@ pub fn build(outline: &Outline, request: &Request) -> Result<Meshed, MeshError> 
 /// and the number of fibres that it was made for.
 ///
 /// # Errors
-/// As [`generate()`], but [`MeshError::Unreachable`] only for more than [`MAX_FIBERS`].
+/// As [`generate()`], but [`MeshError::Unreachable`] only for more than [`MAX_FIBERS`]. [`MeshError::BadTrack`] for one that is not
+/// finite, [`MeshError::IntricateTracks`] where there is a mesh only without the tracks.
 pub fn build_or_finer(outline: &Outline, request: &Request) -> Result<(Meshed, usize), MeshError> {
     check(outline)?;
     if !request.tracks.iter().flatten().flatten().all(|v| v.is_finite()) {

@@ -37,7 +37,7 @@ pub(super) enum Way {
 
 impl Tri {
     /// The constrained Delaunay triangulation inside the `rim`, with `tracks` as edges too. `None` where segments cross,
-    /// nodes coincide or one is at no triangle: a ring that encloses nothing.
+    /// nodes coincide or one is at no triangle, which none of the walks here could leave.
     pub fn new(points: Vec<Point>, rim: &[[usize; 2]], tracks: &[[usize; 2]]) -> Option<Self> {
         let corners = triangulate::triangles(&points, rim, tracks)?;
         let mut tri = Self {

@@ -31,7 +31,7 @@ const LEAST_TRIES: usize = 1;
 const MOST_TRIES: usize = 54;
 /// Edges that smoothing and measuring a mesh weigh, for each that it has.
 const SMOOTHING: usize = 3;
-/// How much of that nodes sliding along the boundary may add.
+/// Times the area that the closeness allows to be lost or won: what nodes sliding along the boundary may add to it.
 const AREA_SLACK: f64 = 1.04;
 /// How far the number of edges may be from the asked one where no mesh has it exactly.
 const COUNT_FRACTION: f64 = 0.03;

@@ -7,7 +7,7 @@ use std::cell::OnceCell;
 
 /// A mesh without bridges and with no angle below this is taken at once, degrees.
 const FINE_DEG: f64 = 30.5;
-/// How near, as a part of the height, the boundary must be to an outline without such features.
+/// How near, as a part of the height, the boundary must be to an outline that is to be followed closely.
 const CLOSE: f64 = 0.005;
 /// How near its area must be, as a part.
 const CLOSE_AREA: f64 = 0.01;

@@ -29,7 +29,7 @@ const LEAST_SHARE: f64 = 0.4;
 /// Farthest that a chord may stray from the outline, as fractions of its height, tried in turn: with few fibres fine features
 /// are rounded off rather than refused.
 const STRAYS: [f64; 4] = [0.0047, 0.008, 0.016, 0.03];
-/// Limbs and gaps thinner than this part of the height are such features.
+/// Limbs and gaps thinner than this part of the height are fine features.
 const FINE: f64 = 0.03;
 /// Fibres from which following the outline goes before limbs that are two triangles across.
 const CLOSE_FROM: usize = 400;
