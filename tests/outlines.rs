@@ -1,6 +1,6 @@
 //! The six bundled outlines: one piece, the stated size, and meshes fit for posing at their number of fibres.
 
-use plushwright::mesh::{self, quality::Quality};
+use plushwright::mesh::{self, MeshError, quality::Quality};
 use plushwright::outline::{Import, Pieces, import, svg};
 
 #[test]
@@ -32,6 +32,17 @@ fn the_bundled_outlines_mesh_well() {
         let tall = svg::read(&drawing, Some(100.0)).unwrap();
         assert!((tall.bounding_box().1[1] - 100.0).abs() < 1e-9);
     }
+}
+
+/// Where no mesh with the asked number of fibres or more is found, the refusal names one that is.
+#[test]
+fn a_refusal_names_a_count_below_the_asked_one() {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/outlines/lizard.svg");
+    let outline = svg::read(&std::fs::read(file).unwrap(), None).unwrap();
+    let Err(MeshError::Unreachable { asked: 20_000, nearest }) = mesh::generate(&outline, 20_000) else { panic!() };
+    assert!(nearest < 20_000);
+    let mesh = mesh::generate(&outline, nearest).unwrap();
+    assert_eq!((mesh.edges().len(), mesh.validate()), (nearest, Ok(())));
 }
 
 /// Small files of every format, with something of each construct.

@@ -83,8 +83,9 @@ pub fn build(outline: &Outline, request: &Request) -> Result<Meshed, MeshError> 
 /// and the number of fibres that it was made for.
 ///
 /// # Errors
-/// As [`generate()`], but [`MeshError::Unreachable`] only for more than [`MAX_FIBERS`]. [`MeshError::BadTrack`] for one that is not
-/// finite, [`MeshError::IntricateTracks`] where there is a mesh only without the tracks.
+/// As [`generate()`], but [`MeshError::Unreachable`] only for more than [`MAX_FIBERS`], or where there is only a mesh with fewer.
+/// [`MeshError::BadTrack`] for one that is not finite, [`MeshError::IntricateTracks`] where there is a mesh only without the
+/// tracks.
 pub fn build_or_finer(outline: &Outline, request: &Request) -> Result<(Meshed, usize), MeshError> {
     check(outline)?;
     if !request.tracks.iter().flatten().flatten().all(|v| v.is_finite()) {
@@ -128,6 +129,14 @@ pub fn build_or_finer(outline: &Outline, request: &Request) -> Result<(Meshed, u
         if let Some(found) = finer(&whole, fibers, at) {
             return Ok(found);
         }
+    }
+    // Features that no mesh with so many fibres may round off, one with few fibres does.
+    if let Some((meshed, count)) = finer(&whole, 0, at) {
+        return if count > fibers {
+            Ok((meshed, count))
+        } else {
+            Err(MeshError::Unreachable { asked: fibers, nearest: count })
+        };
     }
     Err(refusal(outline, request, whole.has_given_up()))
 }
