@@ -9,7 +9,6 @@ use crate::bench::{
     BenchError, Quality, Report, Session, cold, drag, extremes, import, linear, properties, resolution, scene, shapes,
     trade, wander,
 };
-use crate::defaults;
 use clap::{Args, Subcommand, ValueEnum};
 use std::cell::Cell;
 use std::io::{IsTerminal, Write};
@@ -252,7 +251,7 @@ impl Study {
                 scene::Scene { shapes: common.shapes(&["pig"]), frames: *frames }.run(session)
             }
             Self::Import { dir, fibers, limit, reading, .. } => {
-                let import = reading.import(Some(reading.height.unwrap_or(defaults::HEIGHT_MM)));
+                let import = reading.import();
                 let fibers = fibers.iter().copied().filter(|count| *count > 0).collect();
                 import::Imports { folder: dir.clone(), import, fibers, limit: limit.unwrap_or(0) }.run(session)
             }

@@ -115,10 +115,10 @@ pub enum BackgroundChoice {
 }
 
 impl Reading {
-    /// The same for the reader, with this height.
-    pub fn import(&self, height_mm: Option<f64>) -> Import {
+    /// The same for the reader.
+    pub fn import(&self) -> Import {
         Import {
-            height_mm,
+            height_mm: self.height,
             pieces: match self.pieces {
                 PiecesChoice::Refuse => Pieces::Refuse,
                 PiecesChoice::Largest => Pieces::Largest,
@@ -156,7 +156,7 @@ struct Summary<'a> {
 
 impl New {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
-        let import = self.reading.import(self.reading.height);
+        let import = self.reading.import();
         let refuse = |reason: String| CommandError::input(&self.outline, reason);
         let unread = |error: OutlineError| refuse(error.to_string());
         let file = outline::read_file(&self.outline).map_err(unread)?;

@@ -55,7 +55,7 @@ struct Summary<'a> {
 impl Reshape {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
         let mut history = History::new(document::load(&self.design)?);
-        let import = self.reading.import(self.reading.height);
+        let import = self.reading.import();
         let refuse = |reason: String| CommandError::input(&self.outline, reason);
         let mut imported = outline::import_file(&self.outline, &import).map_err(|e| refuse(e.to_string()))?;
         // Where a height is asked for the drawing's own coordinates do not count.
