@@ -980,7 +980,7 @@ fn a_refused_import_can_be_asked_for_anew() {
     click(&mut window, "Create");
     wait(&mut window, |s| !s.is_working());
     settle(&mut window);
-    assert!(window.query_by_label_contains("2 separate pieces").is_some());
+    assert!(window.query_by_label_contains("The silhouette is in 2 separate pieces").is_some());
     click(&mut window, "Largest piece only");
     assert!(window.query_by_label_contains("2 separate pieces").is_none());
     click(&mut window, "Create");

@@ -79,7 +79,7 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, actions: &mut Actio
     };
     ui.label(RichText::new(note).small().weak());
     if let Some(trouble) = &dialog.trouble {
-        ui.label(RichText::new(trouble).color(ui.visuals().error_fg_color));
+        ui.label(RichText::new(sentence(trouble)).color(ui.visuals().error_fg_color));
     }
     ui.add_space(10.0);
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -127,4 +127,10 @@ fn import_settings(ui: &mut Ui, edited: &mut PathDialog) {
         let tip = "Of an SVG or DXF drawing: the names of those that count, between commas";
         ui.add(field).labelled_by(label.id).on_hover_text(tip);
     });
+}
+
+/// An error as a sentence of its own.
+fn sentence(error: &str) -> String {
+    let mut letters = error.chars();
+    letters.next().map_or_else(String::new, |first| format!("{}{}.", first.to_uppercase(), letters.as_str()))
 }
