@@ -13,7 +13,7 @@ const POOR: f64 = 0.2;
 /// A step is excellent where `O` fell by what its model promised, to this part.
 const EXCELLENT: f64 = 0.2;
 /// Divisors of `nu` after an excellent and a good step, factors after a poor one and after one that made things worse.
-const EXCELLENT_DECAY: f64 = 8.0;
+const EXCELLENT_DECAY: f64 = 5.0;
 const PROXIMAL_DECAY: f64 = 2.0;
 const PROXIMAL_GROWTH: f64 = 2.0;
 /// A step is timid where `O` fell by more than this times what its model promised, with nothing left to hold it back: a
@@ -28,11 +28,11 @@ const LEAST_STEADINESS: f64 = 1e-3;
 const PATIENCE: usize = 6;
 /// A state is kept as the best where its Newton step towards equilibrium is at most this part of the body: farther away,
 /// another equilibrium may be nearer than the one expected.
-const VERIFIED: f64 = 8e-3;
+const VERIFIED: f64 = 1e-2;
 /// `O` at an equilibrium is told from a state whose Newton step towards it is at most this part of the body.
-const WITHIN_SIGHT: f64 = 0.02;
+const WITHIN_SIGHT: f64 = 0.017;
 /// To this it shrinks, by halves, where iterations end far from equilibrium.
-const SHORTEST_STEP: f64 = 0.05;
+const SHORTEST_STEP: f64 = 0.03;
 /// Residual, as a part of the forces at work, up to which `O` of a state is taken for that of the equilibrium nearby.
 const NEAR_EQUILIBRIUM: f64 = 1e-2;
 

@@ -30,7 +30,7 @@ const UNBALANCED: usize = 5;
 /// Longest step of a node in one iteration, as a part of the body: beyond it the linearised lengths mean nothing.
 const LONGEST_STEP: f64 = 0.2;
 /// First limit on the pull of a single target, as a part of the body; it doubles until it limits nothing.
-const FIRST_PULL: f64 = 0.3;
+const FIRST_PULL: f64 = 0.7;
 
 /// What an iteration did.
 pub(in crate::soft_ik) struct Progress {

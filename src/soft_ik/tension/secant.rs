@@ -10,7 +10,7 @@
 use super::dual::{axpy, dot};
 
 /// Least cosine of the angle between `s` and `w`: below it `z` would be long and say little about `S`.
-const LEAST_COSINE: f64 = 0.1;
+const LEAST_COSINE: f64 = 0.03;
 
 /// What the last step has shown of the curvature.
 pub(super) struct Secant {
