@@ -1,4 +1,4 @@
-//! The six bundled outlines: one piece, the stated size, and meshes fit for posing at their number of fibres.
+//! Outlines of real files: the six bundled ones with meshes fit for posing, one that few counts can mesh, and mutations of all formats.
 
 use plushwright::mesh::{self, MeshError, quality::Quality};
 use plushwright::outline::{Import, Pieces, import, svg};

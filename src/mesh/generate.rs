@@ -61,7 +61,8 @@ pub struct Meshed {
 /// outline gives a symmetric mesh. The same outline gives the same bits. About n log n in the number of fibres.
 ///
 /// # Errors
-/// [`MeshError::Unreachable`] names the least count found possible where the outline needs more edges than asked for;
+/// [`MeshError::Unreachable`] names the least count found possible where the outline needs more edges than asked for, or the
+/// one below it that has a mesh where none above was found;
 /// [`MeshError::TooFine`] where there is none, [`MeshError::TooIntricate`] where none was found within a bound on work.
 pub fn generate(outline: &Outline, fibers: usize) -> Result<Mesh, MeshError> {
     build(outline, &Request::fibers(fibers)).map(|meshed| meshed.mesh)
