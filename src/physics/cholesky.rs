@@ -1,4 +1,4 @@
-//! Sparse Cholesky factorisation, the only file that names faer.
+//! Sparse Cholesky factorisation. Only this file and [`super::indefinite`] name faer.
 //!
 //! Symbolic analysis (approximate minimum degree on the fixed pattern) once per topology; numeric factorisation and
 //! solves without allocation afterwards. Sequential, so that the same input gives the same bits.
@@ -75,38 +75,7 @@ impl Cholesky {
     /// Symbolic analysis; `None` only if the factor would not fit into memory. Panics where an order of nodes is not a
     /// permutation (a caller's mistake).
     pub fn with(pattern: &Pattern, variant: &Variant) -> Option<Self> {
-        let n = pattern.dimension();
-        let structure =
-            SymbolicSparseColMatRef::new_checked(n, n, pattern.column_starts(), None, pattern.row_indices());
-        let nodes = match &variant.ordering {
-            Ordering::NodeMinimumDegree => Some(node_minimum_degree(pattern)?),
-            Ordering::Nodes(order) => Some(order.clone()),
-            // Not the library's identity: that one expects the upper triangle.
-            Ordering::Natural => Some((0..n / 2).collect()),
-            Ordering::MinimumDegree => None,
-        };
-        // Both unknowns of a node one after the other.
-        let forward: Vec<usize> = nodes.iter().flatten().flat_map(|i| [2 * i, 2 * i + 1]).collect();
-        let mut inverse = vec![0; forward.len()];
-        for (k, &i) in forward.iter().enumerate() {
-            inverse[i] = k;
-        }
-        let ordering = match variant.ordering {
-            Ordering::MinimumDegree => SymmetricOrdering::Amd,
-            _ => SymmetricOrdering::Custom(PermRef::new_checked(&forward, &inverse, n)),
-        };
-        let mut parameters = CholeskySymbolicParams::default();
-        match variant.kernel {
-            Kernel::Automatic => {}
-            Kernel::Simplicial => parameters.supernodal_flop_ratio_threshold = SupernodalThreshold::FORCE_SIMPLICIAL,
-            Kernel::Supernodal(relax) => {
-                parameters.supernodal_flop_ratio_threshold = SupernodalThreshold::FORCE_SUPERNODAL;
-                if !relax.is_empty() {
-                    parameters.supernodal_params = SymbolicSupernodalParams { relax: Some(relax) };
-                }
-            }
-        }
-        let symbolic = factorize_symbolic_cholesky(structure, Side::Lower, ordering, parameters).ok()?;
+        let symbolic = analyse(pattern, variant)?;
         let factor = vec![0.0; symbolic.len_val()];
         let mut this = Self { symbolic, factor, memory: MemBuffer::new(Default::default()), columns: 0, valid: false };
         this.reserve(1);
@@ -178,6 +147,42 @@ impl Cholesky {
             self.columns = columns;
         }
     }
+}
+
+/// The structure of the factor in this variant; `None` where it would not fit into memory.
+pub(super) fn analyse(pattern: &Pattern, variant: &Variant) -> Option<SymbolicCholesky<usize>> {
+    let n = pattern.dimension();
+    let structure =
+        SymbolicSparseColMatRef::new_checked(n, n, pattern.column_starts(), None, pattern.row_indices());
+    let nodes = match &variant.ordering {
+        Ordering::NodeMinimumDegree => Some(node_minimum_degree(pattern)?),
+        Ordering::Nodes(order) => Some(order.clone()),
+        // Not the library's identity: that one expects the upper triangle.
+        Ordering::Natural => Some((0..n / 2).collect()),
+        Ordering::MinimumDegree => None,
+    };
+    // Both unknowns of a node one after the other.
+    let forward: Vec<usize> = nodes.iter().flatten().flat_map(|i| [2 * i, 2 * i + 1]).collect();
+    let mut inverse = vec![0; forward.len()];
+    for (k, &i) in forward.iter().enumerate() {
+        inverse[i] = k;
+    }
+    let ordering = match variant.ordering {
+        Ordering::MinimumDegree => SymmetricOrdering::Amd,
+        _ => SymmetricOrdering::Custom(PermRef::new_checked(&forward, &inverse, n)),
+    };
+    let mut parameters = CholeskySymbolicParams::default();
+    match variant.kernel {
+        Kernel::Automatic => {}
+        Kernel::Simplicial => parameters.supernodal_flop_ratio_threshold = SupernodalThreshold::FORCE_SIMPLICIAL,
+        Kernel::Supernodal(relax) => {
+            parameters.supernodal_flop_ratio_threshold = SupernodalThreshold::FORCE_SUPERNODAL;
+            if !relax.is_empty() {
+                parameters.supernodal_params = SymbolicSupernodalParams { relax: Some(relax) };
+            }
+        }
+    }
+    factorize_symbolic_cholesky(structure, Side::Lower, ordering, parameters).ok()
 }
 
 /// Approximate minimum degree on the graph of the nodes: the order of elimination.

@@ -22,6 +22,7 @@ pub mod contractile;
 pub mod double;
 pub mod energy;
 pub mod gravity;
+pub mod indefinite;
 pub mod material;
 pub mod model;
 pub mod neo_hookean;

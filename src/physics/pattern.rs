@@ -113,6 +113,15 @@ impl Pattern {
         self.column_starts[d]
     }
 
+    /// Index of the value at (`row`, `column`) or its mirror, whichever is stored. Panics if the pattern has none (a caller's
+    /// mistake).
+    pub fn entry(&self, row: usize, column: usize) -> usize {
+        let (row, column) = (row.max(column), row.min(column));
+        let start = self.column_starts[column];
+        let rows = &self.row_indices[start..self.column_starts[column + 1]];
+        start + rows.binary_search(&row).expect("entry is part of the pattern")
+    }
+
     fn slot(&self, i: usize, j: usize) -> Slot {
         let (row, column) = (i.max(j), i.min(j));
         let range = self.block_start[column]..self.block_start[column + 1];

@@ -43,15 +43,11 @@ impl Method for Default {
         let count = question.actuation.winches.len();
         let mut best = Answer { posture: start.clone(), iterations: 0, factorizations: 0, converged: false };
         if question.actuation.is_fibers_only() && count > COMBINED_STARTS {
+            if own_objective {
+                return super::fibers::solve(question, start, budget);
+            }
             absorb(&mut best, AllAtOnce::default().solve(question, start, budget));
-            if !own_objective || count > DENSE_LIMIT {
-                return best;
-            }
-            let from = best.posture.clone();
-            absorb(&mut best, GaussNewton::default().solve(question, &from, budget));
-            if (budget.stop)() {
-                return best;
-            }
+            return best;
         }
         let explore = GaussNewton { relative_decrease: EXPLORING_DECREASE };
         let exploring = Budget { iterations: budget.iterations.min(EXPLORING_ITERATIONS), stop: budget.stop };

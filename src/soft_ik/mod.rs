@@ -19,7 +19,9 @@
 pub mod actuation;
 pub mod contraction;
 pub mod default_method;
+mod fibers;
 pub mod gradient;
+pub mod newton;
 pub mod objective;
 mod quadratic;
 pub mod sensitivity;
@@ -125,6 +127,7 @@ pub fn method(name: &str) -> Option<Box<dyn Method>> {
     match name {
         "gradient" => Some(Box::new(gradient::Gradient::default())),
         "contraction" => Some(Box::new(contraction::GaussNewton::default())),
+        "newton" => Some(Box::new(newton::Newton::default())),
         "tension" => Some(Box::new(tension::AllAtOnce::default())),
         "default" => Some(Box::new(default_method::Default)),
         _ => None,
@@ -132,4 +135,4 @@ pub fn method(name: &str) -> Option<Box<dyn Method>> {
 }
 
 /// The names that [`method`] knows.
-pub const METHODS: [&str; 4] = ["default", "gradient", "contraction", "tension"];
+pub const METHODS: [&str; 5] = ["default", "gradient", "contraction", "newton", "tension"];

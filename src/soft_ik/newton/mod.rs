@@ -1,0 +1,350 @@
+//! Newton's method in the contractions: the question's own `O`, with true bounds, for any number of fibres.
+//!
+//! Each iteration linearises the equilibrium at `(x, beta)` ([`saddle`]), minimises the quadratic model of `O` within the bounds
+//! ([`quadratic`]), and settles the body at the activations that it names; `O` never rises. Where the exact reduced Hessian is not
+//! positive definite, Gauss-Newton takes its place. Damping (Levenberg, Marquardt) follows the gain ratio.
+//!
+//! It is a local method: what it finds depends on where it starts ([`super::fibers`]). An element that is slack feels
+//! nothing but the regulariser.
+
+mod quadratic;
+mod rows;
+mod saddle;
+
+use super::{Answer, Budget, Method, Posture, Question};
+use crate::physics::HessianForm;
+use saddle::{Form, Local, Saddle, Step};
+
+/// Descends to a point where the projected gradient of `O` vanishes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Newton {
+    /// Ends where iterations gain less than this part of `O`, each, `PATIENCE` times in a row; 0: only where converged.
+    pub relative_decrease: f64,
+}
+
+impl Default for Newton {
+    fn default() -> Self {
+        Self { relative_decrease: 0.0 }
+    }
+}
+
+/// Iterations of little gain after which a search is given up.
+const PATIENCE: usize = 3;
+/// Converged where `|P_j| a_j <= TOLERANCE O` for every winch: `P` the projected gradient, `a_j` the length of [`rows::lengths`].
+pub const TOLERANCE: f64 = 1e-5;
+/// `O` below this part of that at rest counts as zero: targets are reached to seven digits.
+const NOTHING: f64 = 1e-14;
+/// Damping in units of a winch's own curvature: the first one, the least (below it counts as none), the largest.
+const FIRST_DAMPING: f64 = 1.0;
+const LEAST_DAMPING: f64 = 1e-6;
+const LARGEST_DAMPING: f64 = 1e16;
+/// A winch's own curvature counts as at least this part of all targets' weights: without a regulariser it has none.
+const LEAST_CURVATURE: f64 = 1e-7;
+/// Longest step of a node, as a part of the body, and of a winch, as a part of its length.
+const LONGEST_MOVE: f64 = 0.3;
+const LONGEST_PULL: f64 = 0.5;
+/// Gain ratios: a step is taken above the first; damping falls above the second, and grows below the third.
+const TAKEN: f64 = 1e-4;
+const GOOD: f64 = 0.75;
+const POOR: f64 = 0.25;
+/// Iterations with Gauss-Newton after the exact Hessian was not convex.
+const CONVEX_AFTER: usize = 2;
+const NO_PROMISE: f64 = 1e-15;
+const EXTENSION: f64 = 3.0;
+const MOST_RAISED: usize = 6;
+/// Step of the difference quotient of `H` along `p`, as a part of the body: error 1e-8, rounding 1e-12.
+const DIFFERENCE: f64 = 1e-5;
+
+impl Method for Newton {
+    fn name(&self) -> &'static str {
+        "newton"
+    }
+
+    fn solve(&self, question: &mut Question, start: &Posture, budget: &Budget) -> Answer {
+        let mut answer = Answer { posture: start.clone(), iterations: 0, factorizations: 0, converged: false };
+        if question.actuation.winches.is_empty() {
+            answer.converged = true;
+            return answer;
+        }
+        if let Some(mut search) = Search::new(question) {
+            search.run(question, self.relative_decrease, budget, &mut answer);
+        }
+        let contractions = question.actuation.contractions(&answer.posture.beta);
+        question.model.contractile.set_contractions(&contractions);
+        answer
+    }
+}
+
+/// The largest `|P_j| a_j` at activations `beta`, and the largest `|P_j|`.
+pub fn projected_gradient(question: &Question, beta: &[f64], gradient: &[f64]) -> [f64; 2] {
+    let lengths = rows::lengths(question.actuation, &question.model.contractile.elements);
+    let mut largest = [0.0_f64; 2];
+    for (j, winch) in question.actuation.winches.iter().enumerate() {
+        let g = gradient[j];
+        let outward = beta[j] <= winch.lower && g > 0.0 || beta[j] >= winch.upper && g < 0.0;
+        if !outward {
+            largest[0] = largest[0].max(g.abs() * lengths[j]);
+            largest[1] = largest[1].max(g.abs());
+        }
+    }
+    largest
+}
+
+/// Whether a projected gradient (the first of [`projected_gradient`]) is small enough at an objective.
+pub fn is_small(question: &Question, projected: f64, objective: f64) -> bool {
+    projected <= TOLERANCE * objective || objective <= NOTHING * at_rest(question)
+}
+
+fn at_rest(question: &Question) -> f64 {
+    question.objective.position_value(&question.model.rest)
+}
+
+/// Structure and buffers of a search, and what it has learnt.
+struct Search {
+    saddle: Saddle,
+    local: Local,
+    size: f64,
+    lengths: Vec<f64>,
+    damping: f64,
+    /// Iterations for which Gauss-Newton is used without a try of the exact Hessian.
+    convex: usize,
+}
+
+impl Search {
+    fn new(question: &Question) -> Option<Self> {
+        Some(Self {
+            saddle: Saddle::new(question)?,
+            local: Local::default(),
+            size: super::tension::extent(&question.model.rest),
+            lengths: rows::lengths(question.actuation, &question.model.contractile.elements),
+            damping: FIRST_DAMPING,
+            convex: 0,
+        })
+    }
+
+    fn run(&mut self, question: &mut Question, relative_decrease: f64, budget: &Budget, answer: &mut Answer) {
+        let trace = std::env::var("TRACE").is_ok();
+        let mut idle = 0;
+        while answer.iterations < budget.iterations && !(budget.stop)() {
+            answer.iterations += 1;
+            if !self.linearise(question, &answer.posture, &mut answer.factorizations) {
+                return;
+            }
+            let posture = &answer.posture;
+            let [projected, _] = projected_gradient(question, &posture.beta, &self.local.gradient);
+            if is_small(question, projected, posture.objective) {
+                answer.converged = true;
+                return;
+            }
+            let before = posture.objective;
+            if !self.improve(question, budget, answer, trace) {
+                return;
+            }
+            let gain = before - answer.posture.objective;
+            if trace {
+                eprintln!(
+                    "{} O {:.6e} gain {:.1e} pg {:.1e} damping {:.1e} fac {}",
+                    answer.iterations,
+                    answer.posture.objective,
+                    gain / before,
+                    projected / before,
+                    self.damping,
+                    answer.factorizations
+                );
+            }
+            idle = if gain < relative_decrease * before { idle + 1 } else { 0 };
+            if idle >= PATIENCE {
+                return;
+            }
+        }
+    }
+
+    /// Takes one step that lowers `O`; whether there was one.
+    fn improve(&mut self, question: &mut Question, budget: &Budget, answer: &mut Answer, trace: bool) -> bool {
+        let unit = self.units(question);
+        let mut form = if self.convex > 0 { Form::GaussNewton } else { Form::Exact };
+        self.convex = self.convex.saturating_sub(1);
+        self.saddle.assemble(question, &self.local, form);
+        let (first, mut raised) = (self.damping, 0);
+        while self.damping <= LARGEST_DAMPING && !(budget.stop)() {
+            let factor = if self.damping <= LEAST_DAMPING { 0.0 } else { self.damping };
+            let damping: Vec<f64> = unit.iter().map(|u| factor * u).collect();
+            let within = quadratic::minimise(
+                &mut self.saddle,
+                question,
+                &self.local,
+                form,
+                &damping,
+                &answer.posture.beta,
+                &self.lengths,
+                &mut answer.factorizations,
+            );
+            let Ok(step) = within else {
+                if trace { eprintln!("   {form:?} not convex at {:.1e}", self.damping); }
+                if form == Form::Exact && raised >= MOST_RAISED {
+                    form = Form::GaussNewton;
+                    self.convex = CONVEX_AFTER;
+                    self.damping = first;
+                    self.saddle.assemble(question, &self.local, form);
+                } else if form == Form::Exact {
+                    raised += 1;
+                    self.damping = (4.0 * self.damping).max(LEAST_DAMPING);
+                } else {
+                    self.damping = (8.0 * self.damping).max(LEAST_DAMPING);
+                }
+                continue;
+            };
+            let posture = &answer.posture;
+            let t = self.longest(&step);
+            let promised = -(t * step.slope + t * t * step.curvature);
+            if promised <= NO_PROMISE * posture.objective {
+                // The bounds leave nothing of a step this long.
+                self.damping = (8.0 * self.damping).max(LEAST_DAMPING);
+                continue;
+            }
+            let beta: Vec<f64> = {
+                let mut beta: Vec<f64> = posture.beta.iter().zip(&step.beta).map(|(b, d)| b + t * d).collect();
+                question.actuation.clamp(&mut beta);
+                beta
+            };
+            let guess = predicted(question, &posture.x, &step.x, t);
+            let (trial, factorizations) = question.settle(&beta, &guess, budget.stop);
+            answer.factorizations += factorizations;
+            let gain = posture.objective - trial.objective;
+            let ratio = gain / promised;
+            if trace {
+                eprintln!("   {form:?} t {t:.2e} promised {:.2e} ratio {ratio:.3} statics {factorizations}", promised / posture.objective);
+            }
+            let taken = trial.in_equilibrium() && promised > 0.0 && ratio > TAKEN;
+            if ratio > GOOD && t == 1.0 {
+                self.damping = (self.damping * 0.1).max(LEAST_DAMPING);
+            } else if !taken {
+                self.damping = (self.damping * 8.0).max(LEAST_DAMPING * 10.0);
+            } else if ratio < POOR {
+                self.damping *= 2.0;
+            }
+            if taken {
+                let before = posture.clone();
+                answer.posture = trial;
+                if raised > 0 && ratio > GOOD && t == 1.0 {
+                    self.extend(question, budget, &before, &step, answer, trace);
+                }
+                return true;
+            }
+            // Statics has left its own factor behind.
+            let contractions = question.actuation.contractions(&posture.beta);
+            question.model.contractile.set_contractions(&contractions);
+            answer.factorizations += 1;
+            if question.model.factorize(&posture.x, HessianForm::Exact).is_err() {
+                return false;
+            }
+        }
+        false
+    }
+
+    /// Goes on along a step that the damping alone has kept short, while that lowers `O`.
+    fn extend(
+        &mut self,
+        question: &mut Question,
+        budget: &Budget,
+        from: &Posture,
+        step: &Step,
+        answer: &mut Answer,
+        trace: bool,
+    ) {
+        let most = self.longest_factor(step);
+        let mut t = 1.0;
+        while t < most && !(budget.stop)() {
+            t = (EXTENSION * t).min(most);
+            let mut beta: Vec<f64> = from.beta.iter().zip(&step.beta).map(|(b, d)| b + t * d).collect();
+            question.actuation.clamp(&mut beta);
+            let guess = predicted(question, &from.x, &step.x, t);
+            let (trial, factorizations) = question.settle(&beta, &guess, budget.stop);
+            answer.factorizations += factorizations;
+            if trace {
+                eprintln!("      extended {t:.1} gain {:.2e} statics {factorizations}", (answer.posture.objective - trial.objective) / from.objective);
+            }
+            if !trial.in_equilibrium() || trial.objective >= answer.posture.objective {
+                break;
+            }
+            answer.posture = trial;
+        }
+    }
+
+    /// The curvature that each winch has of its own, by which it is damped.
+    fn units(&self, question: &Question) -> Vec<f64> {
+        let weights: f64 = question.objective.targets.iter().map(|t| t.weight).sum();
+        let least = LEAST_CURVATURE * weights.max(f64::MIN_POSITIVE);
+        self.local.rows.explicit.iter().map(|own| own.max(least)).collect()
+    }
+
+    /// The part of a step that is not too long.
+    fn longest(&self, step: &Step) -> f64 {
+        self.longest_factor(step).min(1.0)
+    }
+
+    fn longest_factor(&self, step: &Step) -> f64 {
+        let moved = step.x.iter().fold(0.0_f64, |m, d| m.max(d.abs())) / (LONGEST_MOVE * self.size);
+        let pulled = step.beta.iter().zip(&self.lengths).map(|(d, l)| d.abs() / (LONGEST_PULL * l)).fold(0.0, f64::max);
+        1.0 / moved.max(pulled).max(f64::MIN_POSITIVE)
+    }
+
+    /// Everything at the posture that a step needs; `false` where its equilibrium is not stable.
+    fn linearise(&mut self, question: &mut Question, at: &Posture, factorizations: &mut usize) -> bool {
+        let contractions = question.actuation.contractions(&at.beta);
+        question.model.contractile.set_contractions(&contractions);
+        *factorizations += 1;
+        if question.model.factorize(&at.x, HessianForm::Exact).is_err() {
+            return false;
+        }
+        self.local.hessian.clear();
+        self.local.hessian.extend_from_slice(question.model.hessian_values());
+        let mut p = vec![0.0; at.x.len()];
+        question.objective.position_gradient(&at.x, &mut p);
+        question.model.solve(&mut p);
+        self.local.rows.update(&self.saddle.stencils, question, &at.x, &contractions, &p);
+        self.gradient(question, &contractions, &p);
+        self.bend(question, &at.x, &p);
+        true
+    }
+
+    /// `dO/dbeta_j = lambda sum r alpha_c/alpha_0^2 - force_j . p`.
+    fn gradient(&mut self, question: &Question, contractions: &[f64], p: &[f64]) {
+        let elements = &question.model.contractile.elements;
+        let lambda = question.objective.contraction_weight;
+        let Local { rows, gradient, .. } = &mut self.local;
+        gradient.clear();
+        for (j, winch) in question.actuation.winches.iter().enumerate() {
+            let explicit = |&(e, r): &(usize, f64)| lambda * r * contractions[e] / elements[e].alpha0.powi(2);
+            let pulled = self.saddle.stencils.nodes(j).iter().zip(rows.force[self.saddle.stencils.entries(j)].chunks_exact(2));
+            let pulled: f64 = pulled.map(|(&n, f)| f[0] * p[2 * n] + f[1] * p[2 * n + 1]).sum();
+            gradient.push(winch.members.iter().map(explicit).sum::<f64>() - pulled);
+        }
+    }
+
+    /// `d(H p)/dx` by a central difference of `H` along `p`.
+    fn bend(&mut self, question: &mut Question, x: &[f64], p: &[f64]) {
+        let longest = p.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+        let bend = &mut self.local.bend;
+        bend.clear();
+        bend.resize(self.local.hessian.len(), 0.0);
+        if longest == 0.0 {
+            return;
+        }
+        let h = DIFFERENCE * self.size / longest;
+        for sign in [1.0, -1.0] {
+            let moved: Vec<f64> = x.iter().zip(p).map(|(x, p)| x + sign * h * p).collect();
+            question.model.assemble(&moved, HessianForm::Exact);
+            for (b, v) in bend.iter_mut().zip(question.model.hessian_values()) {
+                *b += sign * v / (2.0 * h);
+            }
+        }
+    }
+}
+
+/// First-order prediction of the positions, as far as no triangle comes near inversion.
+fn predicted(question: &Question, x: &[f64], dx: &[f64], t: f64) -> Vec<f64> {
+    let scaled: Vec<f64> = dx.iter().map(|d| t * d).collect();
+    let limit = question.model.step_limit(x, &scaled);
+    x.iter().zip(&scaled).map(|(x, d)| x + limit * d).collect()
+}

@@ -1,0 +1,167 @@
+//! What each free winch contributes to the optimality conditions: sparse rows over the nodes that its elements pass.
+
+use crate::physics::{Element, Energy};
+use crate::soft_ik::{Actuation, Question};
+
+/// The fixed structure: for every free winch, the distinct nodes of its elements, ascending.
+pub(super) struct Stencils {
+    starts: Vec<usize>,
+    nodes: Vec<usize>,
+}
+
+/// The values at a state. Two numbers a node of the winch's stencil.
+#[derive(Default)]
+pub(super) struct Rows {
+    /// `d2L/dbeta dx`.
+    pub bend: Vec<f64>,
+    /// `d2E/dbeta dx`, the unbalanced force that a change of `beta` makes.
+    pub force: Vec<f64>,
+    /// `d2L/dbeta^2` of the explicit terms alone: `lambda sum (r/alpha_0)^2`.
+    pub explicit: Vec<f64>,
+    /// What the change of the tangent adds to it.
+    pub change: Vec<f64>,
+}
+
+impl Stencils {
+    pub fn new(question: &Question) -> Self {
+        let (mut starts, mut nodes) = (vec![0], Vec::new());
+        for winch in &question.actuation.winches {
+            let first = nodes.len();
+            for &(e, _) in &winch.members {
+                nodes.extend_from_slice(question.model.contractile.stencil(e));
+            }
+            nodes[first..].sort_unstable();
+            let mut kept = first;
+            for k in first..nodes.len() {
+                if k == first || nodes[k] != nodes[kept - 1] {
+                    nodes[kept] = nodes[k];
+                    kept += 1;
+                }
+            }
+            nodes.truncate(kept);
+            starts.push(kept);
+        }
+        Self { starts, nodes }
+    }
+
+    pub fn count(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// The distinct nodes of winch `j`.
+    pub fn nodes(&self, j: usize) -> &[usize] {
+        &self.nodes[self.starts[j]..self.starts[j + 1]]
+    }
+
+    /// Where the entries of winch `j` stand in `Rows`.
+    pub fn entries(&self, j: usize) -> std::ops::Range<usize> {
+        2 * self.starts[j]..2 * self.starts[j + 1]
+    }
+}
+
+impl Rows {
+    /// At `x` with all elements springs at `contractions`; `p = H^-1 dO/dx`.
+    pub fn update(&mut self, stencils: &Stencils, question: &Question, x: &[f64], contractions: &[f64], p: &[f64]) {
+        let length = 2 * stencils.nodes.len();
+        for list in [&mut self.bend, &mut self.force] {
+            list.clear();
+            list.resize(length, 0.0);
+        }
+        self.explicit.clear();
+        self.change.clear();
+        let elements = &question.model.contractile.elements;
+        let lambda = question.objective.contraction_weight;
+        for (j, winch) in question.actuation.winches.iter().enumerate() {
+            let (nodes, entries) = (stencils.nodes(j), stencils.entries(j));
+            let (bend, force) = (&mut self.bend[entries.clone()], &mut self.force[entries]);
+            let (mut explicit, mut change) = (0.0, 0.0);
+            for &(e, ratio) in &winch.members {
+                let element = &elements[e];
+                let gamma = element.length(x) - element.alpha0 + contractions[e];
+                let (tangent, third) = (element.tangent(gamma), third_derivative(element, gamma));
+                let along = element.length_rate(x, p);
+                explicit += lambda * (ratio / element.alpha0).powi(2);
+                change -= ratio * ratio * third * along;
+                if tangent != 0.0 {
+                    add_row(element, nodes, x, p, ratio, [tangent, third * along], force, bend);
+                }
+            }
+            self.explicit.push(explicit);
+            self.change.push(change);
+        }
+    }
+
+    /// `bend . dx + force . dp` of winch `j`, with `z` holding `dx` and `dp` node by node.
+    pub fn product(&self, stencils: &Stencils, j: usize, z: &[f64], exact: bool) -> f64 {
+        let (nodes, entries) = (stencils.nodes(j), stencils.entries(j));
+        let (bend, force) = (&self.bend[entries.clone()], &self.force[entries]);
+        let mut sum = 0.0;
+        for (k, &n) in nodes.iter().enumerate() {
+            let at = 4 * n;
+            sum += force[2 * k] * z[at + 2] + force[2 * k + 1] * z[at + 3];
+            if exact {
+                sum += bend[2 * k] * z[at] + bend[2 * k + 1] * z[at + 1];
+            }
+        }
+        sum
+    }
+
+    /// Adds `factor` times the row of winch `j` to `z`.
+    pub fn add(&self, stencils: &Stencils, j: usize, factor: f64, z: &mut [f64], exact: bool) {
+        let (nodes, entries) = (stencils.nodes(j), stencils.entries(j));
+        let (bend, force) = (&self.bend[entries.clone()], &self.force[entries]);
+        for (k, &n) in nodes.iter().enumerate() {
+            let at = 4 * n;
+            z[at + 2] += factor * force[2 * k];
+            z[at + 3] += factor * force[2 * k + 1];
+            if exact {
+                z[at] += factor * bend[2 * k];
+                z[at + 1] += factor * bend[2 * k + 1];
+            }
+        }
+    }
+}
+
+/// `U'''(Gamma)`; zero at its jumps.
+fn third_derivative(element: &Element, gamma: f64) -> f64 {
+    if gamma.abs() < element.epsilon { element.stiffness / element.epsilon } else { 0.0 }
+}
+
+/// Adds an element's `r U'' G` to `force`, and `-r (U''' (G p) G + U'' d2l p)` to `bend`.
+#[allow(clippy::too_many_arguments)]
+fn add_row(
+    element: &Element,
+    nodes: &[usize],
+    x: &[f64],
+    p: &[f64],
+    ratio: f64,
+    [tangent, third_along]: [f64; 2],
+    force: &mut [f64],
+    bend: &mut [f64],
+) {
+    let point = element.point();
+    for s in element.routing.windows(2) {
+        let (a, b) = (s[0], s[1]);
+        let d = [x[2 * b] - x[2 * a], x[2 * b + 1] - x[2 * a + 1]];
+        let length = (d[0] * d[0] + d[1] * d[1] + point * point).sqrt();
+        let u = d.map(|v| v / length);
+        let v = [p[2 * b] - p[2 * a], p[2 * b + 1] - p[2 * a + 1]];
+        let along = u[0] * v[0] + u[1] * v[1];
+        let [first, second] = [a, b].map(|n| 2 * nodes.partition_point(|m| *m < n));
+        for axis in 0..2 {
+            let pull = ratio * tangent * u[axis];
+            let turn = -ratio * (third_along * u[axis] + tangent * (v[axis] - along * u[axis]) / length);
+            force[first + axis] -= pull;
+            force[second + axis] += pull;
+            bend[first + axis] -= turn;
+            bend[second + axis] += turn;
+        }
+    }
+}
+
+/// A length that belongs to each winch, by which a derivative by its activation is multiplied: the longest initial rest length
+/// of its elements, per unit of its ratio.
+pub(super) fn lengths(actuation: &Actuation, elements: &[Element]) -> Vec<f64> {
+    let of = |w: &crate::soft_ik::Winch| w.members.iter().map(|&(e, r)| elements[e].alpha0 / r.abs()).fold(0.0, f64::max);
+    actuation.winches.iter().map(of).collect()
+}
