@@ -174,7 +174,7 @@ impl Compiled {
         let (start, factorizations) = question.settle(from, x, &stop);
         let mut answer = if !posing {
             let converged = start.in_equilibrium();
-            Answer { posture: start, iterations: 0, factorizations: 0, converged }
+            Answer { converged, ..Answer::at(&start) }
         } else if work.effort == Effort::Interactive {
             let mut tracker = Tracker::within(&mut question, &start, &stop);
             let frame = tracker.frame(&mut question, work.quality, &stop);
@@ -197,10 +197,10 @@ impl Compiled {
 
 fn answered(tracker: &Tracker, frame: &soft_ik::Frame) -> Answer {
     Answer {
-        posture: tracker.posture().clone(),
         iterations: frame.iterations,
         factorizations: frame.factorizations,
         converged: frame.converged,
+        ..Answer::at(tracker.posture())
     }
 }
 
@@ -256,7 +256,7 @@ fn pull_thoroughly(
 ) -> Answer {
     let mut tracker = Tracker::within(question, start, stop);
     let found = if hand.in_equilibrium() && hand.objective < start.objective { hand } else { start };
-    let mut best = Answer { posture: found.clone(), iterations: 0, factorizations: 0, converged: false };
+    let mut best = Answer::at(found);
     for _ in 0..THOROUGH_FRAMES {
         let frame = tracker.frame(question, Quality::Accurate, stop);
         best.iterations += frame.iterations;

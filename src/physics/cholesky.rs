@@ -152,8 +152,7 @@ impl Cholesky {
 /// The structure of the factor in this variant; `None` where it would not fit into memory.
 pub(super) fn analyse(pattern: &Pattern, variant: &Variant) -> Option<SymbolicCholesky<usize>> {
     let n = pattern.dimension();
-    let structure =
-        SymbolicSparseColMatRef::new_checked(n, n, pattern.column_starts(), None, pattern.row_indices());
+    let structure = SymbolicSparseColMatRef::new_checked(n, n, pattern.column_starts(), None, pattern.row_indices());
     let nodes = match &variant.ordering {
         Ordering::NodeMinimumDegree => Some(node_minimum_degree(pattern)?),
         Ordering::Nodes(order) => Some(order.clone()),

@@ -40,7 +40,7 @@ impl Method for GaussNewton {
 
     fn solve(&self, question: &mut Question, start: &Posture, budget: &Budget) -> Answer {
         let mut best = start.clone();
-        let mut answer = Answer { posture: best.clone(), iterations: 0, factorizations: 0, converged: false };
+        let mut answer = Answer::at(&best);
         let mut damping = FIRST_DAMPING;
         if question.actuation.winches.is_empty() {
             answer.converged = true;

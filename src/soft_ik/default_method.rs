@@ -1,15 +1,15 @@
 //! The default: chooses and combines the methods.
 //!
-//! Fibres (every winch one element): the all-at-once method in tension space gives the answer to the tension-regularised
-//! objective; where the question's own objective differs (`lambda`), Gauss-Newton in contraction space ends the work.
-//! Winches: Gauss-Newton in contraction space, from several starts, since few cables leave real local minima.
+//! Fibres (every winch one element): the all-at-once method in tension space where the objective is the tension-regularised one;
+//! else, and for many winches of any kind, Newton's method in contraction space from several starts ([`super::fibers`]).
+//! Few winches: Gauss-Newton in contraction space, from several starts, since few cables leave real local minima.
 
 use super::contraction::GaussNewton;
 use super::tension::AllAtOnce;
 use super::{Actuation, Answer, Budget, Method, Posture, Question};
 
 /// Beyond this many free winches the dense Gauss-Newton step (cost ~ winches^3) is not worth its time.
-const DENSE_LIMIT: usize = 700;
+const MANY: usize = 12;
 /// Iterations and relative decrease from each of several starts; the best is then followed to the end.
 const EXPLORING_ITERATIONS: usize = 40;
 const EXPLORING_DECREASE: f64 = 1e-5;
@@ -41,13 +41,13 @@ impl Method for Default {
     fn solve(&self, question: &mut Question, start: &Posture, budget: &Budget) -> Answer {
         let own_objective = question.objective.contraction_weight > 0.0 || question.objective.tension_weight == 0.0;
         let count = question.actuation.winches.len();
-        let mut best = Answer { posture: start.clone(), iterations: 0, factorizations: 0, converged: false };
-        if question.actuation.is_fibers_only() && count > COMBINED_STARTS {
-            if own_objective {
-                return super::fibers::solve(question, start, budget);
-            }
-            absorb(&mut best, AllAtOnce::default().solve(question, start, budget));
-            return best;
+        let mut best = Answer::at(start);
+        let fibers = question.actuation.is_fibers_only();
+        if own_objective && (fibers && count > COMBINED_STARTS || count > MANY) {
+            return super::fibers::solve(question, start, budget);
+        }
+        if fibers && count > COMBINED_STARTS {
+            return AllAtOnce::default().solve(question, start, budget);
         }
         let explore = GaussNewton { relative_decrease: EXPLORING_DECREASE };
         let exploring = Budget { iterations: budget.iterations.min(EXPLORING_ITERATIONS), stop: budget.stop };
@@ -58,14 +58,14 @@ impl Method for Default {
             let (posture, factorizations) = question.settle(&beta, &start.x, budget.stop);
             best.factorizations += factorizations;
             if posture.in_equilibrium() {
-                absorb(&mut best, explore.solve(question, &posture, &exploring));
+                best.absorb(explore.solve(question, &posture, &exploring));
             }
         }
         if count > 1 && count <= SEQUENTIAL_LIMIT {
-            absorb(&mut best, one_by_one(question, start, &explore, &exploring));
+            best.absorb(one_by_one(question, start, &explore, &exploring));
         }
         let from = best.posture.clone();
-        absorb(&mut best, GaussNewton::default().solve(question, &from, budget));
+        best.absorb(GaussNewton::default().solve(question, &from, budget));
         let contractions = question.actuation.contractions(&best.posture.beta);
         question.model.contractile.set_contractions(&contractions);
         best
@@ -80,7 +80,7 @@ fn one_by_one(question: &mut Question, start: &Posture, method: &GaussNewton, bu
     let mut beta: Vec<f64> =
         all.winches.iter().zip(&start.beta).map(|(w, b)| if w.lower.is_finite() { w.lower } else { *b }).collect();
     let (posture, factorizations) = question.settle(&beta, &start.x, budget.stop);
-    let mut best = Answer { posture, iterations: 0, factorizations, converged: false };
+    let mut best = Answer { factorizations, ..Answer::at(&posture) };
     for count in 1..=all.winches.len() {
         let some = Actuation { winches: all.winches[..count].to_vec(), fixed: all.contractions(&beta) };
         let mut inner = Question { model: &mut *question.model, actuation: &some, objective: question.objective };
@@ -107,7 +107,7 @@ fn one_by_one(question: &mut Question, start: &Posture, method: &GaussNewton, bu
                 closest = posture.clone();
             }
         }
-        absorb(&mut best, method.solve(&mut inner, &closest, budget));
+        best.absorb(method.solve(&mut inner, &closest, budget));
         beta[..count].copy_from_slice(&best.posture.beta);
     }
     best.posture.beta = beta;
@@ -119,16 +119,6 @@ fn reach(question: &Question, winch: usize) -> f64 {
     let elements = &question.model.contractile.elements;
     let members = &question.actuation.winches[winch].members;
     0.5 * members.iter().map(|&(e, r)| elements[e].alpha0 / r).fold(f64::INFINITY, f64::min)
-}
-
-/// Takes the better posture and adds up the work.
-fn absorb(best: &mut Answer, other: Answer) {
-    best.iterations += other.iterations;
-    best.factorizations += other.factorizations;
-    if other.posture.objective <= best.posture.objective || !best.posture.in_equilibrium() {
-        best.posture = other.posture;
-        best.converged = other.converged;
-    }
 }
 
 /// Starting activations: the given ones, all winches just taut, and parts of the range (all combinations for few winches).

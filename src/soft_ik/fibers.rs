@@ -1,55 +1,107 @@
-//! `soft_ik` questions on many fibres: Newton's method on the question's own `O`, from several starts.
+//! `soft_ik` questions on many fibres: the question's own `O`, from several starts.
+//!
+//! `O` has many valleys: an element that is slack feels nothing of the targets, so what is slack at the start tends to stay so. The
+//! starts are the answer of the all-at-once method, in whose objective slack elements take part; the activations given; and all
+//! elements just taut. Each is followed by Newton's method until it gains little, and the best one to the end.
 
 use super::newton::Newton;
 use super::tension::AllAtOnce;
 use super::{Answer, Budget, Method, Posture, Question};
 
+/// A start is explored until it gains less than this part of `O` in an iteration, some times in a row.
+const EXPLORED: f64 = 1e-3;
+const EXPLORING_ITERATIONS: usize = 80;
+/// Where two starts end within this part of each other, no more are tried.
+const SAME: f64 = 1e-3;
+/// What is explored is followed to the end where it is at most this part above the best.
+const HOPEFUL: f64 = 1e-2;
+/// Steps of the all-at-once method that are worth taking towards a start, and what ends them earlier.
+const FORMING_ITERATIONS: usize = 40;
+const FORMING_STEP: f64 = 1e-3;
+
+/// Where a search begins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Start {
+    /// The answer of the all-at-once method, its slack elements at rest.
+    Tension,
+    /// The activations given.
+    Given,
+    /// All elements just taut.
+    Taut,
+}
+
+/// The best of several starts. Converged where the projected gradient of `O` is small.
 pub(super) fn solve(question: &mut Question, start: &Posture, budget: &Budget) -> Answer {
-    let names = std::env::var("STARTS").unwrap_or("zero,taut,tension".into());
-    let mut best = Answer { posture: start.clone(), iterations: 0, factorizations: 0, converged: false };
-    for name in names.split(',') {
-        let clock = std::time::Instant::now();
-        let from = match name {
-            "zero" => start.clone(),
-            "tension" => {
-                let tension = AllAtOnce { step_tolerance: 1e-3 };
-                let found = tension.solve(question, start, &Budget { iterations: 40, stop: budget.stop });
-                best.factorizations += found.factorizations;
-                relaxed(question, found.posture, budget)
-            }
-            _ => {
-                let part: f64 = name.parse().unwrap_or(0.0);
-                let beta = graded(question, start, part);
-                let (posture, factorizations) = question.settle(&beta, &start.x, budget.stop);
-                best.factorizations += factorizations;
-                posture
-            }
-        };
-        if !from.in_equilibrium() { continue; }
-        let first = from.objective;
-        let t0 = clock.elapsed().as_secs_f64();
-        let found = Newton::default().solve(question, &from, &Budget { iterations: 300, stop: budget.stop });
-        if std::env::var("SHOW").is_ok() {
-            eprintln!("{name}: {:.4e} -> {:.6e} its {} fac {} conv {} ms {:.0} + {:.0}", first, found.posture.objective, found.iterations, found.factorizations, found.converged, t0*1e3, (clock.elapsed().as_secs_f64()-t0)*1e3);
+    let mut best = Answer { starts: 0, ..Answer::at(start) };
+    let mut ends: Vec<Answer> = Vec::new();
+    for kind in [Start::Tension, Start::Given, Start::Taut] {
+        if (budget.stop)() || (kind == Start::Tension && !question.actuation.is_fibers_only()) {
+            continue;
         }
-        best.iterations += found.iterations;
-        best.factorizations += found.factorizations;
-        if found.posture.objective < best.posture.objective || !best.posture.in_equilibrium() {
-            best.posture = found.posture;
-            best.converged = found.converged;
+        let Some(from) = posture(question, kind, start, budget, &mut best) else { continue };
+        best.starts += 1;
+        let exploring = Budget { iterations: budget.iterations.min(EXPLORING_ITERATIONS), stop: budget.stop };
+        let found = Newton { relative_decrease: EXPLORED }.solve(question, &from, &exploring);
+        let value = found.posture.objective;
+        let same = ends.iter().any(|other| (other.posture.objective - value).abs() <= SAME * value);
+        ends.push(found);
+        if same {
+            break;
         }
     }
+    ends.sort_by(|a, b| a.posture.objective.total_cmp(&b.posture.objective));
+    let lowest = ends.first().map_or(f64::INFINITY, |end| end.posture.objective);
+    for (rank, mut end) in ends.into_iter().enumerate() {
+        let hopeful = rank == 0 || end.posture.objective <= (1.0 + HOPEFUL) * best.posture.objective.min(lowest);
+        if hopeful && !end.converged && !(budget.stop)() {
+            let spent = [end.iterations, end.factorizations];
+            end = Newton::default().solve(question, &end.posture, budget);
+            end.iterations += spent[0];
+            end.factorizations += spent[1];
+        }
+        best.absorb(end);
+    }
+    let contractions = question.actuation.contractions(&best.posture.beta);
+    question.model.contractile.set_contractions(&contractions);
     best
 }
 
-/// Slack fibres need no contraction: as near zero as they stay slack.
-fn relaxed(question: &mut Question, mut posture: Posture, _budget: &Budget) -> Posture {
+/// The state in which a search begins; `None` where it has no equilibrium. Its work is added to `total`.
+fn posture(
+    question: &mut Question,
+    kind: Start,
+    given: &Posture,
+    budget: &Budget,
+    total: &mut Answer,
+) -> Option<Posture> {
+    let posture = match kind {
+        Start::Given => given.clone(),
+        Start::Taut => {
+            let beta = taut(question, &given.x);
+            let (posture, factorizations) = question.settle(&beta, &given.x, budget.stop);
+            total.factorizations += factorizations;
+            posture
+        }
+        Start::Tension => {
+            let forming = Budget { iterations: budget.iterations.min(FORMING_ITERATIONS), stop: budget.stop };
+            let formed = AllAtOnce { step_tolerance: FORMING_STEP }.solve(question, given, &forming);
+            total.iterations += formed.iterations;
+            total.factorizations += formed.factorizations;
+            relaxed(question, formed.posture)
+        }
+    };
+    posture.in_equilibrium().then_some(posture)
+}
+
+/// The same posture with every slack element contracted as little as its winch allows while it stays slack.
+fn relaxed(question: &mut Question, mut posture: Posture) -> Posture {
     let elements = &question.model.contractile.elements;
-    for (winch, b) in question.actuation.winches.iter().zip(&mut posture.beta) {
-        let (e, r) = winch.members[0];
-        let slack = (elements[e].alpha0 - elements[e].length(&posture.x) - elements[e].epsilon) / r;
-        if *b <= slack + 1e-12 {
-            *b = slack.min(0.0_f64.max(*b)).min(*b).max(winch.lower).max(0.0_f64.min(*b));
+    for (winch, beta) in question.actuation.winches.iter().zip(&mut posture.beta) {
+        let (e, ratio) = winch.members[0];
+        let slack = elements[e].alpha0 - elements[e].length(&posture.x) - elements[e].epsilon;
+        if ratio * *beta <= slack {
+            let least = if ratio > 0.0 { (slack / ratio).min(0.0) } else { (slack / ratio).max(0.0) };
+            *beta = least.max(winch.lower).min(winch.upper);
         }
     }
     let contractions = question.actuation.contractions(&posture.beta);
@@ -58,13 +110,12 @@ fn relaxed(question: &mut Question, mut posture: Posture, _budget: &Budget) -> P
     posture
 }
 
-fn graded(question: &Question, start: &Posture, part: f64) -> Vec<f64> {
+/// The activations, within their bounds, at which every winch has all its elements taut at `x`.
+fn taut(question: &Question, x: &[f64]) -> Vec<f64> {
     let elements = &question.model.contractile.elements;
-    let mut beta: Vec<f64> = question.actuation.winches.iter().map(|w| {
-        let taut = w.members.iter().map(|&(e, r)| (elements[e].alpha0 - elements[e].length(&start.x) + elements[e].epsilon) / r).fold(f64::NEG_INFINITY, f64::max);
-        let upper = if w.upper.is_finite() { w.upper } else { taut.max(0.5 * w.members.iter().map(|&(e, r)| elements[e].alpha0 / r).fold(f64::INFINITY, f64::min)) };
-        taut + part * (upper - taut).max(0.0)
-    }).collect();
+    let of = |&(e, r): &(usize, f64)| (elements[e].alpha0 - elements[e].length(x) + elements[e].epsilon) / r;
+    let mut beta: Vec<f64> =
+        question.actuation.winches.iter().map(|w| w.members.iter().map(of).fold(f64::NEG_INFINITY, f64::max)).collect();
     question.actuation.clamp(&mut beta);
     beta
 }

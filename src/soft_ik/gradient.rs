@@ -91,7 +91,7 @@ impl Method for Gradient {
             .collect();
         let mut xi: Vec<f64> = maps.iter().zip(&start.beta).map(|(f, b)| f.inverse(*b)).collect();
         let mut best = start.clone();
-        let mut answer = Answer { posture: best.clone(), iterations: 0, factorizations: 0, converged: false };
+        let mut answer = Answer::at(&best);
         while answer.iterations < budget.iterations && !(budget.stop)() {
             answer.iterations += 1;
             answer.factorizations += 1;

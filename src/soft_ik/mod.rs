@@ -68,7 +68,27 @@ pub struct Answer {
     pub posture: Posture,
     pub iterations: usize,
     pub factorizations: usize,
+    /// Whether the method's own objective cannot be lowered any more, by its own measure.
     pub converged: bool,
+    /// Starts that were followed.
+    pub starts: usize,
+}
+
+impl Answer {
+    /// Nothing done yet.
+    pub fn at(posture: &Posture) -> Self {
+        Self { posture: posture.clone(), iterations: 0, factorizations: 0, converged: false, starts: 1 }
+    }
+
+    /// Takes the better posture and adds up the work.
+    fn absorb(&mut self, other: Self) {
+        self.iterations += other.iterations;
+        self.factorizations += other.factorizations;
+        if other.posture.objective <= self.posture.objective || !self.posture.in_equilibrium() {
+            self.posture = other.posture;
+            self.converged = other.converged;
+        }
+    }
 }
 
 /// How long a method may go on.

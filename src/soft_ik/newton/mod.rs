@@ -49,9 +49,11 @@ const GOOD: f64 = 0.75;
 const POOR: f64 = 0.25;
 /// Iterations with Gauss-Newton after the exact Hessian was not convex.
 const CONVEX_AFTER: usize = 2;
+/// A winch this near to a bound, in its lengths, is on it.
+const ON_BOUND: f64 = 1e-12;
 const NO_PROMISE: f64 = 1e-15;
 const EXTENSION: f64 = 3.0;
-const MOST_RAISED: usize = 6;
+const MOST_RAISED: usize = 4;
 /// Step of the difference quotient of `H` along `p`, as a part of the body: error 1e-8, rounding 1e-12.
 const DIFFERENCE: f64 = 1e-5;
 
@@ -61,7 +63,7 @@ impl Method for Newton {
     }
 
     fn solve(&self, question: &mut Question, start: &Posture, budget: &Budget) -> Answer {
-        let mut answer = Answer { posture: start.clone(), iterations: 0, factorizations: 0, converged: false };
+        let mut answer = Answer::at(start);
         if question.actuation.winches.is_empty() {
             answer.converged = true;
             return answer;
@@ -108,6 +110,8 @@ struct Search {
     damping: f64,
     /// Iterations for which Gauss-Newton is used without a try of the exact Hessian.
     convex: usize,
+    /// Iterations for which the convexified form is used without a try of the exact one.
+    convexified: usize,
 }
 
 impl Search {
@@ -119,6 +123,7 @@ impl Search {
             lengths: rows::lengths(question.actuation, &question.model.contractile.elements),
             damping: FIRST_DAMPING,
             convex: 0,
+            convexified: 0,
         })
     }
 
@@ -162,33 +167,47 @@ impl Search {
     /// Takes one step that lowers `O`; whether there was one.
     fn improve(&mut self, question: &mut Question, budget: &Budget, answer: &mut Answer, trace: bool) -> bool {
         let unit = self.units(question);
-        let mut form = if self.convex > 0 { Form::GaussNewton } else { Form::Exact };
+        let mut form = if self.convex > 0 {
+            Form::GaussNewton
+        } else if self.convexified > 0 {
+            Form::Convexified
+        } else {
+            Form::Exact
+        };
         self.convex = self.convex.saturating_sub(1);
+        self.convexified = self.convexified.saturating_sub(1);
         self.saddle.assemble(question, &self.local, form);
         let (first, mut raised) = (self.damping, 0);
         while self.damping <= LARGEST_DAMPING && !(budget.stop)() {
             let factor = if self.damping <= LEAST_DAMPING { 0.0 } else { self.damping };
             let damping: Vec<f64> = unit.iter().map(|u| factor * u).collect();
-            let within = quadratic::minimise(
-                &mut self.saddle,
+            let beta = &answer.posture.beta;
+            let room = question.actuation.winches.iter().zip(beta).map(|(w, b)| [w.lower - b, w.upper - b]).collect();
+            let mut model = quadratic::Model {
+                saddle: &mut self.saddle,
                 question,
-                &self.local,
+                local: &self.local,
                 form,
-                &damping,
-                &answer.posture.beta,
-                &self.lengths,
-                &mut answer.factorizations,
-            );
+                damping: &damping,
+                room,
+                lengths: &self.lengths,
+                objective: answer.posture.objective,
+            };
+            let within = quadratic::minimise(&mut model, &mut answer.factorizations);
             let Ok(step) = within else {
-                if trace { eprintln!("   {form:?} not convex at {:.1e}", self.damping); }
-                if form == Form::Exact && raised >= MOST_RAISED {
+                if trace {
+                    eprintln!("   {form:?} not convex at {:.1e}", self.damping);
+                }
+                raised += 1;
+                if form == Form::Exact {
+                    form = Form::Convexified;
+                    self.convexified = CONVEX_AFTER;
+                    self.saddle.assemble(question, &self.local, form);
+                } else if form == Form::Convexified && raised >= MOST_RAISED {
                     form = Form::GaussNewton;
                     self.convex = CONVEX_AFTER;
                     self.damping = first;
                     self.saddle.assemble(question, &self.local, form);
-                } else if form == Form::Exact {
-                    raised += 1;
-                    self.damping = (4.0 * self.damping).max(LEAST_DAMPING);
                 } else {
                     self.damping = (8.0 * self.damping).max(LEAST_DAMPING);
                 }
@@ -202,18 +221,17 @@ impl Search {
                 self.damping = (8.0 * self.damping).max(LEAST_DAMPING);
                 continue;
             }
-            let beta: Vec<f64> = {
-                let mut beta: Vec<f64> = posture.beta.iter().zip(&step.beta).map(|(b, d)| b + t * d).collect();
-                question.actuation.clamp(&mut beta);
-                beta
-            };
+            let beta = self.stepped(question, &posture.beta, &step.beta, t);
             let guess = predicted(question, &posture.x, &step.x, t);
             let (trial, factorizations) = question.settle(&beta, &guess, budget.stop);
             answer.factorizations += factorizations;
             let gain = posture.objective - trial.objective;
             let ratio = gain / promised;
             if trace {
-                eprintln!("   {form:?} t {t:.2e} promised {:.2e} ratio {ratio:.3} statics {factorizations}", promised / posture.objective);
+                eprintln!(
+                    "   {form:?} t {t:.2e} promised {:.2e} ratio {ratio:.3} statics {factorizations}",
+                    promised / posture.objective
+                );
             }
             let taken = trial.in_equilibrium() && promised > 0.0 && ratio > TAKEN;
             if ratio > GOOD && t == 1.0 {
@@ -242,6 +260,21 @@ impl Search {
         false
     }
 
+    /// Activations after a part of a step, within their bounds, and on them where rounding alone keeps them off.
+    fn stepped(&self, question: &Question, beta: &[f64], step: &[f64], t: f64) -> Vec<f64> {
+        let on = |(j, w): (usize, &super::Winch)| {
+            let (b, near) = (beta[j] + t * step[j], ON_BOUND * self.lengths[j]);
+            if b <= w.lower + near {
+                w.lower
+            } else if b >= w.upper - near {
+                w.upper
+            } else {
+                b
+            }
+        };
+        question.actuation.winches.iter().enumerate().map(on).collect()
+    }
+
     /// Goes on along a step that the damping alone has kept short, while that lowers `O`.
     fn extend(
         &mut self,
@@ -256,13 +289,15 @@ impl Search {
         let mut t = 1.0;
         while t < most && !(budget.stop)() {
             t = (EXTENSION * t).min(most);
-            let mut beta: Vec<f64> = from.beta.iter().zip(&step.beta).map(|(b, d)| b + t * d).collect();
-            question.actuation.clamp(&mut beta);
+            let beta = self.stepped(question, &from.beta, &step.beta, t);
             let guess = predicted(question, &from.x, &step.x, t);
             let (trial, factorizations) = question.settle(&beta, &guess, budget.stop);
             answer.factorizations += factorizations;
             if trace {
-                eprintln!("      extended {t:.1} gain {:.2e} statics {factorizations}", (answer.posture.objective - trial.objective) / from.objective);
+                eprintln!(
+                    "      extended {t:.1} gain {:.2e} statics {factorizations}",
+                    (answer.posture.objective - trial.objective) / from.objective
+                );
             }
             if !trial.in_equilibrium() || trial.objective >= answer.posture.objective {
                 break;
@@ -316,7 +351,8 @@ impl Search {
         gradient.clear();
         for (j, winch) in question.actuation.winches.iter().enumerate() {
             let explicit = |&(e, r): &(usize, f64)| lambda * r * contractions[e] / elements[e].alpha0.powi(2);
-            let pulled = self.saddle.stencils.nodes(j).iter().zip(rows.force[self.saddle.stencils.entries(j)].chunks_exact(2));
+            let pulled =
+                self.saddle.stencils.nodes(j).iter().zip(rows.force[self.saddle.stencils.entries(j)].chunks_exact(2));
             let pulled: f64 = pulled.map(|(&n, f)| f[0] * p[2 * n] + f[1] * p[2 * n + 1]).sum();
             gradient.push(winch.members.iter().map(explicit).sum::<f64>() - pulled);
         }
@@ -325,9 +361,11 @@ impl Search {
     /// `d(H p)/dx` by a central difference of `H` along `p`.
     fn bend(&mut self, question: &mut Question, x: &[f64], p: &[f64]) {
         let longest = p.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-        let bend = &mut self.local.bend;
-        bend.clear();
-        bend.resize(self.local.hessian.len(), 0.0);
+        let [bend, convex] = &mut self.local.bend;
+        for list in [&mut *bend, &mut *convex] {
+            list.clear();
+            list.resize(self.local.hessian.len(), 0.0);
+        }
         if longest == 0.0 {
             return;
         }
@@ -339,6 +377,8 @@ impl Search {
                 *b += sign * v / (2.0 * h);
             }
         }
+        convex.clone_from(bend);
+        self.saddle.remove_concave(question, x, &self.local.rows.concave, convex);
     }
 }
 

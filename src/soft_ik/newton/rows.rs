@@ -1,5 +1,6 @@
 //! What each free winch contributes to the optimality conditions: sparse rows over the nodes that its elements pass.
 
+use super::saddle::Form;
 use crate::physics::{Element, Energy};
 use crate::soft_ik::{Actuation, Question};
 
@@ -12,14 +13,16 @@ pub(super) struct Stencils {
 /// The values at a state. Two numbers a node of the winch's stencil.
 #[derive(Default)]
 pub(super) struct Rows {
-    /// `d2L/dbeta dx`.
-    pub bend: Vec<f64>,
+    /// `d2L/dbeta dx`, exact, and without the concave part of the elements' own law.
+    pub bend: [Vec<f64>; 2],
     /// `d2E/dbeta dx`, the unbalanced force that a change of `beta` makes.
     pub force: Vec<f64>,
     /// `d2L/dbeta^2` of the explicit terms alone: `lambda sum (r/alpha_0)^2`.
     pub explicit: Vec<f64>,
-    /// What the change of the tangent adds to it.
-    pub change: Vec<f64>,
+    /// What the change of the tangent adds to it: exact, and where that is not negative.
+    pub change: [Vec<f64>; 2],
+    /// `U''' G p` of every element where the Lagrangian is concave in its deformation, else zero.
+    pub concave: Vec<f64>,
 }
 
 impl Stencils {
@@ -63,43 +66,56 @@ impl Rows {
     /// At `x` with all elements springs at `contractions`; `p = H^-1 dO/dx`.
     pub fn update(&mut self, stencils: &Stencils, question: &Question, x: &[f64], contractions: &[f64], p: &[f64]) {
         let length = 2 * stencils.nodes.len();
-        for list in [&mut self.bend, &mut self.force] {
+        for list in self.bend.iter_mut().chain([&mut self.force]) {
             list.clear();
             list.resize(length, 0.0);
         }
         self.explicit.clear();
-        self.change.clear();
+        self.change.iter_mut().for_each(Vec::clear);
         let elements = &question.model.contractile.elements;
+        self.concave.clear();
+        self.concave.resize(elements.len(), 0.0);
         let lambda = question.objective.contraction_weight;
         for (j, winch) in question.actuation.winches.iter().enumerate() {
             let (nodes, entries) = (stencils.nodes(j), stencils.entries(j));
-            let (bend, force) = (&mut self.bend[entries.clone()], &mut self.force[entries]);
-            let (mut explicit, mut change) = (0.0, 0.0);
+            let force = &mut self.force[entries.clone()];
+            let [bend, convex] = &mut self.bend;
+            let (bend, convex) = (&mut bend[entries.clone()], &mut convex[entries]);
+            let (mut explicit, mut change, mut convex_change) = (0.0, 0.0, 0.0);
             for &(e, ratio) in &winch.members {
                 let element = &elements[e];
                 let gamma = element.length(x) - element.alpha0 + contractions[e];
-                let (tangent, third) = (element.tangent(gamma), third_derivative(element, gamma));
-                let along = element.length_rate(x, p);
+                let tangent = element.tangent(gamma);
+                let third = third_derivative(element, gamma) * element.length_rate(x, p);
                 explicit += lambda * (ratio / element.alpha0).powi(2);
-                change -= ratio * ratio * third * along;
+                change -= ratio * ratio * third;
+                convex_change -= ratio * ratio * third.min(0.0);
+                self.concave[e] = third.max(0.0);
                 if tangent != 0.0 {
-                    add_row(element, nodes, x, p, ratio, [tangent, third * along], force, bend);
+                    add_row(element, nodes, x, p, ratio, [tangent, third], force, [bend, convex]);
                 }
             }
             self.explicit.push(explicit);
-            self.change.push(change);
+            self.change[0].push(change);
+            self.change[1].push(convex_change);
         }
     }
 
+    /// `d2L/dbeta_j^2`.
+    pub fn weight(&self, j: usize, form: Form) -> f64 {
+        self.explicit[j] + form.index().map_or(0.0, |k| self.change[k][j])
+    }
+
     /// `bend . dx + force . dp` of winch `j`, with `z` holding `dx` and `dp` node by node.
-    pub fn product(&self, stencils: &Stencils, j: usize, z: &[f64], exact: bool) -> f64 {
+    pub fn product(&self, stencils: &Stencils, j: usize, z: &[f64], form: Form) -> f64 {
         let (nodes, entries) = (stencils.nodes(j), stencils.entries(j));
-        let (bend, force) = (&self.bend[entries.clone()], &self.force[entries]);
+        let force = &self.force[entries.clone()];
+        let bend = form.index().map(|k| &self.bend[k][entries]);
         let mut sum = 0.0;
         for (k, &n) in nodes.iter().enumerate() {
             let at = 4 * n;
             sum += force[2 * k] * z[at + 2] + force[2 * k + 1] * z[at + 3];
-            if exact {
+            if let Some(bend) = bend {
                 sum += bend[2 * k] * z[at] + bend[2 * k + 1] * z[at + 1];
             }
         }
@@ -107,14 +123,15 @@ impl Rows {
     }
 
     /// Adds `factor` times the row of winch `j` to `z`.
-    pub fn add(&self, stencils: &Stencils, j: usize, factor: f64, z: &mut [f64], exact: bool) {
+    pub fn add(&self, stencils: &Stencils, j: usize, factor: f64, z: &mut [f64], form: Form) {
         let (nodes, entries) = (stencils.nodes(j), stencils.entries(j));
-        let (bend, force) = (&self.bend[entries.clone()], &self.force[entries]);
+        let force = &self.force[entries.clone()];
+        let bend = form.index().map(|k| &self.bend[k][entries]);
         for (k, &n) in nodes.iter().enumerate() {
             let at = 4 * n;
             z[at + 2] += factor * force[2 * k];
             z[at + 3] += factor * force[2 * k + 1];
-            if exact {
+            if let Some(bend) = bend {
                 z[at] += factor * bend[2 * k];
                 z[at + 1] += factor * bend[2 * k + 1];
             }
@@ -127,7 +144,8 @@ fn third_derivative(element: &Element, gamma: f64) -> f64 {
     if gamma.abs() < element.epsilon { element.stiffness / element.epsilon } else { 0.0 }
 }
 
-/// Adds an element's `r U'' G` to `force`, and `-r (U''' (G p) G + U'' d2l p)` to `bend`.
+/// Adds an element's `r U'' G` to `force`, and `-r (U''' (G p) G + U'' d2l p)` to the first of the others; to the second only where
+/// `U''' (G p)`, given as `third`, is not positive.
 #[allow(clippy::too_many_arguments)]
 fn add_row(
     element: &Element,
@@ -135,9 +153,9 @@ fn add_row(
     x: &[f64],
     p: &[f64],
     ratio: f64,
-    [tangent, third_along]: [f64; 2],
+    [tangent, third]: [f64; 2],
     force: &mut [f64],
-    bend: &mut [f64],
+    [bend, convex]: [&mut [f64]; 2],
 ) {
     let point = element.point();
     for s in element.routing.windows(2) {
@@ -150,11 +168,14 @@ fn add_row(
         let [first, second] = [a, b].map(|n| 2 * nodes.partition_point(|m| *m < n));
         for axis in 0..2 {
             let pull = ratio * tangent * u[axis];
-            let turn = -ratio * (third_along * u[axis] + tangent * (v[axis] - along * u[axis]) / length);
+            let turn = tangent * (v[axis] - along * u[axis]) / length;
             force[first + axis] -= pull;
             force[second + axis] += pull;
-            bend[first + axis] -= turn;
-            bend[second + axis] += turn;
+            for (list, third) in [(&mut *bend, third), (&mut *convex, third.min(0.0))] {
+                let by = -ratio * (third * u[axis] + turn);
+                list[first + axis] -= by;
+                list[second + axis] += by;
+            }
         }
     }
 }
@@ -162,6 +183,7 @@ fn add_row(
 /// A length that belongs to each winch, by which a derivative by its activation is multiplied: the longest initial rest length
 /// of its elements, per unit of its ratio.
 pub(super) fn lengths(actuation: &Actuation, elements: &[Element]) -> Vec<f64> {
-    let of = |w: &crate::soft_ik::Winch| w.members.iter().map(|&(e, r)| elements[e].alpha0 / r.abs()).fold(0.0, f64::max);
+    let of =
+        |w: &crate::soft_ik::Winch| w.members.iter().map(|&(e, r)| elements[e].alpha0 / r.abs()).fold(0.0, f64::max);
     actuation.winches.iter().map(of).collect()
 }

@@ -17,16 +17,31 @@
 //! are coordinates.
 
 use super::rows::{Rows, Stencils};
+use crate::physics::Energy;
 use crate::physics::indefinite::Indefinite;
 use crate::physics::pattern::{Pattern, Scatter, Slots};
 use crate::soft_ik::Question;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 /// The second derivatives in use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Form {
     Exact,
+    /// Without the concave part of each element's own law: where a slack element is about to be pulled taut, `O` is concave in its
+    /// deformation, and elements one after the other would keep the exact form from being used at all.
+    Convexified,
     GaussNewton,
+}
+
+impl Form {
+    /// Which of the second derivatives of [`Local`] and [`Rows`].
+    pub fn index(self) -> Option<usize> {
+        match self {
+            Self::Exact => Some(0),
+            Self::Convexified => Some(1),
+            Self::GaussNewton => None,
+        }
+    }
 }
 
 /// The optimality conditions linearised at an equilibrium.
@@ -34,8 +49,8 @@ pub(super) enum Form {
 pub(super) struct Local {
     /// `H`, as the model stores it.
     pub hessian: Vec<f64>,
-    /// `d(H p)/dx`, likewise.
-    pub bend: Vec<f64>,
+    /// `d(H p)/dx`, likewise: exact, and without the concave part of the elements' own law.
+    pub bend: [Vec<f64>; 2],
     /// `dO/dbeta`.
     pub gradient: Vec<f64>,
     pub rows: Rows,
@@ -65,10 +80,19 @@ pub(super) struct Saddle {
     places: Vec<[u32; 3]>,
     /// Slots of the winches of one element.
     slots: Slots,
+    /// Slots of all elements in the model's own pattern.
+    element_slots: Slots,
     /// Where the weights of the targets land: target, row, column, product of the weights of two of its nodes.
     weights: Vec<(usize, u32, f64)>,
     base: Vec<f64>,
     values: Vec<f64>,
+    /// Of the last factorisation: its form, the damped weight of every winch (infinite where it is held), the free winches of several
+    /// elements, the solutions for their rows, and their Schur complement.
+    form: Form,
+    weights_now: Vec<f64>,
+    border: Vec<usize>,
+    columns: Vec<f64>,
+    schur: Option<Cholesky<f64, Dyn>>,
     z: Vec<f64>,
     rest: Vec<f64>,
     product: Vec<f64>,
@@ -110,16 +134,36 @@ impl Saddle {
                 }
             }
         }
+        let contractile = &model.contractile;
+        let element_slots = model.pattern().slots((0..contractile.stencils()).map(|k| contractile.stencil(k)));
         let n = pattern.dimension();
         let (base, values) = (vec![0.0; pattern.nonzeros()], vec![0.0; pattern.nonzeros()]);
         let (z, rest, product) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
-        Some(Self { pattern, factor, stencils, places, slots, weights, base, values, z, rest, product })
+        Some(Self {
+            pattern,
+            factor,
+            stencils,
+            places,
+            slots,
+            element_slots,
+            weights,
+            base,
+            values,
+            form: Form::GaussNewton,
+            weights_now: Vec::new(),
+            border: Vec::new(),
+            columns: Vec::new(),
+            schur: None,
+            z,
+            rest,
+            product,
+        })
     }
 
     /// Puts in what does not depend on which winches are free.
     pub fn assemble(&mut self, question: &Question, local: &Local, form: Form) {
         self.base.fill(0.0);
-        let bend = (form == Form::Exact).then_some(&local.bend);
+        let bend = form.index().map(|k| &local.bend[k]);
         for (k, (place, h)) in self.places.iter().zip(&local.hessian).enumerate() {
             let [xx, px, xp] = place.map(|p| p as usize);
             if let Some(bend) = bend {
@@ -140,65 +184,75 @@ impl Saddle {
         }
     }
 
-    /// The step that minimises the quadratic model with winches `fixed` moved by what stands there and all others free, each
-    /// damped by `damping`. Needs [`Self::assemble`] in the same form.
-    pub fn solve(
+    /// Factorises the system with winches `held` where they are and all others free, each damped by `damping`. Needs
+    /// [`Self::assemble`] in the same form.
+    pub fn factorize(
         &mut self,
         question: &Question,
-        local: &Local,
+        rows: &Rows,
         form: Form,
         damping: &[f64],
-        fixed: &[Option<f64>],
-    ) -> Result<(Step, Vec<f64>), NotConvex> {
-        let exact = form == Form::Exact;
-        let rows = &local.rows;
-        let weight = |j: usize| rows.explicit[j] + if exact { rows.change[j] } else { 0.0 };
+        held: &[bool],
+    ) -> Result<(), NotConvex> {
+        self.form = form;
         self.values.copy_from_slice(&self.base);
-        self.z.fill(0.0);
-        let mut border = Vec::new();
-        for j in 0..fixed.len() {
-            let w = weight(j) + damping[j];
-            match fixed[j] {
-                Some(moved) => {
-                    if moved != 0.0 {
-                        rows.add(&self.stencils, j, -moved, &mut self.z, exact);
-                    }
-                }
-                None if !is_single(question, j) => border.push(j),
-                None if w > 0.0 => {
-                    rows.add(&self.stencils, j, local.gradient[j] / w, &mut self.z, exact);
-                    self.eliminate(rows, j, w, exact);
-                }
-                None => return Err(NotConvex),
+        self.weights_now.clear();
+        self.border.clear();
+        for j in 0..held.len() {
+            let w = rows.weight(j, form) + damping[j];
+            self.weights_now.push(if held[j] { f64::INFINITY } else { w });
+            if held[j] {
+                continue;
+            }
+            if !is_single(question, j) {
+                self.border.push(j);
+            } else if w > 0.0 {
+                self.eliminate(rows, j, w, form);
+            } else {
+                return Err(NotConvex);
             }
         }
         let inertia = self.factor.factorize(&self.pattern, &self.values);
         if inertia.singular > 0 || inertia.negative != self.pattern.dimension() / 2 {
             return Err(NotConvex);
         }
+        self.factorize_border(rows)
+    }
+
+    /// The Newton step from a point at which the model has these `slopes`, with the last factor: the step, zero for held winches, and
+    /// the first-order displacement in `z`.
+    pub fn solve(&mut self, rows: &Rows, slopes: &[f64]) -> Result<Vec<f64>, NotConvex> {
+        let form = self.form;
+        self.z.fill(0.0);
+        for (j, (w, g)) in self.weights_now.iter().zip(slopes).enumerate() {
+            if w.is_finite() && !self.is_border(j) {
+                rows.add(&self.stencils, j, g / w, &mut self.z, form);
+            }
+        }
         self.rest.copy_from_slice(&self.z);
-        let of_border = self.solve_border(rows, local, &border, |j| weight(j) + damping[j], exact)?;
-        let mut beta = vec![0.0; fixed.len()];
-        let mut slopes = vec![0.0; fixed.len()];
-        let (mut slope, mut curvature) = (0.0, 0.0);
-        let mut next = of_border.iter();
-        for j in 0..fixed.len() {
-            let along = rows.product(&self.stencils, j, &self.z, exact);
-            beta[j] = match fixed[j] {
-                Some(moved) => moved,
-                None if !is_single(question, j) => *next.next().unwrap_or(&0.0),
-                None => -(local.gradient[j] + along) / (weight(j) + damping[j]),
-            };
-            let by_model = along + weight(j) * beta[j];
-            slopes[j] = local.gradient[j] + by_model + damping[j] * beta[j];
-            slope += local.gradient[j] * beta[j];
-            curvature += 0.5 * beta[j] * by_model;
+        self.refined();
+        let of_border = self.solve_border(rows, slopes);
+        let mut step = vec![0.0; slopes.len()];
+        for (&j, d) in self.border.iter().zip(&of_border) {
+            step[j] = *d;
         }
-        let x = self.z.chunks_exact(4).flat_map(|c| [c[0], c[1]]).collect();
-        if !(slope + curvature).is_finite() {
-            return Err(NotConvex);
+        for (j, (w, g)) in self.weights_now.iter().zip(slopes).enumerate() {
+            if w.is_finite() && !self.is_border(j) {
+                step[j] = -(g + rows.product(&self.stencils, j, &self.z, form)) / w;
+            }
         }
-        Ok((Step { beta, x, slope, curvature }, slopes))
+        if step.iter().all(|d| d.is_finite()) { Ok(step) } else { Err(NotConvex) }
+    }
+
+    /// What the step found last adds to the slopes of the undamped model, winch by winch.
+    pub fn change_of_slopes(&self, rows: &Rows, step: &[f64]) -> Vec<f64> {
+        let form = self.form;
+        let change = |(j, d): (usize, &f64)| rows.product(&self.stencils, j, &self.z, form) + rows.weight(j, form) * d;
+        step.iter().enumerate().map(change).collect()
+    }
+
+    fn is_border(&self, j: usize) -> bool {
+        self.border.binary_search(&j).is_ok()
     }
 
     /// The model at a given step of all winches, with two solves by the factor of `H`; returns the step and the slopes of the damped
@@ -211,12 +265,11 @@ impl Saddle {
         damping: &[f64],
         beta: Vec<f64>,
     ) -> (Step, Vec<f64>) {
-        let exact = form == Form::Exact;
         let rows = &local.rows;
         // dx = -H^-1 B^T dbeta, then -dp = -H^-1 (L_xx dx + A^T dbeta).
         self.z.fill(0.0);
         for (j, d) in beta.iter().enumerate().filter(|(_, d)| **d != 0.0) {
-            rows.add(&self.stencils, j, -d, &mut self.z, false);
+            rows.add(&self.stencils, j, -d, &mut self.z, Form::GaussNewton);
         }
         let mut x: Vec<f64> = self.z.chunks_exact(4).flat_map(|c| [c[2], c[3]]).collect();
         question.model.solve(&mut x);
@@ -224,9 +277,9 @@ impl Saddle {
             z.copy_from_slice(&[x[0], x[1], 0.0, 0.0]);
         }
         self.pattern.multiply(&self.base, &self.z, &mut self.product);
-        if exact {
+        if form != Form::GaussNewton {
             for (j, d) in beta.iter().enumerate().filter(|(_, d)| **d != 0.0) {
-                rows.add(&self.stencils, j, *d, &mut self.product, true);
+                rows.add(&self.stencils, j, *d, &mut self.product, form);
             }
         }
         let mut p: Vec<f64> = self.product.chunks_exact(4).flat_map(|c| [-c[0], -c[1]]).collect();
@@ -237,8 +290,7 @@ impl Saddle {
         let (mut slope, mut curvature) = (0.0, 0.0);
         let slopes = (0..beta.len())
             .map(|j| {
-                let weight = rows.explicit[j] + if exact { rows.change[j] } else { 0.0 };
-                let by_model = rows.product(&self.stencils, j, &self.z, exact) + weight * beta[j];
+                let by_model = rows.product(&self.stencils, j, &self.z, form) + rows.weight(j, form) * beta[j];
                 slope += local.gradient[j] * beta[j];
                 curvature += 0.5 * beta[j] * by_model;
                 local.gradient[j] + by_model + damping[j] * beta[j]
@@ -247,19 +299,43 @@ impl Saddle {
         (Step { beta, x, slope, curvature }, slopes)
     }
 
+    /// Takes `concave_e G_e G_e^T` of every element out of a second derivative as the model stores it.
+    pub fn remove_concave(&self, question: &Question, x: &[f64], concave: &[f64], values: &mut [f64]) {
+        let contractile = &question.model.contractile;
+        let mut scatter = Scatter::new(&self.element_slots, values);
+        let mut gradient = vec![0.0; x.len()];
+        for (k, (element, amount)) in contractile.elements.iter().zip(concave).enumerate() {
+            if *amount == 0.0 {
+                continue;
+            }
+            let nodes = contractile.stencil(k);
+            element.add_length_gradient(x, 1.0, &mut gradient);
+            scatter.add(k, |a, b| {
+                let (i, j) = (2 * nodes[a], 2 * nodes[b]);
+                let (u, v) = ([gradient[i], gradient[i + 1]], [gradient[j], gradient[j + 1]]);
+                [-amount * u[0] * v[0], -amount * u[0] * v[1], -amount * u[1] * v[0], -amount * u[1] * v[1]]
+            });
+            for &n in nodes {
+                gradient[2 * n] = 0.0;
+                gradient[2 * n + 1] = 0.0;
+            }
+        }
+    }
+
     /// Coordinates of the body.
     pub fn coordinates(&self) -> usize {
         self.pattern.dimension() / 2
     }
 
     /// Subtracts `u u^T / w` of winch `j`.
-    fn eliminate(&mut self, rows: &Rows, j: usize, w: f64, exact: bool) {
+    fn eliminate(&mut self, rows: &Rows, j: usize, w: f64, form: Form) {
         let entries = self.stencils.entries(j);
-        let (bend, force) = (&rows.bend[entries.clone()], &rows.force[entries]);
-        let entry = |k: usize| {
-            let list = if k % 2 == 0 { bend } else { force };
-            let on = if k % 2 == 0 && !exact { 0.0 } else { 1.0 };
-            [on * list[k - k % 2], on * list[k - k % 2 + 1]]
+        let force = &rows.force[entries.clone()];
+        let bend = form.index().map(|k| &rows.bend[k][entries]);
+        let entry = |k: usize| match (k % 2, bend) {
+            (0, None) => [0.0; 2],
+            (0, Some(bend)) => [bend[k], bend[k + 1]],
+            _ => [force[k - 1], force[k]],
         };
         Scatter::new(&self.slots, &mut self.values).add(j, |a, b| {
             let (u, v) = (entry(a), entry(b));
@@ -267,42 +343,42 @@ impl Saddle {
         });
     }
 
-    /// Solves for `z` with a step of refinement, and for the winches on the border, which it returns.
-    fn solve_border(
-        &mut self,
-        rows: &Rows,
-        local: &Local,
-        border: &[usize],
-        weight: impl Fn(usize) -> f64,
-        exact: bool,
-    ) -> Result<Vec<f64>, NotConvex> {
-        self.refined();
-        if border.is_empty() {
-            return Ok(Vec::new());
+    /// The Schur complement of the border: dense, as wide as there are free winches of several elements.
+    fn factorize_border(&mut self, rows: &Rows) -> Result<(), NotConvex> {
+        let (n, width) = (self.z.len(), self.border.len());
+        self.columns.clear();
+        self.schur = None;
+        if width == 0 {
+            return Ok(());
         }
-        let n = self.z.len();
-        let mut columns = vec![0.0; n * border.len()];
-        for (&j, column) in border.iter().zip(columns.chunks_exact_mut(n)) {
-            rows.add(&self.stencils, j, 1.0, column, exact);
+        self.columns.resize(n * width, 0.0);
+        for (&j, column) in self.border.iter().zip(self.columns.chunks_exact_mut(n)) {
+            rows.add(&self.stencils, j, 1.0, column, self.form);
         }
-        self.factor.solve_many(&mut columns, border.len());
-        let mut schur = DMatrix::zeros(border.len(), border.len());
-        let mut rhs = DVector::zeros(border.len());
-        for (a, &j) in border.iter().enumerate() {
-            for (b, column) in columns.chunks_exact(n).enumerate() {
-                schur[(a, b)] = -rows.product(&self.stencils, j, column, exact);
+        self.factor.solve_many(&mut self.columns, width);
+        let mut schur = DMatrix::zeros(width, width);
+        for (a, &j) in self.border.iter().enumerate() {
+            for (b, column) in self.columns.chunks_exact(n).enumerate() {
+                schur[(a, b)] = -rows.product(&self.stencils, j, column, self.form);
             }
-            schur[(a, a)] += weight(j);
-            rhs[a] = -local.gradient[j] - rows.product(&self.stencils, j, &self.z, exact);
+            schur[(a, a)] += self.weights_now[j];
         }
         let schur = 0.5 * (&schur + schur.transpose());
-        let moved = schur.cholesky().ok_or(NotConvex)?.solve(&rhs);
-        for (column, d) in columns.chunks_exact(n).zip(moved.iter()) {
+        self.schur = Some(schur.cholesky().ok_or(NotConvex)?);
+        Ok(())
+    }
+
+    /// The steps of the winches on the border; mends `z` for them.
+    fn solve_border(&mut self, rows: &Rows, slopes: &[f64]) -> Vec<f64> {
+        let Some(schur) = &self.schur else { return Vec::new() };
+        let rhs = self.border.iter().map(|&j| -slopes[j] - rows.product(&self.stencils, j, &self.z, self.form));
+        let moved = schur.solve(&DVector::from_iterator(self.border.len(), rhs));
+        for (column, d) in self.columns.chunks_exact(self.z.len()).zip(moved.iter()) {
             for (z, c) in self.z.iter_mut().zip(column) {
                 *z -= d * c;
             }
         }
-        Ok(moved.iter().copied().collect())
+        moved.iter().copied().collect()
     }
 
     /// `z = K^-1 z`, once refined: pivots were free within panels only.

@@ -73,7 +73,7 @@ impl Method for AllAtOnce {
         assert!(question.actuation.is_fibers_only(), "tension is the unknown of single elements only");
         let mut work = Workspace::new(question);
         let mut run = Run::new(question, start, &mut work);
-        let mut answer = Answer { posture: start.clone(), iterations: 0, factorizations: 0, converged: false };
+        let mut answer = Answer::at(start);
         for _ in 0..=RETURNS {
             answer.converged = false;
             while answer.iterations < budget.iterations && !(budget.stop)() {
