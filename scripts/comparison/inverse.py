@@ -22,7 +22,8 @@ class Inverse:
 
     def __init__(self, problem):
         self.body = Body(problem)
-        body, objective, ik = self.body, problem["objective"], problem["soft_ik"]
+        self.springs = self.body.springs
+        body, springs, objective, ik = self.body, self.springs, problem["objective"], problem["soft_ik"]
         self.q = np.full(len(body.rest), float(objective.get("default_weight", 0.0)))
         self.goal = body.rest.copy()
         for target in objective["targets"]:
@@ -30,14 +31,14 @@ class Inverse:
             self.goal[target["node"]] = target["xy"]
         self.regulariser = objective.get("regulariser", 0.0)
         fixed = {int(w): v for w, v in (ik.get("fixed_winches") or {}).items()}
-        ids = ik.get("winch_ids") or sorted(set(body.winch.tolist()) - set(fixed))
+        ids = ik.get("winch_ids") or sorted(set(springs.winch.tolist()) - set(fixed))
         column = {w: j for j, w in enumerate(ids)}
-        self.column = np.array([column.get(w, -1) for w in body.winch.tolist()])
-        self.held = np.array([fixed.get(w, 0.0) for w in body.winch.tolist()])
+        self.column = np.array([column.get(w, -1) for w in springs.winch.tolist()])
+        self.held = np.array([fixed.get(w, 0.0) for w in springs.winch.tolist()])
         bound = lambda name, none: np.array([none if v is None else v for v in (ik.get(name) or [None] * len(ids))], float)
         self.lower, self.upper = bound("beta_lower", -np.inf), bound("beta_upper", np.inf)
         self.scale = np.full(len(ids), np.inf)
-        np.minimum.at(self.scale, self.column[self.column >= 0], body.alpha0[self.column >= 0])
+        np.minimum.at(self.scale, self.column[self.column >= 0], springs.alpha0[self.column >= 0])
         self.x = body.rest.ravel()
         self.last = None
 
@@ -53,24 +54,24 @@ class Inverse:
         if self.last is None:
             return self.x
         factor, before, direction, stiffness = self.last
-        step = factor.solve(-self.body.pull(stiffness * (alpha - before), direction))
+        step = factor.solve(-self.springs.pull(stiffness * (alpha - before), direction))
         energy = self.body.energy(self.x, alpha)
         moved = self.body.advance(self.x, alpha, step, energy, 0.0)
         return self.x if moved is None else moved[0]
 
     def value(self, beta):
         """O and dO/dbeta in equilibrium, which is sought from the last one."""
-        body, alpha = self.body, self.alpha(beta)
-        self.x, factor = body.equilibrium(alpha, self.predicted(alpha))
+        springs, alpha = self.springs, self.alpha(beta)
+        self.x, factor = self.body.equilibrium(alpha, self.predicted(alpha))
         offset = self.x.reshape(-1, 2) - self.goal
-        strain = alpha / body.alpha0
+        strain = alpha / springs.alpha0
         value = 0.5 * self.q @ (offset**2).sum(axis=1) + 0.5 * self.regulariser * strain @ strain
-        length, _, direction = body.segments(self.x)
-        stiffness = body.forces(length - body.alpha0 + alpha)[2]
+        length, _, direction = springs.segments(self.x)
+        stiffness = springs.laws(length - springs.alpha0 + alpha)[2]
         self.last = (factor, alpha, direction, stiffness)
         adjoint = factor.solve((self.q[:, None] * offset).ravel())
-        along = np.bincount(body.entry_owner, body.length_gradient(direction) * adjoint[body.entry_dof], body.count)
-        return value, self.by_winch(self.regulariser * strain / body.alpha0 - stiffness * along)
+        along = np.bincount(springs.entry_owner, springs.length_gradient(direction) * adjoint[springs.entry_dof], springs.count)
+        return value, self.by_winch(self.regulariser * strain / springs.alpha0 - stiffness * along)
 
     def begin(self, beta):
         """Winds from rest to beta, for a first evaluation."""
@@ -79,8 +80,8 @@ class Inverse:
 
     def taut(self):
         """Every winch wound until its first element leaves the zone in which it goes slack, at rest."""
-        body = self.body
-        tight = body.alpha0 - body.segments(body.rest.ravel())[0] + body.epsilon
+        springs = self.springs
+        tight = springs.alpha0 - springs.segments(self.body.rest.ravel())[0] + springs.epsilon
         beta = np.full(len(self.scale), -np.inf)
         free = self.column >= 0
         np.maximum.at(beta, self.column[free], tight[free])

@@ -128,7 +128,7 @@ def spread(nodes, taken, count, rng):
     return chosen
 
 
-def fibres(nodes, triangles, mu, rng):
+def fibres_of(nodes, triangles, mu, rng):
     edges = edges_of(triangles)
     length = np.hypot(*(nodes[edges[:, 1]] - nodes[edges[:, 0]]).T)
     k = mu * 10 ** rng.uniform(-0.5, 0.7)
@@ -183,6 +183,26 @@ def goals(problem, nodes, chosen, rng):
     return (nodes[chosen] + np.stack([np.cos(angle), np.sin(angle)], axis=1) * distance[:, None]).tolist(), False
 
 
+def at_work(seed, number, fibres):
+    """A statics problem: a shape all of whose fibres contract by a smooth field of up to 15 %."""
+    rng = np.random.default_rng([seed, number, fibres])
+    shape = SHAPES[number % len(SHAPES)]
+    nodes, triangles = meshed(shape, fibres, rng)
+    mu = rng.uniform(200, 800)
+    elements = fibres_of(nodes, triangles, mu, rng)
+    middle = nodes[[e["routing"] for e in elements]].mean(axis=1) / np.ptp(nodes, axis=0).max()
+    part = 0.5 + 0.5 * np.sin(middle @ rng.normal(size=2) * 6 + rng.uniform(0, 6))
+    return {
+        "format": "plushwright-problem/1",
+        "name": f"{shape} of {len(elements)} fibres at work",
+        "mesh": {"nodes": nodes.tolist(), "triangles": triangles.tolist()},
+        "material": {"mu": mu, "kappa": mu * rng.uniform(0.5, 4)},
+        "elements": elements,
+        "pins": [{"node": n, "target": nodes[n].tolist(), "K": PIN_K} for n in base(nodes)],
+        "contractions": [0.15 * p * e["alpha0"] for p, e in zip(part.tolist(), elements)],
+    }
+
+
 def generate(seed, number):
     """Problem `number` of the seed: three in five have fibres (100 to 5000), two in five winches (1 to 12)."""
     rng = np.random.default_rng([seed, number])
@@ -207,7 +227,7 @@ def generate(seed, number):
         if winches > 2 and rng.random() < 0.25:
             fixed = {str(ids.pop()): 0.1 * problem["elements"][-1]["alpha0"]}
     else:
-        problem["elements"] = fibres(nodes, triangles, mu, rng)
+        problem["elements"] = fibres_of(nodes, triangles, mu, rng)
         ids = list(range(len(problem["elements"])))
     shortest = {}
     for e in problem["elements"]:

@@ -2,8 +2,6 @@
 
 import argparse
 import json
-import os
-import platform
 import subprocess
 import sys
 import tempfile
@@ -13,7 +11,11 @@ from pathlib import Path
 import numpy as np
 
 from inverse import Inverse, NoEquilibrium, descend
-from problems import generate
+from problems import SHAPES, at_work, generate
+
+
+# Runs of each process in the statics part, of which the quickest counts.
+TURNS = 3
 
 
 def arguments():
@@ -24,6 +26,7 @@ def arguments():
     parser.add_argument("--only", type=int, nargs="+", metavar="N", help="these numbers of the seed alone")
     parser.add_argument("--files", type=Path, nargs="+", default=[], metavar="FILE", help="these problem files instead of seeded ones")
     parser.add_argument("--keep", type=Path, metavar="DIR", help="write the problem files and the results as JSON lines there")
+    parser.add_argument("--earlier", type=Path, metavar="FILE", help="results.jsonl of an earlier run, whose L-BFGS-B is not run again")
     parser.add_argument("--limit", type=float, default=60.0, metavar="S", help="longest run of L-BFGS-B from one start [60]")
     parser.add_argument("--program", type=Path, default=Path("target/release/plushwright"), help="the built program")
     parser.add_argument("--method", default="default", help="--method of `plushwright solve`")
@@ -58,6 +61,37 @@ def judged(problem, ik):
     return {"objective": value, "projected_gradient": absolute, "scaled": scaled / value, "outside_bounds": max(outside, 0.0)}
 
 
+def theirs(library, problem, folder):
+    """The answer of another library in a process of its own, and the time of that process, s."""
+    question, answer = folder / "question.json", folder / "answer.json"
+    question.write_text(json.dumps(problem))
+    answer.unlink(missing_ok=True)
+    began = time.perf_counter()
+    subprocess.run([sys.executable, Path(__file__).parent / "others.py", library, question, answer], check=True)
+    seconds = time.perf_counter() - began
+    return json.loads(answer.read_text()), seconds
+
+
+def statics_part(options, folder):
+    print("\nStatics: felupe and scikit-fem against `plushwright solve`, one thread each, best of three runs of each process.")
+    print("solver s: Newton's method alone, without start, reading, meshing and writing; steps: in how many parts it took the contraction.")
+    print("apart: largest distance between their positions and ours, m.\n")
+    print(f"{'shape':>6} {'fibres':>6} {'library':>8} {'s theirs':>8} {'s ours':>7} {'whole':>7} {'solver s':>8} {'steps':>5} {'Newton':>6} {'ours':>5} {'apart':>8}")
+    for number, fibres in enumerate(options.fibres):
+        problem = at_work(options.seed, number, fibres)
+        if options.keep:
+            (options.keep / f"statics-{fibres}.json").write_text(json.dumps(problem))
+        answer, whole = min((ours(options.program, problem, folder) for _ in range(TURNS)), key=lambda r: r[1])
+        for library in ("felupe", "skfem"):
+            other, seconds = min((theirs(library, problem, folder) for _ in range(TURNS)), key=lambda r: r[1])
+            apart = np.abs(np.array(other["x"]) - np.array(answer["x"]).ravel()).max()
+            print(
+                f"{SHAPES[number % len(SHAPES)]:>6} {len(problem['elements']):>6} {library:>8} {seconds:8.2f} {whole:7.3f} {seconds / whole:7.1f} "
+                f"{1e-3 * other['milliseconds']:8.3f} {other['steps']:>5} {other['iterations']:>6} {answer['iterations']:>5} {apart:8.1e}",
+                flush=True,
+            )
+
+
 def inverse_part(options, folder):
     questions = [(path.stem, json.loads(path.read_text())) for path in options.files]
     if not questions:
@@ -67,12 +101,15 @@ def inverse_part(options, folder):
     print("whole: whole run / whole process; solver: time to 0.1 % of its value / `milliseconds`. pg: largest free dO/dbeta times")
     print("rest length, part of O, by independent statics at our activations.\n")
     print(f"{'problem':>7} {'winches':>7} {'nodes':>6} {'O theirs':>10} {'O ours':>10} {'O ratio':>8} {'s theirs':>8} {'s ours':>7} {'whole':>7} {'solver':>7} {'pg':>8}  converged")
-    rows = []
+    rows, earlier = [], {}
+    if options.earlier:
+        earlier = {row["problem"]: row for row in map(json.loads, options.earlier.read_text().splitlines())}
     for name, question in questions:
         problem = question() if callable(question) else question
         if options.keep:
             (options.keep / f"{name}.json").write_text(json.dumps(problem))
-        runs = [descend(problem, start, options.limit) for start in ("zero", "taut")]
+        known = earlier.get(name, {})
+        runs = known["runs"] if known.get("name") == problem["name"] else [descend(problem, start, options.limit) for start in ("zero", "taut")]
         best = min(r["objective"] for r in runs)
         peer = min((r for r in runs if r["objective"] <= 1.001 * best), key=lambda r: r["seconds"])
         row = {"problem": name, "name": problem["name"], "winches": len(problem["soft_ik"]["winch_ids"]), "nodes": len(problem["mesh"]["nodes"]), "theirs": best, "runs": runs}
@@ -114,6 +151,8 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         if options.part in ("all", "inverse"):
             inverse_part(options, Path(folder))
+        if options.part in ("all", "statics"):
+            statics_part(options, Path(folder))
 
 
 if __name__ == "__main__":
