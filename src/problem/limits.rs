@@ -120,5 +120,8 @@ fn within(key: Arguments, value: f64, limit: f64, of: &str) -> Result<(), Proble
         return Ok(());
     }
     let value = if value.is_finite() { format!("{value:.1e}") } else { "too many".into() };
-    Err(ProblemError::Content { key: key.to_string(), what: format!("is {value} {of}, at most {limit:e} can be computed") })
+    Err(ProblemError::Content {
+        key: key.to_string(),
+        what: format!("is {value} {of}, at most {limit:e} can be computed"),
+    })
 }

@@ -69,7 +69,8 @@ impl<'de> Visitor<'de> for Keys {
 
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Streamed, A::Error> {
         let mut problem = Problem::default();
-        let (mut format, mut mesh, mut material): (Option<String>, Option<MeshData>, Option<MaterialData>) = (None, None, None);
+        let (mut format, mut mesh, mut material): (Option<String>, Option<MeshData>, Option<MaterialData>) =
+            (None, None, None);
         let mut unknown = Vec::new();
         let mut seen = Vec::new();
         while let Some(key) = map.next_key::<String>()? {
