@@ -2,10 +2,11 @@
 
 import argparse
 import json
+import os
+import re
 import subprocess
 import sys
 import tempfile
-import time
 from pathlib import Path
 
 import numpy as np
@@ -34,17 +35,25 @@ def arguments():
     return parser.parse_args()
 
 
+def timed(command):
+    """Runs a command to its end: its standard error and the CPU time of the whole process, s, which does not depend on who else is there."""
+    with tempfile.TemporaryFile() as said:
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=said)
+        _, _, used = os.wait4(process.pid, 0)
+        said.seek(0)
+        return said.read().decode(), used.ru_utime + used.ru_stime
+
+
 def ours(program, problem, folder, *options):
-    """The answer of `plushwright solve`, the time of the whole process, s, and its exit code."""
+    """The answer of `plushwright solve`, its CPU time, s, and what part of its own clock went into solving."""
     question, answer = folder / "question.json", folder / "answer.json"
     question.write_text(json.dumps(problem))
     answer.unlink(missing_ok=True)
-    began = time.perf_counter()
-    done = subprocess.run([program, "solve", question, "-o", answer, *options], capture_output=True, text=True)
-    seconds = time.perf_counter() - began
+    said, seconds = timed([program, "solve", question, "-o", answer, "--times", *options])
     if not answer.exists():
-        sys.exit(f"{problem['name']}: plushwright gave no answer: {done.stderr.strip()}")
-    return json.loads(answer.read_text()), seconds
+        sys.exit(f"{problem['name']}: plushwright gave no answer: {said.strip()}")
+    reading, solving, writing = (float(t) for t in re.findall(r"ing ([0-9.]+) ms", said))
+    return json.loads(answer.read_text()), seconds, solving / (reading + solving + writing)
 
 
 def judged(problem, ik):
@@ -62,32 +71,32 @@ def judged(problem, ik):
 
 
 def theirs(library, problem, folder):
-    """The answer of another library in a process of its own, and the time of that process, s."""
+    """The answer of another library in a process of its own, and the CPU time of that process, s."""
     question, answer = folder / "question.json", folder / "answer.json"
     question.write_text(json.dumps(problem))
     answer.unlink(missing_ok=True)
-    began = time.perf_counter()
-    subprocess.run([sys.executable, Path(__file__).parent / "others.py", library, question, answer], check=True)
-    seconds = time.perf_counter() - began
+    said, seconds = timed([sys.executable, Path(__file__).parent / "others.py", library, question, answer])
+    if not answer.exists():
+        sys.exit(f"{problem['name']}: {library} gave no answer: {said.strip()}")
     return json.loads(answer.read_text()), seconds
 
 
 def statics_part(options, folder):
     print("\nStatics: felupe and scikit-fem against `plushwright solve`, one thread each, best of three runs of each process.")
-    print("solver s: Newton's method alone, without start, reading, meshing and writing; steps: in how many parts it took the contraction.")
+    print("CPU times. solver: theirs Newton's method alone, ours all but start, reading and writing; steps: parts of the contraction.")
     print("apart: largest distance between their positions and ours, m.\n")
-    print(f"{'shape':>6} {'fibres':>6} {'library':>8} {'s theirs':>8} {'s ours':>7} {'whole':>7} {'solver s':>8} {'steps':>5} {'Newton':>6} {'ours':>5} {'apart':>8}")
+    print(f"{'shape':>6} {'fibres':>6} {'library':>8} {'s theirs':>8} {'s ours':>7} {'whole':>7} {'solver s':>8} {'ours ms':>7} {'solver':>7} {'steps':>5} {'Newton':>6} {'ours':>5} {'apart':>8}")
     for number, fibres in enumerate(options.fibres):
         problem = at_work(options.seed, number, fibres)
         if options.keep:
             (options.keep / f"statics-{fibres}.json").write_text(json.dumps(problem))
-        answer, whole = min((ours(options.program, problem, folder) for _ in range(TURNS)), key=lambda r: r[1])
+        answer, whole, part = min((ours(options.program, problem, folder) for _ in range(TURNS)), key=lambda r: r[1])
         for library in ("felupe", "skfem"):
             other, seconds = min((theirs(library, problem, folder) for _ in range(TURNS)), key=lambda r: r[1])
             apart = np.abs(np.array(other["x"]) - np.array(answer["x"]).ravel()).max()
             print(
                 f"{SHAPES[number % len(SHAPES)]:>6} {len(problem['elements']):>6} {library:>8} {seconds:8.2f} {whole:7.3f} {seconds / whole:7.1f} "
-                f"{1e-3 * other['milliseconds']:8.3f} {other['steps']:>5} {other['iterations']:>6} {answer['iterations']:>5} {apart:8.1e}",
+                f"{1e-3 * other['milliseconds']:8.3f} {1e3 * part * whole:7.1f} {1e-3 * other['milliseconds'] / (part * whole):7.1f} {other['steps']:>5} {other['iterations']:>6} {answer['iterations']:>5} {apart:8.1e}",
                 flush=True,
             )
 
@@ -98,8 +107,8 @@ def inverse_part(options, folder):
         questions = [(f"{number:03}", lambda n=number: generate(options.seed, n)) for number in options.only or range(options.count)]
     print("\nInverse problems: scipy's L-BFGS-B (better of zero and taut) against `plushwright solve`, one thread each.")
     print("O ratio: ours / theirs. Time ratios: theirs / ours, theirs the run with the better value (the quicker one if equal):")
-    print("whole: whole run / whole process; solver: time to 0.1 % of its value / `milliseconds`. pg: largest free dO/dbeta times")
-    print("rest length, part of O, by independent statics at our activations.\n")
+    print("whole: CPU time of the whole run / of the whole process; solver: CPU time until it is within 0.1 % of its value / `milliseconds`.")
+    print("pg: largest free dO/dbeta times rest length, part of O, by independent statics at our activations.\n")
     print(f"{'problem':>7} {'winches':>7} {'nodes':>6} {'O theirs':>10} {'O ours':>10} {'O ratio':>8} {'s theirs':>8} {'s ours':>7} {'whole':>7} {'solver':>7} {'pg':>8}  converged")
     rows, earlier = [], {}
     if options.earlier:
@@ -115,7 +124,7 @@ def inverse_part(options, folder):
         row = {"problem": name, "name": problem["name"], "winches": len(problem["soft_ik"]["winch_ids"]), "nodes": len(problem["mesh"]["nodes"]), "theirs": best, "runs": runs}
         if options.program:
             asked = {k: v for k, v in problem.items() if k != "contractions"}
-            answer, whole = ours(options.program, asked, folder, "--method", options.method)
+            answer, whole, _ = ours(options.program, asked, folder, "--method", options.method)
             ik = answer["soft_ik"]
             row |= {"ours": ik["objective"], "ratio": ik["objective"] / best, "converged": answer["converged"], "error": answer.get("error")}
             row |= {"milliseconds": ik["milliseconds"], "whole_s": whole, "factorizations": ik["factorizations"], "claimed_gradient": ik.get("projected_gradient")}

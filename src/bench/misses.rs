@@ -166,7 +166,8 @@ fn judge(question: &mut Question, starts: &[Vec<f64>], session: &Session) -> Res
         session.check()?;
     }
     let last = slope(question, &known.posture, GRADIENT_ITERATIONS[1]);
-    known.note(&last, "gradient from the best".into());
+    let by = format!("{}, gradient", known.by);
+    known.note(&last, by);
 
     let Known { posture: Posture { objective: best, .. }, by } = known;
     let missing = |o: f64| (o - best) / (rest.objective - best).max(f64::MIN_POSITIVE);

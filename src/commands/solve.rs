@@ -10,7 +10,7 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Longest time that can be asked for: a day, ms.
 const LONGEST_MS: u64 = 86_400_000;
@@ -47,6 +47,9 @@ pub struct Solve {
     /// Name ignored keys of the file on standard error
     #[arg(long)]
     pub verbose: bool,
+    /// Say on standard error how long reading, solving and writing took
+    #[arg(long)]
+    pub times: bool,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -59,14 +62,35 @@ pub enum Effort {
     Accurate,
 }
 
+/// Times one thing after another, ms.
+struct Stopwatch {
+    last: Instant,
+}
+
+impl Stopwatch {
+    fn start() -> Self {
+        Self { last: Instant::now() }
+    }
+
+    fn lap(&mut self) -> f64 {
+        let now = Instant::now();
+        let taken = now.duration_since(self.last);
+        self.last = now;
+        1e3 * taken.as_secs_f64()
+    }
+}
+
 impl Solve {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
+        let mut clock = Stopwatch::start();
         let text = read_text(&self.problem)?;
         let (problem, unknown) = problem::read(&text).map_err(|e| CommandError::input(&self.problem, e))?;
         if self.verbose && !unknown.is_empty() {
             eprintln!("plushwright: {}: ignored: {}", self.problem.display(), unknown.join(", "));
         }
+        let reading = clock.lap();
         let answered = self.answer(problem, cancel)?;
+        let solving = clock.lap();
         let mut text = json(&answered)?;
         match &self.output {
             Some(path) => {
@@ -74,6 +98,10 @@ impl Solve {
                 write_file(path, text.as_bytes(), cancel)?;
             }
             None => say(out, &text)?,
+        }
+        if self.times {
+            let writing = clock.lap();
+            eprintln!("plushwright: reading {reading:.2} ms, solving {solving:.2} ms, writing {writing:.2} ms");
         }
         if answered.converged {
             return Ok(());

@@ -56,12 +56,13 @@ pub fn answer(problem: &Problem, options: &Options) -> Result<Document, ProblemE
     let deadline = Instant::now() + options.budget;
     let stop = || Instant::now() >= deadline;
     let frame = Frame::of(problem);
-    let inner = frame.inside(problem);
+    let mut inner = frame.inside(problem);
+    let model = take_model(&mut inner)?;
     let mut work = Work {
         problem,
         inner: &inner,
         frame: &frame,
-        model: model(&inner)?,
+        model,
         options,
         stop: &stop,
         out: Document::default(),
@@ -95,12 +96,17 @@ struct Work<'a> {
 
 /// The physics model of a problem, at its `contractions` (zero if absent).
 pub fn model(problem: &Problem) -> Result<Model, ProblemError> {
+    take_model(&mut problem.clone())
+}
+
+/// The same; takes the routings out of the problem, which has no further use for them.
+pub(super) fn take_model(problem: &mut Problem) -> Result<Model, ProblemError> {
     let material = NeoHookean { mu: problem.material.mu, kappa: problem.material.kappa };
     let content = |key: String, what: &str| ProblemError::Content { key, what: what.into() };
     let body = Body::new(&problem.mesh.nodes, &problem.mesh.triangles, Box::new(material), None)
         .map_err(|k| content(format!("mesh.triangles[{k}]"), "has no area"))?;
-    let elements = problem.elements.iter().map(|e| Element {
-        routing: e.routing.clone(),
+    let elements = problem.elements.iter_mut().map(|e| Element {
+        routing: std::mem::take(&mut e.routing),
         stiffness: e.stiffness,
         epsilon: e.epsilon,
         alpha0: e.alpha0,

@@ -188,3 +188,65 @@ fn check_shape<T: serde::de::DeserializeOwned>(
         Some(_) => Err(content(key, "must be a list")),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SMALL: &str = r#"{"name": "small", "colour": [1, {"a": null}], "format": "plushwright-problem/1",
+        "mesh": {"nodes": [[0, 0], [1, 0.0], [0, 1e0]], "triangles": [[0, 1, 2]], "shade": 3},
+        "material": {"mu": 1, "kappa": 2.5},
+        "elements": [{"routing": [1, 2], "K": 1, "epsilon": 0.001, "alpha0": 1.41421356237, "winch": -3}],
+        "pins": null, "contractions": [0.1], "gravity": null, "zeal": true,
+        "objective": {"targets": [{"node": 2, "xy": [0.5, 0.5]}], "regulariser": 1e-3},
+        "soft_ik": {"beta_upper": [null], "beta_lower": [-0.25], "fixed_winches": {}}}"#;
+
+    #[test]
+    fn the_way_by_a_tree_reads_the_same() {
+        let (problem, unknown) = read(SMALL).unwrap();
+        let (other, same) = diagnose(SMALL).unwrap();
+        assert_eq!(unknown, ["colour", "zeal"]);
+        assert_eq!((format!("{problem:?}"), unknown), (format!("{other:?}"), same));
+        assert!(serde_json::from_str::<Streamed>(SMALL).is_ok());
+    }
+
+    #[test]
+    fn of_a_key_that_stands_twice_the_last_one_counts() {
+        for (old, new) in [(r#""mu": 1"#, r#""mu": 1, "mu": 7"#), (r#""name""#, r#""material": {"mu": 7}, "name""#)] {
+            let text = SMALL.replace(old, new);
+            assert!(serde_json::from_str::<Streamed>(&text).is_err());
+            let mu = read(&text).unwrap().0.material.mu;
+            assert_eq!(mu, if new.contains("name") { 1.0 } else { 7.0 });
+        }
+    }
+
+    /// Whatever is wrong with a text, both ways agree on whether it can be read, and on what it says.
+    #[test]
+    fn a_broken_text_is_refused_by_both_ways() {
+        let pieces = ["null", "[]", "{}", "-1", "1.5", "\"a\"", ",", "]", "}", "true", "1e400", "18446744073709551616"];
+        let (mut read_so, mut refused) = (0, 0);
+        // Knuth's linear congruence: the same texts everywhere.
+        let mut state = 3_u64;
+        let mut below = |count: usize| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 33) as usize % count
+        };
+        for _ in 0..4000 {
+            let (from, length, piece) = (below(SMALL.len()), below(8), pieces[below(pieces.len())]);
+            let text = [&SMALL[..from], piece, &SMALL[(from + length).min(SMALL.len())..]].concat();
+            match (serde_json::from_str::<Streamed>(&text), diagnose(&text)) {
+                (Ok(one), Ok((other, unknown))) => {
+                    assert_eq!(format!("{:?}", one.problem), format!("{other:?}"), "{text}");
+                    let mut known = one.unknown;
+                    known.sort_unstable();
+                    assert_eq!(known, unknown, "{text}");
+                    read_so += 1;
+                }
+                // What is ignored need not be a number that can be held.
+                (Ok(_), Err(error)) => assert!(error.to_string().contains("out of range"), "{error}: {text}"),
+                (Err(_), _) => refused += 1,
+            }
+        }
+        assert!(read_so > 100 && refused > 1000, "{read_so} {refused}");
+    }
+}
