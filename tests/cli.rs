@@ -212,6 +212,10 @@ fn a_problem_is_answered_on_standard_output_or_in_a_file() {
     assert_eq!(succeed(f, &["solve", "p.json", "-o", "a.json"]), "");
     let written: serde_json::Value = serde_json::from_slice(&fs::read(f.join("a.json")).unwrap()).unwrap();
     assert_eq!(written["x"], answer["x"]);
+    let keys: Vec<&String> = written.as_object().unwrap().keys().collect();
+    let text = fs::read_to_string(f.join("a.json")).unwrap();
+    let places: Vec<usize> = keys.iter().map(|key| text.find(&format!("\n  \"{key}\": ")).unwrap()).collect();
+    assert!(places.is_sorted(), "keys are not in ascending order: {text}");
 
     fs::write(f.join("bad.json"), PROBLEM.replace("[0,1,2]", "[0,1,3]")).unwrap();
     let error = fail(f, 2, &["solve", "bad.json", "-o", "b.json"]);

@@ -2,7 +2,7 @@
 
 use super::error::{CommandError, check_cancel};
 use super::output::{json, read_text, say, write_file};
-use crate::problem::{self, Answered, Options, Problem, Quality};
+use crate::problem::{self, Document, Options, Problem, Quality};
 use crate::soft_ik;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
@@ -10,7 +10,7 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Longest time that can be asked for: a day, ms.
 const LONGEST_MS: u64 = 86_400_000;
@@ -47,6 +47,9 @@ pub struct Solve {
     /// Name ignored keys of the file on standard error
     #[arg(long)]
     pub verbose: bool,
+    /// Say on standard error how long reading, solving and writing took
+    #[arg(long)]
+    pub times: bool,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -59,15 +62,36 @@ pub enum Effort {
     Accurate,
 }
 
+/// Times one thing after another, ms.
+struct Stopwatch {
+    last: Instant,
+}
+
+impl Stopwatch {
+    fn start() -> Self {
+        Self { last: Instant::now() }
+    }
+
+    fn lap(&mut self) -> f64 {
+        let now = Instant::now();
+        let taken = now.duration_since(self.last);
+        self.last = now;
+        1e3 * taken.as_secs_f64()
+    }
+}
+
 impl Solve {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
+        let mut clock = Stopwatch::start();
         let text = read_text(&self.problem)?;
         let (problem, unknown) = problem::read(&text).map_err(|e| CommandError::input(&self.problem, e))?;
         if self.verbose && !unknown.is_empty() {
             eprintln!("plushwright: {}: ignored: {}", self.problem.display(), unknown.join(", "));
         }
+        let reading = clock.lap();
         let answered = self.answer(problem, cancel)?;
-        let mut text = json(&answered.document)?;
+        let solving = clock.lap();
+        let mut text = json(&answered)?;
         match &self.output {
             Some(path) => {
                 text.push('\n');
@@ -75,15 +99,18 @@ impl Solve {
             }
             None => say(out, &text)?,
         }
+        if self.times {
+            let writing = clock.lap();
+            eprintln!("plushwright: reading {reading:.2} ms, solving {solving:.2} ms, writing {writing:.2} ms");
+        }
         if answered.converged {
             return Ok(());
         }
-        let reason = answered.document.get("error").and_then(|e| e.as_str()).unwrap_or("no reason given");
-        Err(CommandError::NotConverged(reason.to_owned()))
+        Err(CommandError::NotConverged(answered.error.unwrap_or_else(|| "no reason given".into())))
     }
 
     /// The answer, computed on a thread of its own that an interrupt leaves behind.
-    fn answer(&self, problem: Problem, cancel: &AtomicBool) -> Result<Answered, CommandError> {
+    fn answer(&self, problem: Problem, cancel: &AtomicBool) -> Result<Document, CommandError> {
         let options = Options {
             method: self.method.clone(),
             quality: match self.quality {
@@ -97,7 +124,7 @@ impl Solve {
         let (send, receive) = channel();
         let worker = move || {
             // Nobody is listening any more after an interrupt.
-            let _ = send.send(problem::solve(&problem, &options));
+            let _ = send.send(problem::answer(&problem, &options));
         };
         std::thread::Builder::new()
             .spawn(worker)

@@ -1,6 +1,6 @@
 //! The statics of a problem: where the body rests at the given contractions, and which forces hold it there.
 
-use super::answer::model;
+use super::answer::take_model;
 use super::failure::{Failure, Part};
 use super::file::{Problem, ProblemError};
 use super::frame::Frame;
@@ -31,8 +31,8 @@ pub struct Statics {
 /// Solves the statics of a problem. `stop` is asked before every factorisation.
 pub fn equilibrium(problem: &Problem, stop: &dyn Fn() -> bool) -> Result<Statics, ProblemError> {
     let frame = Frame::of(problem);
-    let inner = frame.inside(problem);
-    let mut model = model(&inner)?;
+    let mut inner = frame.inside(problem);
+    let mut model = take_model(&mut inner)?;
     Ok(settle(problem, &inner, &frame, &mut model, stop).0)
 }
 
