@@ -1,8 +1,9 @@
 //! Sparse Cholesky factorisation, the only file that names faer.
 //!
 //! Symbolic analysis (approximate minimum degree on the fixed pattern) once per topology; numeric factorisation and
-//! solves without allocation afterwards. Sequential, so that the same input gives the same bits.
+//! solves (our own, [`super::panels`]) without allocation afterwards. Sequential, so that the same input gives the same bits.
 
+use super::panels::{Memory, Panels};
 use super::pattern::Pattern;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
@@ -15,6 +16,7 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::linalg::{SupernodalThreshold, SymbolicSupernodalParams};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side, Spec};
+use std::ops::Range;
 
 /// In which order unknowns are eliminated.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -57,6 +59,9 @@ pub struct Cholesky {
     memory: MemBuffer,
     /// Right-hand sides for which `memory` suffices.
     columns: usize,
+    /// The panels of a supernodal factor, with which we solve ourselves.
+    panels: Option<Panels>,
+    sides: Memory,
     valid: bool,
 }
 
@@ -108,7 +113,10 @@ impl Cholesky {
         }
         let symbolic = factorize_symbolic_cholesky(structure, Side::Lower, ordering, parameters).ok()?;
         let factor = vec![0.0; symbolic.len_val()];
-        let mut this = Self { symbolic, factor, memory: MemBuffer::new(Default::default()), columns: 0, valid: false };
+        let panels = panels_of(&symbolic);
+        let memory = MemBuffer::new(Default::default());
+        let sides = panels.as_ref().map(Panels::memory).unwrap_or_default();
+        let mut this = Self { symbolic, factor, memory, columns: 0, panels, sides, valid: false };
         this.reserve(1);
         Some(this)
     }
@@ -148,14 +156,39 @@ impl Cholesky {
         if columns == 0 {
             return;
         }
-        self.reserve(columns);
         let n = self.symbolic.nrows();
+        if let Some(panels) = &self.panels {
+            panels.solve(&self.factor, &mut rhs[..n * columns], 0..columns, [1, n], &mut self.sides);
+            return;
+        }
+        self.reserve(columns);
         LltRef::new(&self.symbolic, &self.factor).solve_in_place_with_conj(
             Conj::No,
             MatMut::from_column_major_slice_mut(rhs, n, columns),
             Par::Seq,
             MemStack::new(&mut self.memory),
         );
+    }
+
+    /// Solves in place for the right-hand sides `solved` of `columns` that are stored row after row.
+    pub fn solve_rows(&mut self, rhs: &mut [f64], columns: usize, solved: Range<usize>) {
+        assert!(self.valid, "solve without a factorisation");
+        if let Some(panels) = &self.panels {
+            panels.solve(&self.factor, rhs, solved, [columns, 1], &mut self.sides);
+            return;
+        }
+        for c in solved {
+            let mut column: Vec<f64> = rhs.iter().skip(c).step_by(columns).copied().collect();
+            self.solve(&mut column);
+            for (v, z) in rhs.iter_mut().skip(c).step_by(columns).zip(column) {
+                *v = z;
+            }
+        }
+    }
+
+    /// Whether there is a factor to solve with.
+    pub fn is_valid(&self) -> bool {
+        self.valid
     }
 
     /// Stored values of the factor (with supernodes, some of them are zeros).
@@ -178,6 +211,23 @@ impl Cholesky {
             self.columns = columns;
         }
     }
+}
+
+/// The panels of a supernodal factor with at most `2^32` values.
+fn panels_of(symbolic: &SymbolicCholesky<usize>) -> Option<Panels> {
+    let SymbolicCholeskyRaw::Supernodal(raw) = symbolic.raw() else { return None };
+    if u32::try_from(symbolic.len_val().max(raw.row_idx().len())).is_err() {
+        return None;
+    }
+    let order = match symbolic.perm() {
+        Some(perm) => perm.arrays().0.iter().map(|&i| i as u32).collect(),
+        None => (0..symbolic.nrows() as u32).collect(),
+    };
+    let panels = (0..raw.n_supernodes()).map(|s| {
+        let (first, end) = (raw.supernode_begin()[s], raw.supernode_end()[s]);
+        (first, end - first, raw.supernode(s).pattern(), raw.col_ptr_for_val()[s])
+    });
+    Some(Panels::new(order, panels))
 }
 
 /// Approximate minimum degree on the graph of the nodes: the order of elimination.

@@ -42,7 +42,7 @@ pub trait Energy: Send + Sync {
     /// Adds, entry by entry, what a residual is compared with.
     fn add_scales(&self, x: &[f64], scales: &mut Scales);
 
-    /// [`Self::add_gradient`] and [`Self::add_scales`], to the same bits, where one pass costs less than two.
+    /// [`Self::add_gradient`] and [`Self::add_scales`], where one pass costs less than two.
     fn add_gradient_and_scales(&self, x: &[f64], gradient: &mut [f64], scales: &mut Scales) {
         self.add_gradient(x, gradient);
         self.add_scales(x, scales);

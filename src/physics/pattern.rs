@@ -142,24 +142,43 @@ impl<'a> Scatter<'a> {
         Self { slots, values }
     }
 
+    /// Adds `block(p)` for each of the stencil's `pairs[p] = (a, b)`: all positions `a >= b`, row by row.
+    #[inline(always)]
+    pub fn add_all<const P: usize>(
+        &mut self,
+        stencil: usize,
+        pairs: [(usize, usize); P],
+        block: impl Fn(usize) -> [f64; 4],
+    ) {
+        let slots: &'a Slots = self.slots;
+        let slots = &slots.slots[slots.starts[stencil]..][..P];
+        for (p, (slot, (a, b))) in slots.iter().zip(pairs).enumerate() {
+            self.add_block(slot, a == b, block(p));
+        }
+    }
+
+    #[inline(always)]
+    fn add_block(&mut self, slot: &Slot, diagonal: bool, m: [f64; 4]) {
+        let (base, stride) = (slot.base as usize, slot.stride as usize);
+        let [m00, m01, m10, m11] = if slot.transposed { [m[0], m[2], m[1], m[3]] } else { m };
+        self.values[base] += m00;
+        self.values[base + 1] += m10;
+        // The second column of a diagonal block starts one entry later: its top entry is above the diagonal.
+        if !diagonal {
+            self.values[base + stride] += m01;
+        }
+        self.values[base + stride + 1] += m11;
+    }
+
     /// Adds `block(a, b)` (row-major 2 x 2, derivative by node `a` then node `b`) for all stencil positions `a >= b`.
     #[inline]
     pub fn add(&mut self, stencil: usize, mut block: impl FnMut(usize, usize) -> [f64; 4]) {
-        let range = self.slots.starts[stencil]..self.slots.starts[stencil + 1];
+        let slots = self.slots;
+        let range = slots.starts[stencil]..slots.starts[stencil + 1];
         let (mut a, mut b) = (0, 0);
-        for slot in &self.slots.slots[range] {
+        for slot in &slots.slots[range] {
             let m = block(a, b);
-            let (base, stride) = (slot.base as usize, slot.stride as usize);
-            let [m00, m01, m10, m11] = if slot.transposed { [m[0], m[2], m[1], m[3]] } else { m };
-            self.values[base] += m00;
-            self.values[base + 1] += m10;
-            if a == b {
-                // The second column of a diagonal block starts one entry later: its top entry is above the diagonal.
-                self.values[base + stride + 1] += m11;
-            } else {
-                self.values[base + stride] += m01;
-                self.values[base + stride + 1] += m11;
-            }
+            self.add_block(slot, a == b, m);
             if a == b {
                 a += 1;
                 b = 0;

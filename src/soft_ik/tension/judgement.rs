@@ -54,9 +54,7 @@ impl Run {
     /// Compares `O` at the equilibrium that the state is on its way to, `x - u`, with what the last step promised. Keeps it if
     /// it is the best, and lets `nu` follow success.
     pub(super) fn judge(&mut self, question: &Question, form: HessianForm, work: &mut Workspace) -> Verdict {
-        let n = self.x.len();
-        let rows = 2 * question.objective.targets.len();
-        let u = &work.solved[(rows + 1) * n..];
+        let u = &work.newton;
         for ((p, x), u) in work.pulled.iter_mut().zip(&self.x).zip(u) {
             *p = x - u;
         }

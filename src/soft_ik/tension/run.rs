@@ -233,7 +233,6 @@ impl Run {
             let moved = if stuck { 0.0 } else { f64::INFINITY };
             return Some(Progress { factorizations, moved, settled: stuck, gain: f64::INFINITY });
         }
-        let rows = 2 * question.objective.targets.len();
         let limited = self.linearise(question, work);
         self.append_secant(work);
         self.before = None;
@@ -245,7 +244,7 @@ impl Run {
         }
         let (step, changed) = self.take(question, form, work);
         if self.before.is_some() {
-            self.secant.leave(&work.jacobian[..rows * self.fibers.len()], &work.now, &work.next, step);
+            self.secant.leave(&mut work.jacobian, &work.now, &work.next, step);
         }
         if limited && step >= 0.5 {
             self.pull *= 2.0;
