@@ -7,7 +7,7 @@
 use super::random::Random;
 use super::shapes::{Field, Subject, carry, original};
 use super::{BenchError, Session};
-use crate::design::Target;
+use crate::design::{Design, Target};
 use crate::engine::compile::objective;
 use crate::mesh::BodyPoint;
 use crate::outline::Point;
@@ -41,7 +41,11 @@ impl Path {
 
 /// Seeded points of a shape: `count` nodes of the bundled mesh, by their rest positions.
 pub fn places(shape: &str, count: usize, random: &mut Random) -> Result<Vec<Point>, BenchError> {
-    let design = original(shape)?;
+    places_on(&original(shape)?, shape, count, random)
+}
+
+/// Seeded points of any design: `count` nodes of its mesh, away from pins and from each other.
+pub fn places_on(design: &Design, shape: &str, count: usize, random: &mut Random) -> Result<Vec<Point>, BenchError> {
     let (mesh, length) = (&design.mesh, design.body_length_mm());
     let pins: Vec<Point> = design.pins.iter().map(|pin| mesh.position(&pin.at, &mesh.nodes)).collect();
     let mut order: Vec<usize> = (0..mesh.nodes.len()).collect();

@@ -3,7 +3,7 @@
 //! | study | question |
 //! | --- | --- |
 //! | [`drag`] | what does a frame under the hand cost, and how good is it? |
-//! | [`cold`] | how fast is a far target approached from rest? |
+//! | [`cold`] | how fast is a far target approached from rest? ([`misses`]: how often is the best pose missed, on any shape?) |
 //! | [`wander`] | does a pose come back when the hand does, and may every frame on the way be shown? |
 //! | [`trade`] | what does accuracy cost, and which settings are never worth it? ([`locking`] of the triangles) |
 //! | [`resolution`] | how far do poses, activations and networks agree over mesh resolutions? |
@@ -25,6 +25,7 @@ pub mod extremes;
 pub mod import;
 pub mod linear;
 pub mod locking;
+pub mod misses;
 pub mod ordering;
 pub mod plot;
 pub mod posing;
@@ -34,6 +35,7 @@ pub mod report;
 pub mod resolution;
 pub mod scene;
 pub mod shapes;
+pub mod silhouettes;
 pub mod statistics;
 pub mod trade;
 pub mod wander;

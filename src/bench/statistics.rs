@@ -31,6 +31,22 @@ pub fn quantile(sorted: &[f64], q: f64) -> f64 {
     if part == 0.0 { sorted[below] } else { sorted[below] + part * (sorted[above] - sorted[below]) }
 }
 
+/// Quantile of the normal distribution for 95 % confidence, two-sided.
+const CONFIDENCE: f64 = 1.959_964;
+
+/// The share of which `hits` out of `count` draws are a sample, with 95 % confidence: Wilson's score interval, which holds for shares near
+/// 0 and 1 too. All shares without draws.
+pub fn wilson(hits: usize, count: usize) -> (f64, f64) {
+    if count == 0 {
+        return (0.0, 1.0);
+    }
+    let (n, z2) = (count as f64, CONFIDENCE * CONFIDENCE);
+    let p = hits as f64 / n;
+    let middle = (p + 0.5 * z2 / n) / (1.0 + z2 / n);
+    let half = CONFIDENCE / (1.0 + z2 / n) * (p * (1.0 - p) / n + 0.25 * z2 / (n * n)).sqrt();
+    ((middle - half).max(0.0), (middle + half).min(1.0))
+}
+
 /// The exponent `p` of `y = c x^p`, by least squares of `ln y` over `ln x`. `None` with fewer than two different positive `x`.
 pub fn growth_exponent(points: &[(f64, f64)]) -> Option<f64> {
     let logs: Vec<(f64, f64)> =
@@ -59,6 +75,18 @@ mod tests {
         assert_eq!(summary, Summary { least: 0.0, median: 50.0, p95: 95.0, worst: 100.0 });
         assert_eq!(Summary::of([3.0, 1.0]).median, 2.0);
         assert!(Summary::of([]).median.is_nan());
+    }
+
+    #[test]
+    fn wilsons_interval_of_known_shares() {
+        // Wilson 1927 in the table of Newcombe 1998: 81 of 263, 15 of 148, 0 of 20, 1 of 29.
+        for (hits, count, low, high) in
+            [(81, 263, 0.2553, 0.3662), (15, 148, 0.0624, 0.1605), (0, 20, 0.0, 0.1611), (1, 29, 0.0061, 0.1718)]
+        {
+            let (l, h) = wilson(hits, count);
+            assert!((l - low).abs() < 1e-4 && (h - high).abs() < 1e-4, "{hits} of {count}: {l} to {h}");
+        }
+        assert_eq!(wilson(0, 0), (0.0, 1.0));
     }
 
     #[test]

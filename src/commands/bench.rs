@@ -6,8 +6,8 @@ use super::output::{Staged, say, say_json};
 use super::solve::Effort;
 use crate::bench::drags::{Path as DragPath, SWEEP_FRAMES};
 use crate::bench::{
-    BenchError, Quality, Report, Session, cold, drag, extremes, import, linear, properties, resolution, scene, shapes,
-    trade, wander,
+    BenchError, Quality, Report, Session, cold, drag, extremes, import, linear, misses, properties, resolution, scene,
+    shapes, trade, wander,
 };
 use clap::{Args, Subcommand, ValueEnum};
 use std::cell::Cell;
@@ -79,6 +79,13 @@ enum Study {
         /// Drags of each shape and number of targets
         #[arg(long, default_value_t = 1)]
         draws: usize,
+        /// Seeded scenes instead, 1 to 6 targets on bundled shapes and on such that are made from the seed: how often the best
+        /// pose is missed
+        #[arg(long, value_name = "N", conflicts_with_all = ["targets", "draws", "shapes"])]
+        scenes: Option<usize>,
+        /// Number of the first of these scenes
+        #[arg(long, default_value_t = 0, value_name = "N")]
+        first: usize,
         #[command(flatten)]
         common: Common,
     },
@@ -229,7 +236,10 @@ impl Study {
                 baseline_up_to: *baseline,
             }
             .run(session),
-            Self::Cold { fibers, targets, draws, common } => {
+            Self::Cold { fibers, scenes: Some(scenes), first, .. } => {
+                misses::Misses { fibers: *fibers, first: *first, scenes: *scenes }.run(session)
+            }
+            Self::Cold { fibers, targets, draws, common, .. } => {
                 cold::Cold { shapes: common.shapes(&["all"]), fibers: *fibers, targets: targets.clone(), draws: *draws }
                     .run(session)
             }

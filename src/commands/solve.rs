@@ -2,7 +2,7 @@
 
 use super::error::{CommandError, check_cancel};
 use super::output::{json, read_text, say, write_file};
-use crate::problem::{self, Answered, Options, Problem, Quality};
+use crate::problem::{self, Document, Options, Problem, Quality};
 use crate::soft_ik;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
@@ -67,7 +67,7 @@ impl Solve {
             eprintln!("plushwright: {}: ignored: {}", self.problem.display(), unknown.join(", "));
         }
         let answered = self.answer(problem, cancel)?;
-        let mut text = json(&answered.document)?;
+        let mut text = json(&answered)?;
         match &self.output {
             Some(path) => {
                 text.push('\n');
@@ -78,12 +78,11 @@ impl Solve {
         if answered.converged {
             return Ok(());
         }
-        let reason = answered.document.get("error").and_then(|e| e.as_str()).unwrap_or("no reason given");
-        Err(CommandError::NotConverged(reason.to_owned()))
+        Err(CommandError::NotConverged(answered.error.unwrap_or_else(|| "no reason given".into())))
     }
 
     /// The answer, computed on a thread of its own that an interrupt leaves behind.
-    fn answer(&self, problem: Problem, cancel: &AtomicBool) -> Result<Answered, CommandError> {
+    fn answer(&self, problem: Problem, cancel: &AtomicBool) -> Result<Document, CommandError> {
         let options = Options {
             method: self.method.clone(),
             quality: match self.quality {
@@ -97,7 +96,7 @@ impl Solve {
         let (send, receive) = channel();
         let worker = move || {
             // Nobody is listening any more after an interrupt.
-            let _ = send.send(problem::solve(&problem, &options));
+            let _ = send.send(problem::answer(&problem, &options));
         };
         std::thread::Builder::new()
             .spawn(worker)

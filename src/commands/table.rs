@@ -3,12 +3,12 @@
 use super::error::CommandError;
 use super::key::{self, solve};
 use super::output::say;
-use crate::design::Design;
+use crate::design::{Design, Pose};
 use crate::engine::solver::target_error;
 use crate::engine::{Question, Warning};
 use serde::Serialize;
 use std::io::Write;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// What `check` reports. Errors are rms distances of the targets in body lengths.
 #[derive(Clone, Debug, Serialize)]
@@ -50,32 +50,11 @@ impl Figures {
     }
 }
 
-/// Solves every pose from rest.
+/// Solves every pose from rest, as many at a time as the machine has cores. Each pose has a solver of its own, so that its figures do
+/// not depend on how many there are.
 pub fn figures(design: &Design, cancel: &AtomicBool) -> Result<Figures, CommandError> {
-    let mut poses = Vec::with_capacity(design.poses.len());
-    for pose in &design.poses {
-        let shapes = solve(design, Question::Targets(pose.targets.clone()), [true, true], cancel)?;
-        let unbalanced = key::unbalanced(&pose.name, &shapes);
-        let [idealized, realizable] = shapes;
-        let note =
-            |view: &str, warning: &Option<Warning>| warning.as_ref().map(|w| format!("{}, {view}: {w}", pose.name));
-        poses.push(PoseFigures {
-            name: pose.name.clone(),
-            targets: pose.targets.len(),
-            error_rest: target_error(design, &pose.targets, &design.mesh.nodes),
-            error_idealized: idealized.target_error,
-            error_realizable: realizable.target_error,
-            milliseconds_idealized: idealized.milliseconds,
-            milliseconds_realizable: realizable.milliseconds,
-            imbalance_idealized: idealized.distance_from_equilibrium(),
-            imbalance_realizable: realizable.distance_from_equilibrium(),
-            unbalanced,
-            warnings: [note("idealized", &idealized.warning), note("realizable", &realizable.warning)]
-                .into_iter()
-                .flatten()
-                .collect(),
-        });
-    }
+    let solved = every_pose(&design.poses, |pose| pose_figures(design, pose, cancel));
+    let poses: Vec<PoseFigures> = solved.into_iter().collect::<Result<_, _>>()?;
     Ok(Figures {
         name: design.name.clone(),
         fibers: design.fiber_routings().len(),
@@ -85,6 +64,59 @@ pub fn figures(design: &Design, cancel: &AtomicBool) -> Result<Figures, CommandE
         tendons: design.networks.iter().map(|n| n.tendons.len()).sum(),
         body_length_mm: design.body_length_mm(),
         poses,
+    })
+}
+
+/// `solve` of every pose, in the order of the poses.
+fn every_pose<T: Send>(poses: &[Pose], solve: impl Fn(&Pose) -> T + Sync) -> Vec<T> {
+    let threads = std::thread::available_parallelism().map_or(1, |n| n.get()).min(poses.len());
+    if threads <= 1 {
+        return poses.iter().map(solve).collect();
+    }
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut done = Vec::new();
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            let Some(pose) = poses.get(index) else { return done };
+            done.push((index, solve(pose)));
+        }
+    };
+    let mut done: Vec<(usize, T)> = std::thread::scope(|scope| {
+        let others: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
+        let mut done = work();
+        for other in others {
+            match other.join() {
+                Ok(more) => done.extend(more),
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
+        }
+        done
+    });
+    done.sort_by_key(|(index, _)| *index);
+    done.into_iter().map(|(_, value)| value).collect()
+}
+
+fn pose_figures(design: &Design, pose: &Pose, cancel: &AtomicBool) -> Result<PoseFigures, CommandError> {
+    let shapes = solve(design, Question::Targets(pose.targets.clone()), [true, true], cancel)?;
+    let unbalanced = key::unbalanced(&pose.name, &shapes);
+    let [idealized, realizable] = shapes;
+    let note = |view: &str, warning: &Option<Warning>| warning.as_ref().map(|w| format!("{}, {view}: {w}", pose.name));
+    Ok(PoseFigures {
+        name: pose.name.clone(),
+        targets: pose.targets.len(),
+        error_rest: target_error(design, &pose.targets, &design.mesh.nodes),
+        error_idealized: idealized.target_error,
+        error_realizable: realizable.target_error,
+        milliseconds_idealized: idealized.milliseconds,
+        milliseconds_realizable: realizable.milliseconds,
+        imbalance_idealized: idealized.distance_from_equilibrium(),
+        imbalance_realizable: realizable.distance_from_equilibrium(),
+        unbalanced,
+        warnings: [note("idealized", &idealized.warning), note("realizable", &realizable.warning)]
+            .into_iter()
+            .flatten()
+            .collect(),
     })
 }
 
@@ -133,4 +165,24 @@ pub fn print(figures: &Figures, out: &mut dyn Write) -> Result<(), CommandError>
         say(out, &format!("note: {warning}"))?;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn poses_keep_their_order_and_are_solved_once() {
+        let pose = |k: usize| Pose { name: format!("{k}"), ..Pose::default() };
+        for count in [0, 1, 2, 37] {
+            let poses: Vec<Pose> = (0..count).map(pose).collect();
+            let calls = AtomicUsize::new(0);
+            let solved = every_pose(&poses, |pose| {
+                calls.fetch_add(1, Ordering::Relaxed);
+                pose.name.clone()
+            });
+            assert_eq!(calls.into_inner(), count);
+            assert!(solved.iter().zip(&poses).all(|(name, pose)| *name == pose.name) && solved.len() == count);
+        }
+    }
 }

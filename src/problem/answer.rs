@@ -1,6 +1,7 @@
 //! Answering a problem: statics, derivatives, Soft IK, drag.
 
-use super::equilibrium::{Statics, settle};
+use super::document::{Document, DragAnswer, ReportedFrame, SoftIkAnswer};
+use super::equilibrium::settle;
 use super::failure::{Failure, Part};
 use super::file::{DragData, Problem, ProblemError};
 use super::frame::Frame;
@@ -8,7 +9,7 @@ use crate::physics::{Body, Cause, Contractile, Element, Energy, Gravity, Model, 
 use crate::soft_ik::{
     self, Actuation, Budget, Objective, PointTarget, Quality, Question, Tracker, Winch, default_method, sensitivity,
 };
-use serde_json::{Map, Value, json};
+use serde_json::Value;
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
@@ -30,7 +31,7 @@ impl Default for Options {
     }
 }
 
-/// The answer document and whether everything asked for converged.
+/// The answer document as a tree of values, for those who look at it key by key.
 #[derive(Clone, Debug)]
 pub struct Answered {
     pub document: Value,
@@ -42,8 +43,16 @@ pub struct Answered {
 /// Iterations of a Soft IK method on a `soft_ik` question.
 const SOFT_IK_ITERATIONS: usize = 300;
 
-/// Answers everything the problem asks for. The problem is solved in the frame of its own body and answered in its own units.
+/// [`answer`] as a tree of values.
 pub fn solve(problem: &Problem, options: &Options) -> Result<Answered, ProblemError> {
+    let document = answer(problem, options)?;
+    // Text keys and finite numbers: nothing that a tree of values could not hold.
+    let tree = serde_json::to_value(&document).unwrap_or_default();
+    Ok(Answered { document: tree, converged: document.converged, failures: document.failures })
+}
+
+/// Answers everything the problem asks for. The problem is solved in the frame of its own body and answered in its own units.
+pub fn answer(problem: &Problem, options: &Options) -> Result<Document, ProblemError> {
     let deadline = Instant::now() + options.budget;
     let stop = || Instant::now() >= deadline;
     let frame = Frame::of(problem);
@@ -55,10 +64,9 @@ pub fn solve(problem: &Problem, options: &Options) -> Result<Answered, ProblemEr
         model: model(&inner)?,
         options,
         stop: &stop,
-        out: Map::new(),
+        out: Document::default(),
         failures: Vec::new(),
     };
-    work.out.insert("format".into(), "plushwright-answer/1".into());
     let drag_only = problem.drag.is_some() && !options.all;
     if !drag_only {
         work.statics()?;
@@ -69,15 +77,7 @@ pub fn solve(problem: &Problem, options: &Options) -> Result<Answered, ProblemEr
     if let (Some(drag), Some(objective)) = (&inner.drag, objective(&inner)) {
         work.drag(drag, objective)?;
     }
-    let Work { mut out, mut failures, .. } = work;
-    remove_infinities(&mut out, &mut failures);
-    let converged = failures.is_empty();
-    out.insert("converged".into(), converged.into());
-    if !converged {
-        let texts: Vec<String> = failures.iter().map(Failure::to_string).collect();
-        out.insert("error".into(), texts.join("; ").into());
-    }
-    Ok(Answered { document: Value::Object(out), converged, failures })
+    Ok(work.out.concluded(work.failures))
 }
 
 /// What the parts of an answer share.
@@ -89,33 +89,8 @@ struct Work<'a> {
     model: Model,
     options: &'a Options,
     stop: &'a dyn Fn() -> bool,
-    out: Map<String, Value>,
+    out: Document,
     failures: Vec<Failure>,
-}
-
-/// JSON has no infinity: where one would stand (a `null` by now), the part goes, and its failure says so.
-fn remove_infinities(out: &mut Map<String, Value>, failures: &mut Vec<Failure>) {
-    fn holds_null(value: &Value) -> bool {
-        match value {
-            Value::Null => true,
-            Value::Array(items) => items.iter().any(holds_null),
-            Value::Object(map) => map.values().any(holds_null),
-            _ => false,
-        }
-    }
-    let bad: Vec<String> = out.iter().filter(|(_, value)| holds_null(value)).map(|(key, _)| key.clone()).collect();
-    for key in bad {
-        out.remove(&key);
-        let part = match key.as_str() {
-            "soft_ik" => Part::SoftIk,
-            "drag" => Part::After(0),
-            _ => Part::Statics,
-        };
-        let failure = Failure::Overflow { part };
-        if !failures.contains(&failure) {
-            failures.push(failure);
-        }
-    }
 }
 
 /// The physics model of a problem, at its `contractions` (zero if absent).
@@ -190,14 +165,13 @@ fn free_actuation(problem: &Problem) -> Result<Actuation, ProblemError> {
 impl Work<'_> {
     fn statics(&mut self) -> Result<(), ProblemError> {
         let (state, x) = settle(self.problem, self.inner, self.frame, &mut self.model, self.stop);
-        let Statics { energy, tensions, pin_forces, residual, iterations, .. } = &state;
         let out = &mut self.out;
-        out.insert("x".into(), json!(state.x));
-        out.insert("energy".into(), json!(energy));
-        out.insert("tensions".into(), json!(tensions));
-        out.insert("pin_forces".into(), json!(pin_forces));
-        out.insert("residual".into(), json!(residual));
-        out.insert("iterations".into(), json!(iterations));
+        out.x = Some(state.x);
+        out.energy = Some(state.energy);
+        out.tensions = Some(state.tensions);
+        out.pin_forces = Some(state.pin_forces);
+        out.residual = Some(state.residual);
+        out.iterations = Some(state.iterations);
         let in_equilibrium = state.failure.is_none();
         self.failures.extend(state.failure);
         if let Some(objective) = objective(self.inner) {
@@ -205,16 +179,16 @@ impl Work<'_> {
             let all = actuation(self.inner, &self.inner.all_winches(), contractions.clone());
             let mut question = Question { model: &mut self.model, actuation: &all, objective: &objective };
             let value = question.objective_at(&x, &contractions) * self.frame.objective();
-            out.insert("objective".into(), json!(value));
+            out.objective = Some(value);
             if (self.stop)() {
                 if in_equilibrium {
                     self.failures.push(Failure::TimeBudget { part: Part::Statics });
                 }
             } else if let Some(gradient) = sensitivity::gradient(&mut question, &x, &contractions) {
                 // dO/dalpha_c: units of O over units of length.
-                let scaled = |list: &[f64]| json!(list.iter().map(|g| g * self.frame.length).collect::<Vec<f64>>());
-                out.insert("grad_alpha_c".into(), scaled(&gradient.by_contraction));
-                out.insert("grad_beta".into(), scaled(&gradient.by_activation));
+                let scaled = |list: &[f64]| list.iter().map(|g| g * self.frame.length).collect::<Vec<f64>>();
+                out.grad_alpha_c = Some(scaled(&gradient.by_contraction));
+                out.grad_beta = Some(scaled(&gradient.by_activation));
             } else {
                 self.failures.push(Failure::Unstable);
             }
@@ -256,18 +230,15 @@ impl Work<'_> {
         }
         let (length, frame) = (self.frame.length, self.frame);
         let lengths = |list: &[f64]| list.iter().map(|v| v * length).collect::<Vec<f64>>();
-        self.out.insert(
-            "soft_ik".into(),
-            json!({
-                "beta": lengths(&posture.beta),
-                "alpha_c": lengths(&actuation.contractions(&posture.beta)),
-                "x": frame.points(&posture.x),
-                "objective": posture.objective * frame.objective(),
-                "iterations": answer.iterations,
-                "factorizations": answer.factorizations,
-                "milliseconds": clock.elapsed().as_secs_f64() * 1e3,
-            }),
-        );
+        self.out.soft_ik = Some(SoftIkAnswer {
+            alpha_c: lengths(&actuation.contractions(&posture.beta)),
+            beta: lengths(&posture.beta),
+            factorizations: answer.factorizations,
+            iterations: answer.iterations,
+            milliseconds: clock.elapsed().as_secs_f64() * 1e3,
+            objective: posture.objective * frame.objective(),
+            x: frame.points(&posture.x),
+        });
         Ok(())
     }
 
@@ -281,7 +252,7 @@ impl Work<'_> {
         let rest = self.model.rest.clone();
         let mut question = Question { model: &mut self.model, actuation: &actuation, objective: &objective };
         let (start, _) = question.settle(&beta, &rest, stop);
-        let (mut milliseconds, mut target_error, mut iterations, mut reported) = (vec![], vec![], vec![], vec![]);
+        let mut out = DragAnswer::default();
         // Once the time is up, nothing more is begun.
         let mut tracker = (!stop()).then(|| Tracker::within(&mut question, &start, stop));
         if tracker.is_none() {
@@ -295,10 +266,10 @@ impl Work<'_> {
             let clock = Instant::now();
             let mut question = Question { model: &mut self.model, actuation: &actuation, objective: &objective };
             let answer = tracker.frame(&mut question, options.quality, stop);
-            milliseconds.push(clock.elapsed().as_secs_f64() * 1e3);
+            out.milliseconds.push(clock.elapsed().as_secs_f64() * 1e3);
             let posture = tracker.posture();
-            target_error.push(objective.target_error(&posture.x) * frame.length);
-            iterations.push(answer.iterations);
+            out.target_error.push(objective.target_error(&posture.x) * frame.length);
+            out.iterations.push(answer.iterations);
             let out_of_time = stop();
             if !posture.in_equilibrium() {
                 self.failures.push(self.unbalanced(Part::Frame(k), &posture.x, !out_of_time));
@@ -308,26 +279,18 @@ impl Work<'_> {
             if drag.report.contains(&k) {
                 let alpha_c: Vec<f64> =
                     actuation.contractions(&posture.beta).iter().map(|c| c * frame.length).collect();
-                reported.push(json!({
-                    "frame": k,
-                    "x": frame.points(&posture.x),
-                    "alpha_c": alpha_c,
-                    "residual": posture.residual * frame.force(),
-                }));
+                out.reported.push(ReportedFrame {
+                    alpha_c,
+                    frame: k,
+                    residual: posture.residual * frame.force(),
+                    x: frame.points(&posture.x),
+                });
             }
             if out_of_time {
                 break;
             }
         }
-        self.out.insert(
-            "drag".into(),
-            json!({
-                "milliseconds": milliseconds,
-                "target_error": target_error,
-                "iterations": iterations,
-                "reported": reported,
-            }),
-        );
+        self.out.drag = Some(out);
         Ok(())
     }
 

@@ -6,6 +6,7 @@
 
 use super::file::{Problem, ProblemError};
 use super::frame::box_of;
+use std::fmt::Arguments;
 
 /// Size of the body, m, and shear modulus, N/m: from its inverse to this. Energies and objectives stay within `f64`.
 const LARGEST_UNIT: f64 = 1e90;
@@ -47,60 +48,60 @@ pub(super) fn check(problem: &Problem) -> Result<(), ProblemError> {
         let what = format!("{mu:e} is beyond {:e} to {LARGEST_UNIT:e}", 1.0 / LARGEST_UNIT);
         return Err(ProblemError::Content { key: "material.mu".into(), what });
     }
-    let near = |key: String, p: &[f64; 2]| {
+    let near = |key: Arguments, p: &[f64; 2]| {
         let distance = (p[0] - centre[0]).abs().max((p[1] - centre[1]).abs()) / size;
         within(key, distance, FARTHEST, "body lengths away")
     };
-    let stiff = |key: String, value: f64| within(key, value.abs() / mu, STIFFEST, "shear moduli");
-    let long = |key: String, value: f64| within(key, value.abs() / size, LONGEST, "body lengths");
+    let stiff = |key: Arguments, value: f64| within(key, value.abs() / mu, STIFFEST, "shear moduli");
+    let long = |key: Arguments, value: f64| within(key, value.abs() / size, LONGEST, "body lengths");
     for (i, p) in problem.mesh.nodes.iter().enumerate() {
-        near(format!("mesh.nodes[{i}]"), p)?;
+        near(format_args!("mesh.nodes[{i}]"), p)?;
     }
     for (i, p) in problem.start.iter().flatten().enumerate() {
-        near(format!("start[{i}]"), p)?;
+        near(format_args!("start[{i}]"), p)?;
     }
-    stiff("material.kappa".into(), problem.material.kappa)?;
+    stiff(format_args!("material.kappa"), problem.material.kappa)?;
     for (i, e) in problem.elements.iter().enumerate() {
-        stiff(format!("elements[{i}].K"), e.stiffness)?;
+        stiff(format_args!("elements[{i}].K"), e.stiffness)?;
         for (name, value) in [("epsilon", e.epsilon), ("alpha0", e.alpha0)] {
-            let key = format!("elements[{i}].{name}");
-            long(key.clone(), value)?;
+            let key = format_args!("elements[{i}].{name}");
+            long(key, value)?;
             within(key, size / value, 1.0 / SHORTEST, "times below the body length")?;
         }
     }
     for (i, c) in problem.contractions.iter().flatten().enumerate() {
-        long(format!("contractions[{i}]"), *c)?;
+        long(format_args!("contractions[{i}]"), *c)?;
     }
     for (i, pin) in problem.pins.iter().enumerate() {
-        near(format!("pins[{i}].target"), &pin.target)?;
-        stiff(format!("pins[{i}].K"), pin.stiffness)?;
+        near(format_args!("pins[{i}].target"), &pin.target)?;
+        stiff(format_args!("pins[{i}].K"), pin.stiffness)?;
     }
     if let (Some(g), Some(density)) = (problem.gravity, problem.surface_density) {
         for component in g {
-            within("gravity".into(), component.abs() * density * size / mu, STIFFEST, "shear moduli")?;
+            within(format_args!("gravity"), component.abs() * density * size / mu, STIFFEST, "shear moduli")?;
         }
     }
     if let Some(objective) = &problem.objective {
         for (i, t) in objective.targets.iter().enumerate() {
-            near(format!("objective.targets[{i}].xy"), &t.xy)?;
+            near(format_args!("objective.targets[{i}].xy"), &t.xy)?;
         }
     }
     if let Some(ik) = &problem.soft_ik {
         for (name, list) in [("beta_upper", &ik.beta_upper), ("beta_lower", &ik.beta_lower)] {
             for (j, v) in list.iter().flatten().enumerate() {
-                long(format!("soft_ik.{name}[{j}]"), v.unwrap_or(0.0))?;
+                long(format_args!("soft_ik.{name}[{j}]"), v.unwrap_or(0.0))?;
             }
         }
         for (j, v) in ik.beta_start.iter().flatten().enumerate() {
-            long(format!("soft_ik.beta_start[{j}]"), *v)?;
+            long(format_args!("soft_ik.beta_start[{j}]"), *v)?;
         }
         for (id, v) in ik.fixed_winches.iter().flatten() {
-            long(format!("soft_ik.fixed_winches.{id}"), *v)?;
+            long(format_args!("soft_ik.fixed_winches.{id}"), *v)?;
         }
     }
     for (k, frame) in problem.drag.iter().flat_map(|d| d.frames.iter().enumerate()) {
         for (t, p) in frame.iter().enumerate() {
-            near(format!("drag.frames[{k}][{t}]"), p)?;
+            near(format_args!("drag.frames[{k}][{t}]"), p)?;
         }
     }
     Ok(())
@@ -113,11 +114,14 @@ fn measure(problem: &Problem) -> (f64, [f64; 2]) {
     ((high[0] - low[0]).max(high[1] - low[1]), centre)
 }
 
-fn within(key: String, value: f64, limit: f64, of: &str) -> Result<(), ProblemError> {
+fn within(key: Arguments, value: f64, limit: f64, of: &str) -> Result<(), ProblemError> {
     // A quotient that overflowed is as far beyond as one that did not.
     if value <= limit {
         return Ok(());
     }
     let value = if value.is_finite() { format!("{value:.1e}") } else { "too many".into() };
-    Err(ProblemError::Content { key, what: format!("is {value} {of}, at most {limit:e} can be computed") })
+    Err(ProblemError::Content {
+        key: key.to_string(),
+        what: format!("is {value} {of}, at most {limit:e} can be computed"),
+    })
 }

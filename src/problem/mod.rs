@@ -4,15 +4,20 @@
 //! script or another solver can put the same question and compare.
 
 pub mod answer;
+mod checks;
+pub mod document;
 pub mod equilibrium;
 pub mod failure;
 pub mod file;
 mod frame;
 mod limits;
 pub mod network;
+mod reading;
 
 pub use crate::soft_ik::Quality;
-pub use answer::{Answered, Options, solve};
+pub use answer::{Answered, Options, answer, solve};
+pub use document::Document;
 pub use equilibrium::{Statics, equilibrium};
 pub use failure::{Failure, Part};
-pub use file::{Problem, ProblemError, read};
+pub use file::{Problem, ProblemError};
+pub use reading::read;

@@ -1,0 +1,190 @@
+//! Reading a problem file: straight from the text into its structs.
+//!
+//! A file of 10 000 fibres is 2 MB of numbers; a tree of JSON values in between would take longer than solving it. Only a file that cannot be
+//! read so is taken apart as a tree, to say where it is wrong.
+
+use super::file::{
+    DragData, ElementData, FORMAT, MaterialData, MeshData, ObjectiveData, PinData, Problem, ProblemError, SoftIkData,
+    TargetData, content,
+};
+use serde::de::{Error, IgnoredAny, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer};
+use serde_json::Value;
+
+/// Keys that a problem may have.
+const KEYS: [&str; 12] = [
+    "format",
+    "mesh",
+    "material",
+    "elements",
+    "pins",
+    "contractions",
+    "objective",
+    "soft_ik",
+    "start",
+    "gravity",
+    "surface_density",
+    "drag",
+];
+/// Remarks that it may have besides; nobody is told that they are ignored.
+const REMARKS: [&str; 5] = ["name", "note", "units", "tags", "n_edges"];
+
+/// Reads and checks a problem. Also returns the unknown top-level keys that were ignored, in ascending order.
+pub fn read(text: &str) -> Result<(Problem, Vec<String>), ProblemError> {
+    let (problem, mut unknown) = match serde_json::from_str::<Streamed>(text) {
+        Ok(Streamed { problem, unknown }) => (problem, unknown),
+        Err(_) => diagnose(text)?,
+    };
+    problem.check()?;
+    unknown.sort_unstable();
+    unknown.dedup();
+    Ok((problem, unknown))
+}
+
+/// A problem as it comes from the text, key by key.
+struct Streamed {
+    problem: Problem,
+    unknown: Vec<String>,
+}
+
+/// The value of a key that must be there, of one that may be absent or `null`.
+fn required<T, E: Error>(value: Option<T>, key: &'static str) -> Result<T, E> {
+    value.ok_or_else(|| E::missing_field(key))
+}
+
+impl<'de> Deserialize<'de> for Streamed {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_map(Keys)
+    }
+}
+
+struct Keys;
+
+impl<'de> Visitor<'de> for Keys {
+    type Value = Streamed;
+
+    fn expecting(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        f.write_str("a JSON object")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Streamed, A::Error> {
+        let mut problem = Problem::default();
+        let (mut format, mut mesh, mut material): (Option<String>, Option<MeshData>, Option<MaterialData>) =
+            (None, None, None);
+        let mut unknown = Vec::new();
+        let mut seen = Vec::new();
+        while let Some(key) = map.next_key::<String>()? {
+            if seen.contains(&key) {
+                return Err(A::Error::custom("the same key twice"));
+            }
+            match key.as_str() {
+                "format" => format = Some(map.next_value()?),
+                "mesh" => mesh = map.next_value()?,
+                "material" => material = map.next_value()?,
+                "elements" => problem.elements = map.next_value::<Option<_>>()?.unwrap_or_default(),
+                "pins" => problem.pins = map.next_value::<Option<_>>()?.unwrap_or_default(),
+                "contractions" => problem.contractions = map.next_value()?,
+                "objective" => problem.objective = map.next_value()?,
+                "soft_ik" => problem.soft_ik = map.next_value()?,
+                "start" => problem.start = map.next_value()?,
+                "gravity" => problem.gravity = map.next_value()?,
+                "surface_density" => problem.surface_density = map.next_value()?,
+                "drag" => problem.drag = map.next_value()?,
+                remark => {
+                    map.next_value::<IgnoredAny>()?;
+                    if !REMARKS.contains(&remark) {
+                        unknown.push(key.clone());
+                    }
+                }
+            }
+            seen.push(key);
+        }
+        if format.as_deref() != Some(FORMAT) {
+            return Err(A::Error::custom("another format"));
+        }
+        problem.mesh = required(mesh, "mesh")?;
+        problem.material = required(material, "material")?;
+        Ok(Streamed { problem, unknown })
+    }
+}
+
+/// The same by way of a tree of values: names what is wrong with the file and where, or reads it where a key stands twice (the last
+/// one counts).
+fn diagnose(text: &str) -> Result<(Problem, Vec<String>), ProblemError> {
+    let value: Value = serde_json::from_str(text).map_err(|e| ProblemError::Json(e.to_string()))?;
+    let Value::Object(map) = &value else {
+        return Err(content("problem", "must be a JSON object"));
+    };
+    match map.get("format").and_then(Value::as_str) {
+        Some(FORMAT) => {}
+        Some(other) => return Err(content("format", format!("\"{other}\" is unknown, expected \"{FORMAT}\""))),
+        None => return Err(content("format", format!("missing, expected \"{FORMAT}\""))),
+    }
+    let is_known = |key: &str| KEYS.contains(&key) || REMARKS.contains(&key);
+    let unknown = map.keys().filter(|key| !is_known(key)).cloned().collect();
+    Ok((typed(&value)?, unknown))
+}
+
+/// Types the JSON value piece by piece, so that an error can name where it is.
+fn typed(value: &Value) -> Result<Problem, ProblemError> {
+    for key in ["mesh", "material"] {
+        if value.get(key).is_none_or(Value::is_null) {
+            return Err(content(key, "missing"));
+        }
+    }
+    let mut value = value.clone();
+    if let Value::Object(map) = &mut value {
+        for key in ["elements", "pins"] {
+            if map.get(key).is_some_and(Value::is_null) {
+                map.remove(key);
+            }
+        }
+    }
+    check_shape::<[f64; 2]>(&value, "/mesh/nodes", "mesh.nodes", "a point [x, y]")?;
+    check_shape::<[usize; 3]>(&value, "/mesh/triangles", "mesh.triangles", "three node ids")?;
+    check_shape::<ElementData>(&value, "/elements", "elements", "an element")?;
+    check_shape::<PinData>(&value, "/pins", "pins", "a pin")?;
+    check_shape::<f64>(&value, "/contractions", "contractions", "a number")?;
+    check_shape::<TargetData>(&value, "/objective/targets", "objective.targets", "a target")?;
+    check_shape::<Option<f64>>(&value, "/soft_ik/beta_upper", "soft_ik.beta_upper", "a number or null")?;
+    check_shape::<Option<f64>>(&value, "/soft_ik/beta_lower", "soft_ik.beta_lower", "a number or null")?;
+    check_shape::<f64>(&value, "/soft_ik/beta_start", "soft_ik.beta_start", "a number")?;
+    check_shape::<i64>(&value, "/soft_ik/winch_ids", "soft_ik.winch_ids", "a winch id")?;
+    check_shape::<[f64; 2]>(&value, "/start", "start", "a point [x, y]")?;
+    check_shape::<Vec<[f64; 2]>>(&value, "/drag/frames", "drag.frames", "a list of points [x, y]")?;
+    check_shape::<usize>(&value, "/drag/report", "drag.report", "a frame index")?;
+    for key in ["mesh", "material", "objective", "soft_ik", "gravity", "surface_density", "drag"] {
+        let Some(part) = value.get(key) else { continue };
+        let result = match key {
+            "mesh" => serde_json::from_value::<MeshData>(part.clone()).map(drop),
+            "material" => serde_json::from_value::<MaterialData>(part.clone()).map(drop),
+            "objective" => serde_json::from_value::<Option<ObjectiveData>>(part.clone()).map(drop),
+            "soft_ik" => serde_json::from_value::<Option<SoftIkData>>(part.clone()).map(drop),
+            "gravity" => serde_json::from_value::<Option<[f64; 2]>>(part.clone()).map(drop),
+            "surface_density" => serde_json::from_value::<Option<f64>>(part.clone()).map(drop),
+            _ => serde_json::from_value::<Option<DragData>>(part.clone()).map(drop),
+        };
+        result.map_err(|e| content(key, e.to_string()))?;
+    }
+    serde_json::from_value(value).map_err(|e| content("problem", e.to_string()))
+}
+
+fn check_shape<T: serde::de::DeserializeOwned>(
+    value: &Value,
+    pointer: &str,
+    key: &str,
+    expected: &str,
+) -> Result<(), ProblemError> {
+    match value.pointer(pointer) {
+        None | Some(Value::Null) => Ok(()),
+        Some(Value::Array(items)) => {
+            for (i, item) in items.iter().enumerate() {
+                if let Err(e) = serde_json::from_value::<T>(item.clone()) {
+                    return Err(content(&format!("{key}[{i}]"), format!("expected {expected}: {e}")));
+                }
+            }
+            Ok(())
+        }
+        Some(_) => Err(content(key, "must be a list")),
+    }
+}
