@@ -69,14 +69,14 @@ impl Model {
         terms: Vec<Box<dyn Energy>>,
     ) -> Result<Self, ModelError> {
         let rest: Vec<f64> = nodes.iter().flatten().copied().collect();
-        let (pattern, slots) = {
+        let (pattern, slots, cholesky) = {
             let all: Vec<&dyn Energy> = all_terms(&body, &contractile, &pins, &terms).collect();
             let pattern =
                 Pattern::new(nodes.len(), all.iter().flat_map(|t| (0..t.stencils()).map(move |k| t.stencil(k))));
+            let (pattern, cholesky) = Cholesky::ordered(&pattern).ok_or(ModelError::Memory)?;
             let slots = all.iter().map(|t| pattern.slots((0..t.stencils()).map(|k| t.stencil(k)))).collect();
-            (pattern, slots)
+            (pattern, slots, cholesky)
         };
-        let cholesky = Cholesky::new(&pattern).ok_or(ModelError::Memory)?;
         let values = vec![0.0; pattern.nonzeros()];
         let Freedom { shift, pieces, loose, unpinned } = Freedom::of(nodes, &body, &contractile, &pins);
         Ok(Self {
