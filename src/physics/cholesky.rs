@@ -340,7 +340,8 @@ mod tests {
         let n = pattern.dimension();
         let b: Vec<f64> = (0..n).map(|i| (i as f64 * 0.3).cos()).collect();
         let back = Ordering::Nodes((0..n / 2).rev().collect());
-        let orderings = [Ordering::MinimumDegree, Ordering::NodeMinimumDegree, Ordering::Natural, back, Ordering::Given];
+        let orderings =
+            [Ordering::MinimumDegree, Ordering::NodeMinimumDegree, Ordering::Natural, back, Ordering::Given];
         for ordering in orderings {
             for kernel in
                 [Kernel::Automatic, Kernel::Simplicial, Kernel::Supernodal(&[]), Kernel::Supernodal(&[(8, 1.0)])]

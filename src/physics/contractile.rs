@@ -281,25 +281,27 @@ impl Energy for Contractile {
     /// A taut segment on its way to nothing would be thrown back and forth across its end, where the length has its kink: it may
     /// come nearer to it by a factor of ten a step.
     fn step_limit(&self, x: &[f64], dx: &[f64]) -> f64 {
-        let mut limit = 1.0_f64;
-        for (e, law) in self.elements.iter().zip(&self.laws) {
-            for s in e.routing.windows(2) {
+        let one = |(e, law): (&Element, &Law), limit: f64| {
+            e.routing.windows(2).fold(limit, |limit, s| {
                 let (px, py) = (x[2 * s[1]] - x[2 * s[0]], x[2 * s[1] + 1] - x[2 * s[0] + 1]);
                 let (vx, vy) = (dx[2 * s[1]] - dx[2 * s[0]], dx[2 * s[1] + 1] - dx[2 * s[0] + 1]);
                 let along = px * vx + py * vy;
                 let most = TURNING_MARGIN * (px * px + py * py);
                 // Nearly all are far from turning: neither their lengths nor their tensions are needed.
                 if along.is_nan() || along >= 0.0 || most >= -along * limit {
-                    continue;
+                    return limit;
                 }
                 let point = e.point();
                 let taut = || law.tension_and_tangent(e, e.length(x)).0 > 0.0;
-                if segment(x, s, point).2 > ROUND * point && taut() {
-                    limit = most / -along;
-                }
-            }
-        }
-        limit
+                if segment(x, s, point).2 > ROUND * point && taut() { most / -along } else { limit }
+            })
+        };
+        let mut limit = 1.0;
+        self.straight.first_turn(x, dx, TURNING_MARGIN, &mut |k, before| {
+            limit = one((&self.elements[k], &self.laws[k]), before);
+            limit
+        });
+        self.routed().fold(limit, |limit, element| one(element, limit))
     }
 
     fn add_scales(&self, x: &[f64], scales: &mut Scales) {
@@ -323,6 +325,22 @@ impl Energy for Contractile {
 }
 
 impl Contractile {
+    /// Length of every element at `x` into `lengths`.
+    pub fn lengths_into(&self, x: &[f64], lengths: &mut [f64]) {
+        self.straight.lengths(&self.elements, x, lengths);
+        for &k in &self.routed {
+            lengths[k] = self.elements[k].length(x);
+        }
+    }
+
+    /// Tension of every element at `x` into `tensions`.
+    pub fn tensions_into(&self, x: &[f64], tensions: &mut [f64]) {
+        self.straight.tensions(&self.elements, &self.laws, x, tensions);
+        for (&k, (e, law)) in self.routed.iter().zip(self.routed()) {
+            tensions[k] = law.tension_and_tangent(e, e.length(x)).0;
+        }
+    }
+
     /// Elements with via points, and their laws.
     fn routed(&self) -> impl Iterator<Item = (&Element, &Law)> {
         self.routed.iter().map(|&k| (&self.elements[k], &self.laws[k]))

@@ -76,6 +76,18 @@ impl<'a> Scales<'a> {
         }
     }
 
+    /// Both at once, the rounding the same in both components.
+    #[inline(always)]
+    pub fn add(&mut self, node: usize, force: [f64; 2], rounding: f64) {
+        if self.rounding.is_some() {
+            self.add_force(node, force);
+            self.add_rounding(node, [rounding; 2]);
+            return;
+        }
+        self.at_work[2 * node] += force[0] + rounding;
+        self.at_work[2 * node + 1] += force[1] + rounding;
+    }
+
     /// What a change of the coordinates by [`ROUNDING`] of their size does to a force.
     pub fn add_rounding(&mut self, node: usize, magnitudes: [f64; 2]) {
         let sum = self.rounding.as_deref_mut().unwrap_or(self.at_work);

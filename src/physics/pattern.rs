@@ -240,7 +240,8 @@ mod tests {
     fn blocks_land_where_a_dense_matrix_says() {
         let stencils: [&[usize]; 3] = [&[2, 0, 1], &[3, 1], &[3]];
         let plain = Pattern::new(4, stencils.iter().copied());
-        for pattern in [plain.reordered(&[2, 0, 3, 1]), plain.reordered(&[3, 1, 0, 2]).reordered(&[1, 3, 2, 0]), plain] {
+        for pattern in [plain.reordered(&[2, 0, 3, 1]), plain.reordered(&[3, 1, 0, 2]).reordered(&[1, 3, 2, 0]), plain]
+        {
             check(&pattern, &stencils);
         }
     }

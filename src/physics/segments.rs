@@ -118,6 +118,33 @@ impl Segments {
         wide::run(Gradient { segments: self, elements, laws, x, gradient, scales });
     }
 
+    /// Length of each into its element's place in `lengths`.
+    pub fn lengths(&self, elements: &[Element], x: &[f64], lengths: &mut [f64]) {
+        for (&k, ends) in self.elements.iter().zip(&self.ends) {
+            let ([a, b], width) = (ends.map(|n| 2 * n as usize), elements[k as usize].point());
+            let (dx, dy) = (x[b] - x[a], x[b + 1] - x[a + 1]);
+            lengths[k as usize] = (dx * dx + dy * dy + width * width).sqrt();
+        }
+    }
+
+    /// Tension of each into its element's place in `tensions`.
+    pub fn tensions(&self, elements: &[Element], laws: &[Law], x: &[f64], tensions: &mut [f64]) {
+        wide::run(Tensions { segments: self, elements, laws, x, tensions });
+    }
+
+    /// Calls `near` with the elements that may turn over within the step `limit dx`, and with that limit; it returns the limit
+    /// from there on. `margin`: the part of the way that a step may take.
+    pub fn first_turn(&self, x: &[f64], dx: &[f64], margin: f64, near: &mut dyn FnMut(usize, f64) -> f64) {
+        let mut limit = 1.0;
+        for (&k, ends) in self.elements.iter().zip(&self.ends) {
+            let [a, b] = ends.map(|n| 2 * n as usize);
+            let (px, py, vx, vy) = (x[b] - x[a], x[b + 1] - x[a + 1], dx[b] - dx[a], dx[b + 1] - dx[a + 1]);
+            if -(px * vx + py * vy) * limit > margin * (px * px + py * py) {
+                limit = near(k as usize, limit);
+            }
+        }
+    }
+
     pub fn add_hessian(&self, elements: &[Element], laws: &[Law], x: &[f64], out: &mut Scatter) {
         wide::run(Hessian { segments: self, elements, laws, x, out });
     }
@@ -161,10 +188,33 @@ impl Work for Gradient<'_, '_> {
                     let size = [a, a + 1, b, b + 1].iter().fold(0.0, |m: f64, &d| m.max(x[d].abs()));
                     let rounding = ROUNDING * (tangent * length + tau / length * size);
                     for n in ends.map(|n| n as usize) {
-                        scales.add_force(n, [tau; 2]);
-                        scales.add_rounding(n, [rounding; 2]);
+                        scales.add(n, [tau; 2], rounding);
                     }
                 }
+            }
+        }
+    }
+}
+
+struct Tensions<'a> {
+    segments: &'a Segments,
+    elements: &'a [Element],
+    laws: &'a [Law],
+    x: &'a [f64],
+    tensions: &'a mut [f64],
+}
+
+impl Work for Tensions<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) {
+        for chunk in self.segments.chunks() {
+            let places = &self.segments.elements[chunk.clone()];
+            let pulled = self.segments.pull::<FUSED>(chunk, self.elements, self.laws, self.x);
+            let tensions = pulled.map_or([0.0; CHUNK], |pulled| pulled.tensions);
+            for (&k, tension) in places.iter().zip(&tensions) {
+                self.tensions[k as usize] = *tension;
             }
         }
     }

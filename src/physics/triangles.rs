@@ -178,8 +178,7 @@ impl Work for Gradient<'_, '_> {
                 let change = modulus * size * lengths[0].max(lengths[1]).max(lengths[2]) * all.weights[k];
                 for ((&n, force), length) in t.iter().zip(forces).zip(lengths) {
                     let rounding = *floor * all.weights[k] * length;
-                    scales.add_force(n, force.map(|f| f + rounding));
-                    scales.add_rounding(n, [change * length; 2]);
+                    scales.add(n, force.map(|f| f + rounding), change * length);
                 }
             }
         }

@@ -92,6 +92,8 @@ pub struct Tracker {
     fibers: Option<Fibers>,
     statics: statics::Workspace,
     contractions: Vec<f64>,
+    /// Lengths or tensions of all elements.
+    along: Vec<f64>,
     /// The posture of the frame is being changed here, so that a failure leaves the last one.
     trial: Vec<f64>,
     beta: Vec<f64>,
@@ -201,6 +203,7 @@ impl Tracker {
             fibers,
             statics: statics::Workspace::new(start.x.len()),
             contractions: vec![0.0; elements],
+            along: vec![0.0; elements],
             trial: start.x.clone(),
             squares: None,
             force_scale: 0.0,
@@ -261,7 +264,7 @@ impl Tracker {
         let clock = Instant::now();
         let best = &fibers.run.best;
         self.trial.copy_from_slice(&best.x);
-        best.activations_into(question, &mut self.beta);
+        best.activations_into(question, &mut self.along, &mut self.beta);
         question.actuation.contractions_into(&self.beta, &mut self.contractions);
         question.model.contractile.set_contractions(&self.contractions);
         let small = Quality::Balanced.factorizations(self.beta.len()) >= SMALL;
@@ -289,7 +292,10 @@ impl Tracker {
         self.force_scale = scale;
         let settled = residual <= SHOWN * scale;
         let squares = self.squares.unwrap_or_else(|| squared_tensions(question, &self.posture.x, &self.posture.beta));
-        let squares_after = squared_tensions(question, &self.trial, &self.beta);
+        // They are springs at `beta` now.
+        question.model.contractile.tensions_into(&self.trial, &mut self.along);
+        let tensions = question.actuation.winches.iter().map(|winch| self.along[winch.members[0].0]);
+        let squares_after: f64 = tensions.map(|t| t * t).sum();
         let objective = question.objective;
         let value = |x: &[f64], squares: f64| objective.position_value(x) + 0.5 * objective.tension_weight * squares;
         let (before, after) = (value(&self.posture.x, squares), value(&self.trial, squares_after));

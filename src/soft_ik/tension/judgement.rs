@@ -146,12 +146,12 @@ impl Run {
 }
 
 impl Best {
-    /// Activations that hold the tensions at the positions, within the bounds, into `beta`.
-    pub fn activations_into(&self, question: &Question, beta: &mut [f64]) {
-        let elements = &question.model.contractile.elements;
+    /// Activations that hold the tensions at the positions, within the bounds, into `beta`. `lengths` becomes those of all elements.
+    pub fn activations_into(&self, question: &Question, lengths: &mut [f64], beta: &mut [f64]) {
+        let contractile = &question.model.contractile;
+        contractile.lengths_into(&self.x, lengths);
         for (b, fiber) in beta.iter_mut().zip(&self.fibers) {
-            let element = &elements[fiber.element];
-            *b = fiber.activation(element, element.length(&self.x));
+            *b = fiber.activation(&contractile.elements[fiber.element], lengths[fiber.element]);
         }
         question.actuation.clamp(beta);
     }

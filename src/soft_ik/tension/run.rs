@@ -181,7 +181,9 @@ impl Run {
     pub(super) fn set_laws(&self, question: &mut Question, work: &Workspace) {
         let steady = self.steady(work);
         let contractile = &mut question.model.contractile;
-        contractile.set_contractions(&question.actuation.fixed);
+        if self.fibers.len() < contractile.laws.len() {
+            contractile.set_contractions(&question.actuation.fixed);
+        }
         for fiber in &self.fibers {
             contractile.laws[fiber.element] = fiber.law(steady);
         }
