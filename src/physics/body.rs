@@ -8,6 +8,7 @@ use super::double::Double;
 use super::energy::{Energy, HessianForm, ROUNDING, Scales};
 use super::material::{Material, cofactor, project};
 use super::pattern::Scatter;
+use super::triangles::Triangles;
 use nalgebra::{Matrix2, Vector2};
 
 /// Step cap: the fraction of the way to the first inversion that a step may go.
@@ -25,6 +26,8 @@ pub struct Body {
     /// Rest area times stiffness factor.
     weights: Vec<f64>,
     areas: Vec<f64>,
+    /// The same for loops over many triangles.
+    wide: Triangles,
 }
 
 impl Body {
@@ -51,8 +54,9 @@ impl Body {
             gradients.push([-b1 - b2, b1, b2]);
             areas.push(area);
         }
-        let weights = areas.iter().enumerate().map(|(k, a)| a * stiffness.map_or(1.0, |s| s[k])).collect();
-        Ok(Self { material, triangles: triangles.to_vec(), gradients, weights, areas })
+        let weights: Vec<f64> = areas.iter().enumerate().map(|(k, a)| a * stiffness.map_or(1.0, |s| s[k])).collect();
+        let wide = Triangles::new(triangles, &gradients, &weights);
+        Ok(Self { material, triangles: triangles.to_vec(), gradients, weights, areas, wide })
     }
 
     pub fn triangles(&self) -> &[[usize; 3]] {
@@ -119,9 +123,7 @@ impl Body {
 
     /// The smallest `det F`; positive for an uninverted state, NaN never.
     pub fn smallest_determinant(&self, x: &[f64]) -> f64 {
-        (0..self.triangles.len())
-            .map(|k| self.deformation_gradient(k, x).determinant())
-            .fold(f64::INFINITY, |m, j| if j.is_nan() { f64::NEG_INFINITY } else { m.min(j) })
+        self.wide.smallest_determinant(x)
     }
 }
 
@@ -135,100 +137,119 @@ impl Energy for Body {
     }
 
     fn value(&self, x: &[f64]) -> f64 {
-        let mut energy = 0.0;
-        for k in 0..self.triangles.len() {
-            energy += self.weights[k] * self.material.density(&self.deformation_gradient(k, x));
-        }
+        let one = |k: usize| self.weights[k] * self.material.density(&self.deformation_gradient(k, x));
+        let energy = match self.material.neo_hookean() {
+            Some(material) => self.wide.energy(material, x, &one),
+            None => (0..self.triangles.len()).map(one).sum(),
+        };
         if energy.is_nan() { f64::INFINITY } else { energy }
     }
 
     fn add_gradient(&self, x: &[f64], gradient: &mut [f64]) {
-        for (k, t) in self.triangles.iter().enumerate() {
-            let p = self.material.stress(&self.deformation_gradient(k, x)) * self.weights[k];
-            for (a, &n) in t.iter().enumerate() {
-                let force = p * self.gradients[k][a];
+        let mut one = |k: usize, gradient: &mut [f64], _: Option<&mut Scales>| {
+            self.forces(k, x, |n, force| {
                 gradient[2 * n] += force[0];
                 gradient[2 * n + 1] += force[1];
-            }
+            });
+        };
+        match self.material.neo_hookean() {
+            Some(material) => self.wide.add_gradient(material, x, gradient, None, &mut one),
+            None => (0..self.triangles.len()).for_each(|k| one(k, gradient, None)),
         }
     }
 
     fn add_hessian(&self, x: &[f64], form: HessianForm, out: &mut Scatter) {
-        for k in 0..self.triangles.len() {
-            let f = self.deformation_gradient(k, x);
-            let c = match form {
-                HessianForm::Exact => self.material.tangent(&f),
-                HessianForm::Projected => project(self.material.descent_tangent(&f)),
-            } * self.weights[k];
-            // Columns of `C h`, the change of stress per displacement of each node along x and y.
-            let g = &self.gradients[k];
-            let by_node = g.map(|h| {
-                let column = |j: usize| [0, 1, 2, 3].map(|i| c[(i, j)] * h[0] + c[(i, j + 2)] * h[1]);
-                [column(0), column(1)]
-            });
-            out.add(k, |p, q| {
-                let (g, [x, y]) = (g[p], &by_node[q]);
-                [
-                    g[0] * x[0] + g[1] * x[2],
-                    g[0] * y[0] + g[1] * y[2],
-                    g[0] * x[1] + g[1] * x[3],
-                    g[0] * y[1] + g[1] * y[3],
-                ]
-            });
+        match self.material.neo_hookean() {
+            Some(material) if form == HessianForm::Exact => {
+                self.wide.add_hessian(material, x, out, &mut |k, out| self.add_one_hessian(k, x, form, out));
+            }
+            _ => (0..self.triangles.len()).for_each(|k| self.add_one_hessian(k, x, form, out)),
         }
     }
 
     /// `det(F + t dF) = J + t cof F : dF + t^2 det dF`; the cap is a fraction of its first positive root.
     fn step_limit(&self, x: &[f64], dx: &[f64]) -> f64 {
         let mut limit = 1.0_f64;
-        for k in 0..self.triangles.len() {
+        let mut one = |k: usize, _: f64| {
             let f = self.deformation_gradient(k, x);
             let df = self.deformation_gradient(k, dx);
-            let (a, b, c) = (df.determinant(), cofactor(&f).dot(&df), f.determinant());
-            // Nearly all are far from inversion: no root of `a t^2 + b t + c` up to `t` where `|a| t^2 + |b| t < c`.
-            let t = limit / INVERSION_MARGIN;
-            if (a.abs() * t + b.abs()) * t < c {
-                continue;
-            }
-            limit = limit.min(INVERSION_MARGIN * first_positive_root(a, b, c));
-        }
+            let root = first_positive_root(df.determinant(), cofactor(&f).dot(&df), f.determinant());
+            limit = limit.min(INVERSION_MARGIN * root);
+            limit / INVERSION_MARGIN
+        };
+        self.wide.first_inversion(x, dx, 1.0 / INVERSION_MARGIN, &mut one);
         limit
     }
 
     /// The forces of a single triangle, before they balance with its neighbours', and the floor that rounding sets. `F` changes
     /// with the coordinates, and the stress by the largest modulus with it.
     fn add_scales(&self, x: &[f64], scales: &mut Scales) {
-        self.add_forces(x, |_, _| {}, scales);
+        (0..self.triangles.len()).for_each(|k| self.add_one_force(k, x, |_, _| {}, scales));
     }
 
     fn add_gradient_and_scales(&self, x: &[f64], gradient: &mut [f64], scales: &mut Scales) {
-        let add = |n: usize, force: Vector2<f64>| {
-            gradient[2 * n] += force[0];
-            gradient[2 * n + 1] += force[1];
+        let one = |k: usize, gradient: &mut [f64], scales: &mut Scales| {
+            let add = |n: usize, force: Vector2<f64>| {
+                gradient[2 * n] += force[0];
+                gradient[2 * n + 1] += force[1];
+            };
+            self.add_one_force(k, x, add, scales);
         };
-        self.add_forces(x, add, scales);
+        let Some(material) = self.material.neo_hookean() else {
+            (0..self.triangles.len()).for_each(|k| one(k, gradient, scales));
+            return;
+        };
+        let floor = ROUNDING_STRAIN * material.mu;
+        let mut alone = |k: usize, gradient: &mut [f64], scales: Option<&mut Scales>| {
+            scales.into_iter().for_each(|scales| one(k, gradient, scales));
+        };
+        self.wide.add_gradient(material, x, gradient, Some((scales, floor)), &mut alone);
     }
 }
 
 impl Body {
-    /// Gives the force of every triangle on each of its nodes to `add`, and adds to what a residual is compared with.
-    fn add_forces(&self, x: &[f64], mut add: impl FnMut(usize, Vector2<f64>), scales: &mut Scales) {
+    /// Gives the force of triangle `k` on each of its nodes to `add`.
+    fn forces(&self, k: usize, x: &[f64], mut add: impl FnMut(usize, Vector2<f64>)) {
+        let p = self.material.stress(&self.deformation_gradient(k, x)) * self.weights[k];
+        for (&n, g) in self.triangles[k].iter().zip(&self.gradients[k]) {
+            add(n, p * g);
+        }
+    }
+
+    fn add_one_hessian(&self, k: usize, x: &[f64], form: HessianForm, out: &mut Scatter) {
+        let f = self.deformation_gradient(k, x);
+        let c = match form {
+            HessianForm::Exact => self.material.tangent(&f),
+            HessianForm::Projected => project(self.material.descent_tangent(&f)),
+        } * self.weights[k];
+        // Columns of `C h`, the change of stress per displacement of each node along x and y.
+        let g = &self.gradients[k];
+        let by_node = g.map(|h| {
+            let column = |j: usize| [0, 1, 2, 3].map(|i| c[(i, j)] * h[0] + c[(i, j + 2)] * h[1]);
+            [column(0), column(1)]
+        });
+        out.add(k, |p, q| {
+            let (g, [x, y]) = (g[p], &by_node[q]);
+            [g[0] * x[0] + g[1] * x[2], g[0] * y[0] + g[1] * y[2], g[0] * x[1] + g[1] * x[3], g[0] * y[1] + g[1] * y[3]]
+        });
+    }
+
+    /// Gives the force of triangle `k` on each of its nodes to `add`, and adds to what a residual is compared with.
+    fn add_one_force(&self, k: usize, x: &[f64], mut add: impl FnMut(usize, Vector2<f64>), scales: &mut Scales) {
         let floor = ROUNDING_STRAIN * self.material.shear_modulus();
         let modulus = ROUNDING * self.material.largest_modulus();
-        for (k, t) in self.triangles.iter().enumerate() {
-            let weight = self.weights[k];
-            let p = self.material.stress(&self.deformation_gradient(k, x)) * weight;
-            let size = t.iter().fold(0.0, |m: f64, n| m.max(x[2 * n].abs()).max(x[2 * n + 1].abs()));
-            let lengths = self.gradients[k].map(|g| g.norm());
-            let change = modulus * size * lengths.into_iter().fold(0.0, f64::max) * weight;
-            for (a, &n) in t.iter().enumerate() {
-                let force = p * self.gradients[k][a];
-                add(n, force);
-                let rounding = floor * weight * lengths[a];
-                scales.add_force(n, [force[0].abs() + rounding, force[1].abs() + rounding]);
-                scales.add_rounding(n, [change * lengths[a]; 2]);
-            }
-        }
+        let (t, weight) = (&self.triangles[k], self.weights[k]);
+        let size = t.iter().fold(0.0, |m: f64, n| m.max(x[2 * n].abs()).max(x[2 * n + 1].abs()));
+        let lengths = self.gradients[k].map(|g| g.norm());
+        let change = modulus * size * lengths.into_iter().fold(0.0, f64::max) * weight;
+        let mut lengths = lengths.into_iter();
+        self.forces(k, x, |n, force| {
+            add(n, force);
+            let length = lengths.next().unwrap_or_default();
+            let rounding = floor * weight * length;
+            scales.add_force(n, [force[0].abs() + rounding, force[1].abs() + rounding]);
+            scales.add_rounding(n, [change * length; 2]);
+        });
     }
 }
 

@@ -1,8 +1,9 @@
 //! Sparse Cholesky factorisation. Only this file and [`super::indefinite`] name faer.
 //!
 //! Symbolic analysis (approximate minimum degree on the fixed pattern) once per topology; numeric factorisation and
-//! solves without allocation afterwards. Sequential, so that the same input gives the same bits.
+//! solves (our own, [`super::panels`]) without allocation afterwards. Sequential, so that the same input gives the same bits.
 
+use super::panels::{Memory, Panels};
 use super::pattern::Pattern;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
@@ -15,6 +16,7 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::linalg::{SupernodalThreshold, SymbolicSupernodalParams};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side, Spec};
+use std::ops::Range;
 
 /// In which order unknowns are eliminated.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -28,6 +30,8 @@ pub enum Ordering {
     Natural,
     /// Node `order[k]` is eliminated as the `k`-th. Every node occurs once.
     Nodes(Vec<usize>),
+    /// As the pattern has them: nothing is moved before a factorisation.
+    Given,
 }
 
 /// How the numeric factorisation walks through the factor.
@@ -57,6 +61,11 @@ pub struct Cholesky {
     memory: MemBuffer,
     /// Right-hand sides for which `memory` suffices.
     columns: usize,
+    /// The degree of freedom of every row of the pattern.
+    unknowns: Vec<u32>,
+    /// The panels of a supernodal factor, with which we solve ourselves.
+    panels: Option<Panels>,
+    sides: Memory,
     valid: bool,
 }
 
@@ -66,8 +75,17 @@ pub struct Cholesky {
 pub struct NotPositiveDefinite;
 
 impl Cholesky {
-    /// Symbolic analysis in the variant that `bench linear` finds the fastest, or near it, at every size; `None` only if the
-    /// factor would not fit into memory.
+    /// The pattern in the order of elimination that `bench linear` finds the fastest, or near it, at every size, with the symbolic
+    /// analysis of it. A matrix that is assembled in this pattern is factorised as it stands, without being permuted first.
+    pub fn ordered(pattern: &Pattern) -> Option<(Pattern, Self)> {
+        let order: Vec<u32> = pattern.unknowns().step_by(2).map(|d| (d / 2) as u32).collect();
+        let order: Vec<usize> = node_minimum_degree(pattern)?.into_iter().map(|k| order[k] as usize).collect();
+        let pattern = pattern.reordered(&order);
+        let cholesky = Self::with(&pattern, &Variant { ordering: Ordering::Given, kernel: Kernel::Supernodal(&[]) })?;
+        Some((pattern, cholesky))
+    }
+
+    /// The same for a pattern as it is; `None` only if the factor would not fit into memory.
     pub fn new(pattern: &Pattern) -> Option<Self> {
         Self::with(pattern, &Variant { ordering: Ordering::NodeMinimumDegree, kernel: Kernel::Supernodal(&[]) })
     }
@@ -77,7 +95,11 @@ impl Cholesky {
     pub fn with(pattern: &Pattern, variant: &Variant) -> Option<Self> {
         let symbolic = analyse(pattern, variant)?;
         let factor = vec![0.0; symbolic.len_val()];
-        let mut this = Self { symbolic, factor, memory: MemBuffer::new(Default::default()), columns: 0, valid: false };
+        let unknowns: Vec<u32> = pattern.unknowns().map(|d| d as u32).collect();
+        let panels = panels_of(&symbolic, &unknowns);
+        let memory = MemBuffer::new(Default::default());
+        let sides = panels.as_ref().map(Panels::memory).unwrap_or_default();
+        let mut this = Self { symbolic, factor, memory, columns: 0, unknowns, panels, sides, valid: false };
         this.reserve(1);
         Some(this)
     }
@@ -117,14 +139,48 @@ impl Cholesky {
         if columns == 0 {
             return;
         }
-        self.reserve(columns);
         let n = self.symbolic.nrows();
+        if let Some(panels) = &self.panels {
+            panels.solve(&self.factor, &mut rhs[..n * columns], 0..columns, [1, n], &mut self.sides);
+            return;
+        }
+        self.reserve(columns);
+        let mut ordered: Vec<f64> = Vec::with_capacity(n * columns);
+        for column in rhs.chunks_exact(n).take(columns) {
+            ordered.extend(self.unknowns.iter().map(|&d| column[d as usize]));
+        }
         LltRef::new(&self.symbolic, &self.factor).solve_in_place_with_conj(
             Conj::No,
-            MatMut::from_column_major_slice_mut(rhs, n, columns),
+            MatMut::from_column_major_slice_mut(&mut ordered, n, columns),
             Par::Seq,
             MemStack::new(&mut self.memory),
         );
+        for (column, ordered) in rhs.chunks_exact_mut(n).zip(ordered.chunks_exact(n)) {
+            for (&d, v) in self.unknowns.iter().zip(ordered) {
+                column[d as usize] = *v;
+            }
+        }
+    }
+
+    /// Solves in place for the right-hand sides `solved` of `columns` that are stored row after row.
+    pub fn solve_rows(&mut self, rhs: &mut [f64], columns: usize, solved: Range<usize>) {
+        assert!(self.valid, "solve without a factorisation");
+        if let Some(panels) = &self.panels {
+            panels.solve(&self.factor, rhs, solved, [columns, 1], &mut self.sides);
+            return;
+        }
+        for c in solved {
+            let mut column: Vec<f64> = rhs.iter().skip(c).step_by(columns).copied().collect();
+            self.solve(&mut column);
+            for (v, z) in rhs.iter_mut().skip(c).step_by(columns).zip(column) {
+                *v = z;
+            }
+        }
+    }
+
+    /// Whether there is a factor to solve with.
+    pub fn is_valid(&self) -> bool {
+        self.valid
     }
 
     /// Stored values of the factor (with supernodes, some of them are zeros).
@@ -152,13 +208,19 @@ impl Cholesky {
 /// The structure of the factor in this variant; `None` where it would not fit into memory.
 pub(super) fn analyse(pattern: &Pattern, variant: &Variant) -> Option<SymbolicCholesky<usize>> {
     let n = pattern.dimension();
-    let structure = SymbolicSparseColMatRef::new_checked(n, n, pattern.column_starts(), None, pattern.row_indices());
+    // The library's identity expects the upper triangle.
+    let upper = (variant.ordering == Ordering::Given).then(|| transposed(pattern));
+    let (starts, rows) = match &upper {
+        Some((starts, rows)) => (&starts[..], &rows[..]),
+        None => (pattern.column_starts(), pattern.row_indices()),
+    };
+    let structure = SymbolicSparseColMatRef::new_checked(n, n, starts, None, rows);
+    let rank = |node: usize| pattern.ranks()[node] as usize;
     let nodes = match &variant.ordering {
         Ordering::NodeMinimumDegree => Some(node_minimum_degree(pattern)?),
-        Ordering::Nodes(order) => Some(order.clone()),
-        // Not the library's identity: that one expects the upper triangle.
-        Ordering::Natural => Some((0..n / 2).collect()),
-        Ordering::MinimumDegree => None,
+        Ordering::Nodes(order) => Some(order.iter().map(|&node| rank(node)).collect()),
+        Ordering::Natural => Some((0..n / 2).map(rank).collect()),
+        Ordering::MinimumDegree | Ordering::Given => None,
     };
     // Both unknowns of a node one after the other.
     let forward: Vec<usize> = nodes.iter().flatten().flat_map(|i| [2 * i, 2 * i + 1]).collect();
@@ -168,6 +230,7 @@ pub(super) fn analyse(pattern: &Pattern, variant: &Variant) -> Option<SymbolicCh
     }
     let ordering = match variant.ordering {
         Ordering::MinimumDegree => SymmetricOrdering::Amd,
+        Ordering::Given => SymmetricOrdering::Identity,
         _ => SymmetricOrdering::Custom(PermRef::new_checked(&forward, &inverse, n)),
     };
     let mut parameters = CholeskySymbolicParams::default();
@@ -184,7 +247,44 @@ pub(super) fn analyse(pattern: &Pattern, variant: &Variant) -> Option<SymbolicCh
     factorize_symbolic_cholesky(structure, Side::Lower, ordering, parameters).ok()
 }
 
-/// Approximate minimum degree on the graph of the nodes: the order of elimination.
+/// The panels of a supernodal factor with at most `2^32` values.
+fn panels_of(symbolic: &SymbolicCholesky<usize>, unknowns: &[u32]) -> Option<Panels> {
+    let SymbolicCholeskyRaw::Supernodal(raw) = symbolic.raw() else { return None };
+    if u32::try_from(symbolic.len_val().max(raw.row_idx().len())).is_err() {
+        return None;
+    }
+    let order = match symbolic.perm() {
+        Some(perm) => perm.arrays().0.iter().map(|&i| unknowns[i]).collect(),
+        None => unknowns.to_vec(),
+    };
+    let panels = (0..raw.n_supernodes()).map(|s| {
+        let (first, end) = (raw.supernode_begin()[s], raw.supernode_end()[s]);
+        (first, end - first, raw.supernode(s).pattern(), raw.col_ptr_for_val()[s])
+    });
+    Some(Panels::new(order, panels))
+}
+
+/// The upper triangle of a pattern: starts of its columns and their rows, ascending.
+fn transposed(pattern: &Pattern) -> (Vec<usize>, Vec<usize>) {
+    let n = pattern.dimension();
+    let mut starts = vec![0; n + 1];
+    for &row in pattern.row_indices() {
+        starts[row + 1] += 1;
+    }
+    for row in 0..n {
+        starts[row + 1] += starts[row];
+    }
+    let (mut next, mut rows) = (starts.clone(), vec![0; pattern.nonzeros()]);
+    for column in 0..n {
+        for &row in &pattern.row_indices()[pattern.column_starts()[column]..pattern.column_starts()[column + 1]] {
+            rows[next[row]] = column;
+            next[row] += 1;
+        }
+    }
+    (starts, rows)
+}
+
+/// Approximate minimum degree on the graph of the nodes: the order of elimination of the pattern's block columns.
 fn node_minimum_degree(pattern: &Pattern) -> Option<Vec<usize>> {
     let nodes = pattern.dimension() / 2;
     let (mut starts, mut rows) = (vec![0], Vec::new());
@@ -245,7 +345,9 @@ mod tests {
         let n = pattern.dimension();
         let b: Vec<f64> = (0..n).map(|i| (i as f64 * 0.3).cos()).collect();
         let back = Ordering::Nodes((0..n / 2).rev().collect());
-        for ordering in [Ordering::MinimumDegree, Ordering::NodeMinimumDegree, Ordering::Natural, back] {
+        let orderings =
+            [Ordering::MinimumDegree, Ordering::NodeMinimumDegree, Ordering::Natural, back, Ordering::Given];
+        for ordering in orderings {
             for kernel in
                 [Kernel::Automatic, Kernel::Simplicial, Kernel::Supernodal(&[]), Kernel::Supernodal(&[(8, 1.0)])]
             {

@@ -14,6 +14,7 @@
 
 use super::energy::{Energy, HessianForm, ROUNDING, Scales};
 use super::pattern::Scatter;
+use super::segments::{Segments, is_straight};
 
 /// Width of a point, as a fraction of the element's initial rest length: a segment of coordinate difference `d` counts as
 /// `sqrt(d^2 + w^2)` long. Where its ends meet, it has no direction and the plain length has a kink, at which no Newton method
@@ -165,6 +166,9 @@ pub struct Contractile {
     stencils: Vec<Vec<usize>>,
     /// For each element, the stencil position of each routing entry.
     positions: Vec<Vec<usize>>,
+    /// The elements of one segment, and the places of all others.
+    straight: Segments,
+    routed: Vec<usize>,
 }
 
 impl Contractile {
@@ -180,7 +184,9 @@ impl Contractile {
             stencils.push(nodes);
         }
         let laws = elements.iter().map(|e| Law::Spring { alpha: e.alpha0 }).collect();
-        Self { elements, laws, stencils, positions }
+        let straight = Segments::new(&elements);
+        let routed = (0..elements.len()).filter(|&k| !is_straight(&elements[k])).collect();
+        Self { elements, laws, stencils, positions, straight, routed }
     }
 
     /// Makes every element a spring at contraction `alpha_c`.
@@ -242,19 +248,8 @@ impl Energy for Contractile {
     }
 
     fn add_gradient(&self, x: &[f64], gradient: &mut [f64]) {
-        for (e, law) in self.elements.iter().zip(&self.laws) {
-            if *law == Law::Tension(0.0) {
-                continue;
-            }
-            if let [a, b] = e.routing[..] {
-                // Most elements are one segment, whose length need not be taken twice.
-                let s = segment(x, &[a, b], e.point());
-                let tau = law.tension_and_tangent(e, s.2).0;
-                if tau != 0.0 {
-                    add_direction([a, b], s, tau, gradient);
-                }
-                continue;
-            }
+        self.straight.add_gradient(&self.elements, &self.laws, x, gradient, None);
+        for (e, law) in self.routed() {
             let tau = law.tension_and_tangent(e, e.length(x)).0;
             if tau != 0.0 {
                 e.add_length_gradient(x, tau, gradient);
@@ -263,51 +258,50 @@ impl Energy for Contractile {
     }
 
     fn add_hessian(&self, x: &[f64], _form: HessianForm, out: &mut Scatter) {
+        self.straight.add_hessian(&self.elements, &self.laws, x, out);
         let mut stack = [[0.0; 3]; ON_STACK];
         let mut heap = Vec::new();
-        for (k, (e, law)) in self.elements.iter().zip(&self.laws).enumerate() {
+        for (&k, (e, law)) in self.routed.iter().zip(self.routed()) {
             let (tau, tangent) = law.tension_and_tangent(e, e.length(x));
             if tau == 0.0 && tangent == 0.0 {
                 continue;
             }
-            if e.routing.len() == 2 {
-                add_straight(k, e, x, tau, tangent, out);
+            let positions = &self.positions[k];
+            let count = e.routing.len();
+            let scratch = if 2 * count <= ON_STACK {
+                &mut stack[..2 * count]
             } else {
-                let positions = &self.positions[k];
-                let count = e.routing.len();
-                let scratch = if 2 * count <= ON_STACK {
-                    &mut stack[..2 * count]
-                } else {
-                    heap.resize(2 * count, [0.0; 3]);
-                    &mut heap[..]
-                };
-                add_routed(k, e, positions, x, tau, tangent, scratch, out);
-            }
+                heap.resize(2 * count, [0.0; 3]);
+                &mut heap[..]
+            };
+            add_routed(k, e, positions, x, tau, tangent, scratch, out);
         }
     }
 
     /// A taut segment on its way to nothing would be thrown back and forth across its end, where the length has its kink: it may
     /// come nearer to it by a factor of ten a step.
     fn step_limit(&self, x: &[f64], dx: &[f64]) -> f64 {
-        let mut limit = 1.0_f64;
-        for (e, law) in self.elements.iter().zip(&self.laws) {
-            for s in e.routing.windows(2) {
+        let one = |(e, law): (&Element, &Law), limit: f64| {
+            e.routing.windows(2).fold(limit, |limit, s| {
                 let (px, py) = (x[2 * s[1]] - x[2 * s[0]], x[2 * s[1] + 1] - x[2 * s[0] + 1]);
                 let (vx, vy) = (dx[2 * s[1]] - dx[2 * s[0]], dx[2 * s[1] + 1] - dx[2 * s[0] + 1]);
                 let along = px * vx + py * vy;
                 let most = TURNING_MARGIN * (px * px + py * py);
                 // Nearly all are far from turning: neither their lengths nor their tensions are needed.
                 if along.is_nan() || along >= 0.0 || most >= -along * limit {
-                    continue;
+                    return limit;
                 }
                 let point = e.point();
                 let taut = || law.tension_and_tangent(e, e.length(x)).0 > 0.0;
-                if segment(x, s, point).2 > ROUND * point && taut() {
-                    limit = most / -along;
-                }
-            }
-        }
-        limit
+                if segment(x, s, point).2 > ROUND * point && taut() { most / -along } else { limit }
+            })
+        };
+        let mut limit = 1.0;
+        self.straight.first_turn(x, dx, TURNING_MARGIN, &mut |k, before| {
+            limit = one((&self.elements[k], &self.laws[k]), before);
+            limit
+        });
+        self.routed().fold(limit, |limit, element| one(element, limit))
     }
 
     fn add_scales(&self, x: &[f64], scales: &mut Scales) {
@@ -318,7 +312,8 @@ impl Energy for Contractile {
     }
 
     fn add_gradient_and_scales(&self, x: &[f64], gradient: &mut [f64], scales: &mut Scales) {
-        for (e, law) in self.elements.iter().zip(&self.laws) {
+        self.straight.add_gradient(&self.elements, &self.laws, x, gradient, Some(&mut *scales));
+        for (e, law) in self.routed() {
             let length = e.length(x);
             let (tau, tangent) = law.tension_and_tangent(e, length);
             if tau != 0.0 {
@@ -329,24 +324,33 @@ impl Energy for Contractile {
     }
 }
 
+impl Contractile {
+    /// Length of every element at `x` into `lengths`.
+    pub fn lengths_into(&self, x: &[f64], lengths: &mut [f64]) {
+        self.straight.lengths(&self.elements, x, lengths);
+        for &k in &self.routed {
+            lengths[k] = self.elements[k].length(x);
+        }
+    }
+
+    /// Tension of every element at `x` into `tensions`.
+    pub fn tensions_into(&self, x: &[f64], tensions: &mut [f64]) {
+        self.straight.tensions(&self.elements, &self.laws, x, tensions);
+        for (&k, (e, law)) in self.routed.iter().zip(self.routed()) {
+            tensions[k] = law.tension_and_tangent(e, e.length(x)).0;
+        }
+    }
+
+    /// Elements with via points, and their laws.
+    fn routed(&self) -> impl Iterator<Item = (&Element, &Law)> {
+        self.routed.iter().map(|&k| (&self.elements[k], &self.laws[k]))
+    }
+}
+
 /// Entries of scratch memory that need no allocation: 24 KiB, enough for a tendon through 512 nodes.
 const ON_STACK: usize = 1024;
 
-/// The Hessian of an element of one segment: `U'' u u^T + tau/l (I - u u^T)` between its ends, `u = d/l`. Away from `d = 0` the
-/// bracket is `n n^T`, `n` normal to `u`.
-fn add_straight(k: usize, e: &Element, x: &[f64], tau: f64, tangent: f64, out: &mut Scatter) {
-    let point = e.point();
-    let (dx, dy, length) = segment(x, &e.routing, point);
-    let (ux, uy, uw) = (dx / length, dy / length, point / length);
-    let bend = tau / length;
-    let off = (tangent - bend) * ux * uy;
-    let (xx, yy, ww) = (ux * ux, uy * uy, uw * uw);
-    let block = [tangent * xx + bend * (yy + ww), off, off, tangent * yy + bend * (xx + ww)];
-    let opposite = block.map(|v| -v);
-    out.add(k, |a, b| if a == b { block } else { opposite });
-}
-
-/// The same for any routing, which may pass a node several times. `scratch` has twice as many entries as the routing.
+/// The Hessian `U'' G^T G + tau d2l` of an element of any routing, which may pass a node several times. `scratch` has twice as many entries as the routing.
 #[allow(clippy::too_many_arguments)]
 fn add_routed(
     k: usize,

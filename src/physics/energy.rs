@@ -42,7 +42,7 @@ pub trait Energy: Send + Sync {
     /// Adds, entry by entry, what a residual is compared with.
     fn add_scales(&self, x: &[f64], scales: &mut Scales);
 
-    /// [`Self::add_gradient`] and [`Self::add_scales`], to the same bits, where one pass costs less than two.
+    /// [`Self::add_gradient`] and [`Self::add_scales`], where one pass costs less than two.
     fn add_gradient_and_scales(&self, x: &[f64], gradient: &mut [f64], scales: &mut Scales) {
         self.add_gradient(x, gradient);
         self.add_scales(x, scales);
@@ -74,6 +74,18 @@ impl<'a> Scales<'a> {
         for (axis, magnitude) in magnitudes.into_iter().enumerate() {
             self.at_work[2 * node + axis] += magnitude;
         }
+    }
+
+    /// Both at once, the rounding the same in both components.
+    #[inline(always)]
+    pub fn add(&mut self, node: usize, force: [f64; 2], rounding: f64) {
+        if self.rounding.is_some() {
+            self.add_force(node, force);
+            self.add_rounding(node, [rounding; 2]);
+            return;
+        }
+        self.at_work[2 * node] += force[0] + rounding;
+        self.at_work[2 * node + 1] += force[1] + rounding;
     }
 
     /// What a change of the coordinates by [`ROUNDING`] of their size does to a force.

@@ -1,6 +1,7 @@
 //! Materials: energy densities of the deformation gradient.
 
 use super::double::Double;
+use super::neo_hookean::NeoHookean;
 use nalgebra::{Matrix2, Matrix4};
 
 /// An isotropic, hyperelastic energy density per unit rest area.
@@ -26,6 +27,10 @@ pub trait Material: Send + Sync {
     /// The same material with its resistance to changes of area limited to `limit`, if it is above that.
     fn softened(&self, limit: f64) -> Option<Box<dyn Material>> {
         let _ = limit;
+        None
+    }
+    /// This material, where it is the one whose triangles are worked on many at a time ([`super::triangles`]).
+    fn neo_hookean(&self) -> Option<&NeoHookean> {
         None
     }
     /// The shear modulus at rest: the unit of stress of this material.
@@ -58,7 +63,7 @@ pub fn determinant_hessian() -> Matrix4<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{NeoHookean, StVenantKirchhoff};
+    use super::super::StVenantKirchhoff;
     use super::*;
     use nalgebra::{Rotation2, Vector4};
 

@@ -26,13 +26,17 @@ pub mod indefinite;
 pub mod material;
 pub mod model;
 pub mod neo_hookean;
+mod panels;
 mod patience;
 pub mod pattern;
 pub mod pins;
 pub mod refine;
 mod ridge;
+mod segments;
 pub mod st_venant_kirchhoff;
 pub mod statics;
+mod triangles;
+pub(crate) mod wide;
 
 pub use body::Body;
 pub use contractile::{Contractile, Element, Law};

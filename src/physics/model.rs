@@ -4,6 +4,7 @@ use super::cholesky::{Cholesky, NotPositiveDefinite};
 use super::energy::{Energy, HessianForm, Scales};
 use super::pattern::{Pattern, Scatter, Slots};
 use super::{Body, Contractile, Pins};
+use std::ops::Range;
 
 /// Stiffness that holds a rigid motion no pin holds, as a fraction of the shear modulus: far below any real stiffness,
 /// far above rounding. It acts on steps only (it is not part of `E`), so that equilibria are exact.
@@ -68,14 +69,14 @@ impl Model {
         terms: Vec<Box<dyn Energy>>,
     ) -> Result<Self, ModelError> {
         let rest: Vec<f64> = nodes.iter().flatten().copied().collect();
-        let (pattern, slots) = {
+        let (pattern, slots, cholesky) = {
             let all: Vec<&dyn Energy> = all_terms(&body, &contractile, &pins, &terms).collect();
             let pattern =
                 Pattern::new(nodes.len(), all.iter().flat_map(|t| (0..t.stencils()).map(move |k| t.stencil(k))));
+            let (pattern, cholesky) = Cholesky::ordered(&pattern).ok_or(ModelError::Memory)?;
             let slots = all.iter().map(|t| pattern.slots((0..t.stencils()).map(|k| t.stencil(k)))).collect();
-            (pattern, slots)
+            (pattern, slots, cholesky)
         };
-        let cholesky = Cholesky::new(&pattern).ok_or(ModelError::Memory)?;
         let values = vec![0.0; pattern.nonzeros()];
         let Freedom { shift, pieces, loose, unpinned } = Freedom::of(nodes, &body, &contractile, &pins);
         Ok(Self {
@@ -164,7 +165,7 @@ impl Model {
         scale.iter().copied().fold(0.0, f64::max)
     }
 
-    /// [`Self::gradient`] and [`Self::force_scale_into`] in one pass, to the same bits.
+    /// [`Self::gradient`] and [`Self::force_scale_into`] in one pass, up to rounding.
     pub fn gradient_and_scale(&self, x: &[f64], gradient: &mut [f64], scale: &mut [f64]) -> f64 {
         gradient.fill(0.0);
         let mut scales = Scales::together(scale);
@@ -253,6 +254,11 @@ impl Model {
         Err(NotPositiveDefinite)
     }
 
+    /// Whether the last factorisation has succeeded.
+    pub fn has_factor(&self) -> bool {
+        self.cholesky.is_valid()
+    }
+
     /// Solves with the factor of the last assembled Hessian, in place.
     pub fn solve(&mut self, rhs: &mut [f64]) {
         self.cholesky.solve(rhs);
@@ -261,6 +267,11 @@ impl Model {
     /// The same for several right-hand sides stored one after the other.
     pub fn solve_many(&mut self, rhs: &mut [f64], columns: usize) {
         self.cholesky.solve_many(rhs, columns);
+    }
+
+    /// The same for the right-hand sides `solved` of `columns`, stored row after row: of each degree of freedom all columns.
+    pub fn solve_rows(&mut self, rhs: &mut [f64], columns: usize, solved: Range<usize>) {
+        self.cholesky.solve_rows(rhs, columns, solved);
     }
 }
 

@@ -76,6 +76,10 @@ impl Material for NeoHookean {
         (self.kappa > limit).then(|| Box::new(Self { kappa: limit, ..*self }) as Box<dyn Material>)
     }
 
+    fn neo_hookean(&self) -> Option<&NeoHookean> {
+        Some(self)
+    }
+
     fn shear_modulus(&self) -> f64 {
         self.mu
     }

@@ -1,12 +1,16 @@
 //! The fixed sparsity pattern of the Hessian, and where each local block lands in it.
 //!
 //! The Hessian is stored as the lower triangle of a scalar compressed-column matrix of size `2n`, built of 2 x 2 node
-//! blocks. A slot names a block; adding a block to a slot touches four (diagonal: three) values.
+//! blocks. A slot names a block; adding a block to a slot touches four (diagonal: three) values. Nodes stand in an order of the
+//! pattern's own: that in which a factorisation eliminates them.
 
 /// Lower triangle, compressed columns. `values` live apart, one vector per matrix.
 #[derive(Clone, Debug)]
 pub struct Pattern {
     nodes: usize,
+    /// The node of every block column, and the block column of every node.
+    order: Vec<u32>,
+    rank: Vec<u32>,
     /// For block column `j`: the block rows `i >= j`, ascending; the first is `j`.
     block_start: Vec<usize>,
     block_rows: Vec<usize>,
@@ -49,6 +53,23 @@ impl Pattern {
                 }
             }
         }
+        Self::of((0..nodes as u32).collect(), pairs)
+    }
+
+    /// The same pattern with its nodes in another order: `order[k]` is the `k`-th. Every node occurs once.
+    pub fn reordered(&self, order: &[usize]) -> Self {
+        let order: Vec<u32> = order.iter().map(|&n| n as u32).collect();
+        let rank = inverse(&order);
+        let column = |j: usize| self.block_rows[self.block_start[j]..self.block_start[j + 1]].iter();
+        let place = |k: usize| rank[self.order[k] as usize] as usize;
+        let pairs = (0..self.nodes).flat_map(|j| column(j).map(move |&i| (i, j)));
+        let pairs = pairs.map(|(i, j)| (place(i).min(place(j)), place(i).max(place(j)))).collect();
+        Self::of(order, pairs)
+    }
+
+    /// Of pairs of block columns and rows.
+    fn of(order: Vec<u32>, mut pairs: Vec<(usize, usize)>) -> Self {
+        let nodes = order.len();
         pairs.sort_unstable();
         pairs.dedup();
         let mut block_start = vec![0; nodes + 1];
@@ -74,7 +95,18 @@ impl Pattern {
                 column_starts.push(row_indices.len());
             }
         }
-        Self { nodes, block_start, block_rows, column_starts, row_indices }
+        let rank = inverse(&order);
+        Self { nodes, order, rank, block_start, block_rows, column_starts, row_indices }
+    }
+
+    /// The degree of freedom of every scalar row.
+    pub fn unknowns(&self) -> impl Iterator<Item = usize> {
+        self.order.iter().flat_map(|&n| [2 * n as usize, 2 * n as usize + 1])
+    }
+
+    /// The block column of every node.
+    pub fn ranks(&self) -> &[u32] {
+        &self.rank
     }
 
     pub fn dimension(&self) -> usize {
@@ -110,7 +142,7 @@ impl Pattern {
 
     /// Index of the diagonal value of degree of freedom `d`.
     pub fn diagonal(&self, d: usize) -> usize {
-        self.column_starts[d]
+        self.column_starts[2 * self.rank[d / 2] as usize + d % 2]
     }
 
     /// Index of the value at (`row`, `column`) or its mirror, whichever is stored. Panics if the pattern has none (a caller's
@@ -123,6 +155,7 @@ impl Pattern {
     }
 
     fn slot(&self, i: usize, j: usize) -> Slot {
+        let [i, j] = [i, j].map(|n| self.rank[n] as usize);
         let (row, column) = (i.max(j), i.min(j));
         let range = self.block_start[column]..self.block_start[column + 1];
         let blocks = range.len();
@@ -134,9 +167,11 @@ impl Pattern {
     /// `y = H v` for the symmetric matrix with these lower-triangle values.
     pub fn multiply(&self, values: &[f64], v: &[f64], y: &mut [f64]) {
         y.fill(0.0);
-        for column in 0..self.dimension() {
-            let stored = self.column_starts[column]..self.column_starts[column + 1];
+        let unknowns: Vec<usize> = self.unknowns().collect();
+        for (place, &column) in unknowns.iter().enumerate() {
+            let stored = self.column_starts[place]..self.column_starts[place + 1];
             for (&row, value) in self.row_indices[stored.clone()].iter().zip(&values[stored]) {
+                let row = unknowns[row];
                 y[row] += value * v[column];
                 if row != column {
                     y[column] += value * v[row];
@@ -146,29 +181,56 @@ impl Pattern {
     }
 }
 
+fn inverse(order: &[u32]) -> Vec<u32> {
+    let mut rank = vec![0; order.len()];
+    for (k, &n) in order.iter().enumerate() {
+        rank[n as usize] = k as u32;
+    }
+    rank
+}
+
 impl<'a> Scatter<'a> {
     pub fn new(slots: &'a Slots, values: &'a mut [f64]) -> Self {
         Self { slots, values }
     }
 
+    /// Adds `block(p)` for each of the stencil's `pairs[p] = (a, b)`: all positions `a >= b`, row by row.
+    #[inline(always)]
+    pub fn add_all<const P: usize>(
+        &mut self,
+        stencil: usize,
+        pairs: [(usize, usize); P],
+        block: impl Fn(usize) -> [f64; 4],
+    ) {
+        let slots: &'a Slots = self.slots;
+        let slots = &slots.slots[slots.starts[stencil]..][..P];
+        for (p, (slot, (a, b))) in slots.iter().zip(pairs).enumerate() {
+            self.add_block(slot, a == b, block(p));
+        }
+    }
+
+    #[inline(always)]
+    fn add_block(&mut self, slot: &Slot, diagonal: bool, m: [f64; 4]) {
+        let (base, stride) = (slot.base as usize, slot.stride as usize);
+        let [m00, m01, m10, m11] = if slot.transposed { [m[0], m[2], m[1], m[3]] } else { m };
+        self.values[base] += m00;
+        self.values[base + 1] += m10;
+        // The second column of a diagonal block starts one entry later: its top entry is above the diagonal.
+        if !diagonal {
+            self.values[base + stride] += m01;
+        }
+        self.values[base + stride + 1] += m11;
+    }
+
     /// Adds `block(a, b)` (row-major 2 x 2, derivative by node `a` then node `b`) for all stencil positions `a >= b`.
     #[inline]
     pub fn add(&mut self, stencil: usize, mut block: impl FnMut(usize, usize) -> [f64; 4]) {
-        let range = self.slots.starts[stencil]..self.slots.starts[stencil + 1];
+        let slots = self.slots;
+        let range = slots.starts[stencil]..slots.starts[stencil + 1];
         let (mut a, mut b) = (0, 0);
-        for slot in &self.slots.slots[range] {
+        for slot in &slots.slots[range] {
             let m = block(a, b);
-            let (base, stride) = (slot.base as usize, slot.stride as usize);
-            let [m00, m01, m10, m11] = if slot.transposed { [m[0], m[2], m[1], m[3]] } else { m };
-            self.values[base] += m00;
-            self.values[base + 1] += m10;
-            if a == b {
-                // The second column of a diagonal block starts one entry later: its top entry is above the diagonal.
-                self.values[base + stride + 1] += m11;
-            } else {
-                self.values[base + stride] += m01;
-                self.values[base + stride + 1] += m11;
-            }
+            self.add_block(slot, a == b, m);
             if a == b {
                 a += 1;
                 b = 0;
@@ -186,7 +248,14 @@ mod tests {
     #[test]
     fn blocks_land_where_a_dense_matrix_says() {
         let stencils: [&[usize]; 3] = [&[2, 0, 1], &[3, 1], &[3]];
-        let pattern = Pattern::new(4, stencils.iter().copied());
+        let plain = Pattern::new(4, stencils.iter().copied());
+        for pattern in [plain.reordered(&[2, 0, 3, 1]), plain.reordered(&[3, 1, 0, 2]).reordered(&[1, 3, 2, 0]), plain]
+        {
+            check(&pattern, &stencils);
+        }
+    }
+
+    fn check(pattern: &Pattern, stencils: &[&[usize]]) {
         let slots = pattern.slots(stencils.iter().copied());
         let mut values = vec![0.0; pattern.nonzeros()];
         let mut dense = [[0.0; 8]; 8];
@@ -207,6 +276,9 @@ mod tests {
                     }
                 }
             }
+        }
+        for (d, row) in dense.iter().enumerate() {
+            assert_eq!(values[pattern.diagonal(d)], row[d]);
         }
         let v: Vec<f64> = (0..8).map(|i| (i as f64).sin() + 0.3).collect();
         let mut y = vec![0.0; 8];

@@ -123,6 +123,17 @@ impl Workspace {
         let zero = || vec![0.0; dimension];
         Self { gradient: zero(), step: zero(), trial: zero(), trial_gradient: zero(), forces: zero(), rounding: zero() }
     }
+
+    /// Works out the forces at `x`; returns the largest unbalanced one and the forces at work, as [`Model::gradient_and_scale`].
+    pub fn forces_at(&mut self, model: &Model, x: &[f64]) -> (f64, f64) {
+        let n = x.len();
+        for buffer in [&mut self.gradient, &mut self.step, &mut self.trial, &mut self.trial_gradient, &mut self.forces]
+        {
+            buffer.resize(n, 0.0);
+        }
+        let scale = model.gradient_and_scale(x, &mut self.gradient, &mut self.forces);
+        (norm(&self.gradient), scale)
+    }
 }
 
 /// Minimises `E` from `start` (from rest where `start` is inverted or not finite). `cancel` is asked at every step.
@@ -330,32 +341,58 @@ fn newton(
 /// Steps with the factor of the last Newton step, while each leaves little of the residual: where the Hessian hardly changes
 /// any more, a solve does what would take a factorisation. Whether any was taken.
 fn reuse_factor(model: &mut Model, x: &mut [f64], enough: f64, buffers: [&mut Vec<f64>; 4]) -> bool {
-    let [gradient, step, trial, trial_gradient] = buffers;
-    let mut taken = false;
-    for _ in 0..MAX_REUSES {
-        let residual = norm(gradient);
-        if residual <= enough {
-            break;
+    let most = Reuse { enough, left: REUSED, steps: MAX_REUSES };
+    most.steps(model, x, buffers) > 0
+}
+
+/// How far steps with a factor that is at hand go on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reuse {
+    /// Residual at which they end, force.
+    pub enough: f64,
+    /// The part of the residual that a step may leave at most; else it is not taken, and was the last.
+    pub left: f64,
+    pub steps: usize,
+}
+
+impl Reuse {
+    /// Takes steps from `x`, whose forces are in `work`; see [`Workspace::forces_at`]. Returns the residual reached. Nothing
+    /// happens where the model has no factor.
+    pub fn settle(&self, model: &mut Model, x: &mut [f64], work: &mut Workspace) -> f64 {
+        let Workspace { gradient, step, trial, trial_gradient, .. } = work;
+        if model.has_factor() {
+            self.steps(model, x, [&mut *gradient, step, trial, trial_gradient]);
         }
-        for (s, g) in step.iter_mut().zip(gradient.iter()) {
-            *s = -g;
-        }
-        model.solve(step);
-        if model.step_limit(x, step) < 1.0 {
-            break;
-        }
-        for ((p, x), s) in trial.iter_mut().zip(x.iter()).zip(step.iter()) {
-            *p = x + s;
-        }
-        model.gradient(trial, trial_gradient);
-        if norm(trial_gradient) > REUSED * residual {
-            break;
-        }
-        x.copy_from_slice(trial);
-        std::mem::swap(gradient, trial_gradient);
-        taken = true;
+        norm(gradient)
     }
-    taken
+
+    /// Returns how many steps were taken. The first buffer holds the forces at `x`, before and after.
+    fn steps(&self, model: &mut Model, x: &mut [f64], buffers: [&mut Vec<f64>; 4]) -> usize {
+        let [gradient, step, trial, trial_gradient] = buffers;
+        for taken in 0..self.steps {
+            let residual = norm(gradient);
+            if residual <= self.enough {
+                return taken;
+            }
+            for (s, g) in step.iter_mut().zip(gradient.iter()) {
+                *s = -g;
+            }
+            model.solve(step);
+            if model.step_limit(x, step) < 1.0 {
+                return taken;
+            }
+            for ((p, x), s) in trial.iter_mut().zip(x.iter()).zip(step.iter()) {
+                *p = x + s;
+            }
+            model.gradient(trial, trial_gradient);
+            if norm(trial_gradient) > self.left * residual {
+                return taken;
+            }
+            x.copy_from_slice(trial);
+            std::mem::swap(gradient, trial_gradient);
+        }
+        self.steps
+    }
 }
 
 /// The same as [`solve`], and on from an equilibrium that is not stable: by symmetry Newton's method may end on a ridge of the

@@ -10,6 +10,7 @@
 use super::contraction::GaussNewton;
 use super::tension::{RETURNS, Run, Workspace, snapped};
 use super::{Budget, Method, Posture, Question, Winch};
+use crate::physics::statics::Reuse;
 use crate::physics::{Cause, Law, StaticsSettings, statics};
 use std::time::Instant;
 
@@ -91,11 +92,11 @@ pub struct Tracker {
     fibers: Option<Fibers>,
     statics: statics::Workspace,
     contractions: Vec<f64>,
+    /// Lengths or tensions of all elements.
+    along: Vec<f64>,
     /// The posture of the frame is being changed here, so that a failure leaves the last one.
     trial: Vec<f64>,
     beta: Vec<f64>,
-    forces: Vec<f64>,
-    scales: Vec<f64>,
     /// The sum of all squared tensions of the pose to show, once it is known.
     squares: Option<f64>,
     force_scale: f64,
@@ -149,6 +150,11 @@ const SETTLED: f64 = 1e-10;
 const SMALL: usize = 8;
 /// What must be reached before a pose is shown, whatever the budget.
 const SHOWN: f64 = 1e-3;
+/// In large scenes the factor of the iteration settles it, in steps that cost a tenth of a factorisation: to this residual, so
+/// that the forces at work may change a little on the way, as long as a step leaves this part of the residual, so many at most.
+const SHOWN_WITH_MARGIN: f64 = 0.9e-3;
+const STILL_SETTLING: f64 = 0.6;
+const REUSES: usize = 6;
 /// Newton steps spent on that at most, before the pose of the last frame stays: in small scenes, and in large ones, where the
 /// hand would feel them.
 const SETTLING_STEPS: usize = 60;
@@ -197,9 +203,8 @@ impl Tracker {
             fibers,
             statics: statics::Workspace::new(start.x.len()),
             contractions: vec![0.0; elements],
+            along: vec![0.0; elements],
             trial: start.x.clone(),
-            forces: start.x.clone(),
-            scales: start.x.clone(),
             squares: None,
             force_scale: 0.0,
             beta: start.beta.clone(),
@@ -259,14 +264,17 @@ impl Tracker {
         let clock = Instant::now();
         let best = &fibers.run.best;
         self.trial.copy_from_slice(&best.x);
-        best.activations_into(question, &mut self.beta);
+        best.activations_into(question, &mut self.along, &mut self.beta);
         question.actuation.contractions_into(&self.beta, &mut self.contractions);
         question.model.contractile.set_contractions(&self.contractions);
         let small = Quality::Balanced.factorizations(self.beta.len()) >= SMALL;
         let whole = small || quality == Quality::Accurate;
         let left = if whole { SETTLING_STEPS } else { budget.saturating_sub(frame.factorizations) };
-        let mut scale = question.model.gradient_and_scale(&self.trial, &mut self.forces, &mut self.scales);
-        let mut residual = statics::norm(&self.forces);
+        let (mut residual, mut scale) = self.statics.forces_at(question.model, &self.trial);
+        if left == 0 && residual > SHOWN * scale {
+            let reuse = Reuse { enough: SHOWN_WITH_MARGIN * scale, left: STILL_SETTLING, steps: REUSES };
+            residual = reuse.settle(question.model, &mut self.trial, &mut self.statics);
+        }
         let mut cause = None;
         let mut settle = |tolerance: f64, max_iterations: usize, x: &mut [f64]| {
             let settings = StaticsSettings { tolerance, stagnation_tolerance: tolerance.max(1e-8), max_iterations };
@@ -284,7 +292,10 @@ impl Tracker {
         self.force_scale = scale;
         let settled = residual <= SHOWN * scale;
         let squares = self.squares.unwrap_or_else(|| squared_tensions(question, &self.posture.x, &self.posture.beta));
-        let squares_after = squared_tensions(question, &self.trial, &self.beta);
+        // They are springs at `beta` now.
+        question.model.contractile.tensions_into(&self.trial, &mut self.along);
+        let tensions = question.actuation.winches.iter().map(|winch| self.along[winch.members[0].0]);
+        let squares_after: f64 = tensions.map(|t| t * t).sum();
         let objective = question.objective;
         let value = |x: &[f64], squares: f64| objective.position_value(x) + 0.5 * objective.tension_weight * squares;
         let (before, after) = (value(&self.posture.x, squares), value(&self.trial, squares_after));

@@ -116,11 +116,11 @@ impl Saddle {
         let slots = pattern.slots(single.iter().map(|s| s.as_slice()));
         let factor = Indefinite::new(&pattern)?;
         let mut places = Vec::with_capacity(model.pattern().nonzeros());
-        let spread = |d: usize| 4 * (d / 2) + d % 2;
+        let spread: Vec<usize> = model.pattern().unknowns().map(|d| 4 * (d / 2) + d % 2).collect();
         for column in 0..model.dimension() {
             let range = model.pattern().column_starts()[column]..model.pattern().column_starts()[column + 1];
             for &row in &model.pattern().row_indices()[range] {
-                let (r, c) = (spread(row), spread(column));
+                let (r, c) = (spread[row], spread[column]);
                 places.push([(r, c), (r + 2, c), (c + 2, r)].map(|(r, c)| pattern.entry(r, c) as u32));
             }
         }
@@ -403,10 +403,11 @@ fn is_single(question: &Question, j: usize) -> bool {
 /// The pairs of nodes that a pattern couples.
 fn coupled(pattern: &Pattern) -> Vec<[usize; 2]> {
     let mut pairs = Vec::new();
+    let nodes: Vec<usize> = pattern.unknowns().map(|d| d / 2).collect();
     for column in (0..pattern.dimension()).step_by(2) {
         let range = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
         for &row in pattern.row_indices()[range].iter().filter(|row| *row % 2 == 0 && **row > column) {
-            pairs.push([column / 2, row / 2]);
+            pairs.push([nodes[column], nodes[row]]);
         }
     }
     pairs

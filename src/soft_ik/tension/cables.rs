@@ -1,6 +1,7 @@
 //! Lengths and directions of the free elements at one state, flat in memory.
 
 use crate::physics::Element;
+use crate::physics::wide::{self, Work, multiply_add};
 
 /// Segments of the free elements: element `k` owns those from `starts[k]` to `starts[k + 1]`.
 pub(super) struct Cables {
@@ -66,19 +67,72 @@ impl Cables {
         }
     }
 
-    /// `-(dl_k/dx) W` into `out`, for `W` of `out.len()` columns stored node by node: of each node the `x` components of all
-    /// columns, then the `y` components.
-    pub fn rates(&self, k: usize, w: &[f64], out: &mut [f64]) {
-        out.fill(0.0);
-        let columns = out.len();
-        for s in self.starts[k] as usize..self.starts[k + 1] as usize {
-            let [a, b] = self.ends[s].map(|n| 2 * columns * n as usize);
-            let [ux, uy] = self.directions[s];
-            let (ax, ay) = w[a..a + 2 * columns].split_at(columns);
-            let (bx, by) = w[b..b + 2 * columns].split_at(columns);
-            for (c, o) in out.iter_mut().enumerate() {
-                *o += ux * (ax[c] - bx[c]) + uy * (ay[c] - by[c]);
+    /// `-G W` for `W` of `columns` columns, of each degree of freedom all of them: the first into the rows of `jacobian`, the one
+    /// after these into `linear`.
+    pub fn rates(&self, w: &[f64], columns: usize, jacobian: &mut [f64], linear: &mut [f64]) {
+        wide::run(Rates { cables: self, w, columns, jacobian, linear });
+    }
+}
+
+/// See [`Cables::rates`].
+struct Rates<'a> {
+    cables: &'a Cables,
+    w: &'a [f64],
+    columns: usize,
+    jacobian: &'a mut [f64],
+    linear: &'a mut [f64],
+}
+
+/// Elements and columns that are worked on together: a line of memory each way.
+const TILE: usize = 8;
+
+impl Work for Rates<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) {
+        let Rates { cables, w, columns, jacobian, linear } = self;
+        let count = linear.len();
+        let rows = jacobian.len() / count.max(1);
+        for first in (0..count).step_by(TILE) {
+            let tile = first..count.min(first + TILE);
+            for from in (0..rows + 1).step_by(TILE) {
+                let wanted = TILE.min(rows + 1 - from);
+                let mut rates = [[0.0; TILE]; TILE];
+                for (k, rates) in tile.clone().zip(&mut rates) {
+                    for s in cables.starts[k] as usize..cables.starts[k + 1] as usize {
+                        let [ux, uy] = cables.directions[s];
+                        let [a, b] = cables.ends[s].map(|n| 2 * columns * n as usize + from);
+                        let part = |at: usize| &w[at..at + wanted];
+                        let (ax, ay, bx, by) = (part(a), part(a + columns), part(b), part(b + columns));
+                        if let (Ok(ax), Ok(ay), Ok(bx), Ok(by)) = (whole(ax), whole(ay), whole(bx), whole(by)) {
+                            for c in 0..TILE {
+                                let along = multiply_add::<FUSED>(uy, ay[c] - by[c], ux * (ax[c] - bx[c]));
+                                rates[c] += along;
+                            }
+                            continue;
+                        }
+                        for c in 0..wanted {
+                            rates[c] += multiply_add::<FUSED>(uy, ay[c] - by[c], ux * (ax[c] - bx[c]));
+                        }
+                    }
+                }
+                for c in 0..wanted {
+                    let row = if from + c < rows {
+                        &mut jacobian[(from + c) * count..][tile.clone()]
+                    } else {
+                        &mut linear[tile.clone()]
+                    };
+                    for (out, rates) in row.iter_mut().zip(&rates) {
+                        *out = rates[c];
+                    }
+                }
             }
         }
     }
+}
+
+#[inline(always)]
+fn whole(part: &[f64]) -> Result<&[f64; TILE], std::array::TryFromSliceError> {
+    part.try_into()
 }

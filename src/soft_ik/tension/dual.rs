@@ -1,5 +1,7 @@
 //! The convex subproblem of the all-at-once method, solved in its dual of the size of the targets.
 
+use crate::physics::wide::{self, CHUNK, Lanes, Work, multiply_add};
+
 /// `min 1/2 |r_0 + J (tau - tau_k)|^2 + c (tau - tau_k) + rho/2 |tau|^2 + nu/2 |tau - tau_k|^2` over `lowest <= tau <= highest`.
 ///
 /// With `q` the residual at the solution, `tau(q) = clamp((nu tau_k - c - J^T q)/(rho + nu))`; `q` solves
@@ -28,15 +30,15 @@ pub(super) struct Dual {
     trial: Vec<f64>,
     trial_tension: Vec<f64>,
     matrix: Vec<f64>,
-    /// `tau - tau_k`, and the weights of the elements in the Newton matrix.
-    change: Vec<f64>,
+    /// The rows of `J`, weighted, for a chunk of the elements.
+    weighted: Vec<Lanes>,
 }
 
 /// Newton steps: the set of elements between their limits settles in a few.
 const MAX_STEPS: usize = 60;
 /// Halvings of a Newton step.
 const MAX_HALVINGS: usize = 30;
-/// Rows of the Newton matrix between two questions whether to stop: more than the few targets of a hand have.
+/// Rows of the Newton matrix from which on it is asked whether to stop meanwhile: more than the few targets of a hand have.
 const ROWS: usize = 32;
 /// Largest entry of the gradient at which `q` counts as found, relative to the residuals.
 const TOLERANCE: f64 = 1e-8;
@@ -54,13 +56,13 @@ impl Dual {
         for ((o, r), row) in self.offset.iter_mut().zip(problem.residual).zip(problem.rows()) {
             *o = r - dot(row, problem.now);
         }
-        self.change.resize(tension.len(), 0.0);
-        let mut value = problem.value(q, &self.offset, tension, &mut self.gradient, &mut self.change);
+        self.weighted.resize(rows, [0.0; CHUNK]);
+        let mut value = problem.value(q, &self.offset, tension, &mut self.gradient);
         for _ in 0..MAX_STEPS {
             if largest(&self.gradient) <= TOLERANCE * (largest(problem.residual) + largest(q)) {
                 break;
             }
-            if !problem.hessian(tension, &mut self.matrix, &mut self.change, stop) {
+            if !problem.hessian(tension, &mut self.matrix, &mut self.weighted, stop) {
                 return false;
             }
             for (s, g) in self.step.iter_mut().zip(&self.gradient) {
@@ -77,7 +79,7 @@ impl Dual {
                     *p = q + t * s;
                 }
                 let (tau, g) = (&mut self.trial_tension, &mut self.trial_gradient);
-                let next = problem.value(&self.trial, &self.offset, tau, g, &mut self.change);
+                let next = problem.value(&self.trial, &self.offset, tau, g);
                 if next <= value + 1e-4 * t * slope + 1e-14 * value.abs() {
                     q.copy_from_slice(&self.trial);
                     tension.copy_from_slice(&self.trial_tension);
@@ -102,42 +104,117 @@ impl Subproblem<'_> {
     }
 
     /// `tau(q)` into `tension`; the dual function (to be minimised), and its gradient into `gradient`.
-    fn value(&self, q: &[f64], offset: &[f64], tension: &mut [f64], gradient: &mut [f64], change: &mut [f64]) -> f64 {
-        let weight = self.rho + self.nu;
-        for ((t, now), c) in tension.iter_mut().zip(self.now).zip(self.linear) {
-            *t = self.nu * now - c;
-        }
-        for (row, q) in self.rows().zip(q) {
-            axpy(-q, row, tension);
-        }
-        let mut conjugate = 0.0;
-        for (((t, d), now), limits) in tension.iter_mut().zip(change.iter_mut()).zip(self.now).zip(self.limits) {
-            let pull = *t;
-            let tau = (pull / weight).min(limits[1]).max(limits[0]);
-            conjugate += (pull - 0.5 * weight * tau) * tau;
-            *d = tau - now;
-            *t = tau;
-        }
-        for (((g, q), r), row) in gradient.iter_mut().zip(q).zip(self.residual).zip(self.rows()) {
-            *g = q - r - dot(row, change);
+    fn value(&self, q: &[f64], offset: &[f64], tension: &mut [f64], gradient: &mut [f64]) -> f64 {
+        let conjugate = wide::run(Choice { problem: self, q, tension, gradient });
+        for ((g, q), r) in gradient.iter_mut().zip(q).zip(self.residual) {
+            *g = q - r - *g;
         }
         0.5 * dot(q, q) - dot(q, offset) + conjugate
     }
 
     /// `I + J_F J_F^T/(rho + nu)` over the elements `F` between their limits; lower triangle, row by row. `false` where `stop` has
     /// ended it.
-    fn hessian(&self, tension: &[f64], matrix: &mut [f64], weights: &mut [f64], stop: &dyn Fn() -> bool) -> bool {
+    fn hessian(&self, tension: &[f64], matrix: &mut [f64], weighted: &mut [Lanes], stop: &dyn Fn() -> bool) -> bool {
+        matrix.fill(0.0);
         let n = self.residual.len();
-        let scale = 1.0 / (self.rho + self.nu);
-        for ((w, tau), limits) in weights.iter_mut().zip(tension).zip(self.limits) {
-            *w = if *tau > limits[0] && *tau < limits[1] { scale } else { 0.0 };
+        if !wide::run(Products { problem: self, tension, matrix: &mut *matrix, weighted, stop }) {
+            return false;
         }
-        for (i, a) in self.rows().enumerate() {
-            if i % ROWS == ROWS - 1 && stop() {
+        for i in 0..n {
+            matrix[i * n + i] += 1.0;
+        }
+        true
+    }
+}
+
+/// The choice of all tensions: see [`Subproblem::value`]. Leaves `J (tau - tau_k)` in `gradient`; returns the conjugate's part.
+struct Choice<'a> {
+    problem: &'a Subproblem<'a>,
+    q: &'a [f64],
+    tension: &'a mut [f64],
+    gradient: &'a mut [f64],
+}
+
+impl Work for Choice<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) -> f64 {
+        let Choice { problem, q, tension, gradient } = self;
+        let fma = multiply_add::<FUSED>;
+        let count = tension.len();
+        let weight = problem.rho + problem.nu;
+        let inverse = weight.recip();
+        gradient.fill(0.0);
+        let mut conjugate = 0.0;
+        for from in (0..count).step_by(CHUNK) {
+            let chunk = from..count.min(from + CHUNK);
+            let size = chunk.len().min(CHUNK);
+            let (mut pull, mut change, mut parts) = ([0.0; CHUNK], [0.0; CHUNK], [0.0; CHUNK]);
+            let (now, linear) = (&problem.now[chunk.clone()][..size], &problem.linear[chunk.clone()][..size]);
+            for l in 0..size {
+                pull[l] = fma(problem.nu, now[l], -linear[l]);
+            }
+            for (row, q) in problem.rows().zip(q) {
+                for (pull, j) in pull[..size].iter_mut().zip(&row[chunk.clone()]) {
+                    *pull = fma(-*q, *j, *pull);
+                }
+            }
+            let (limits, tension) = (&problem.limits[chunk.clone()][..size], &mut tension[chunk.clone()][..size]);
+            for l in 0..size {
+                let tau = (pull[l] * inverse).min(limits[l][1]).max(limits[l][0]);
+                parts[l] = fma(-0.5 * weight, tau, pull[l]) * tau;
+                change[l] = tau - now[l];
+                tension[l] = tau;
+            }
+            conjugate += sum(&parts);
+            for (row, g) in problem.rows().zip(gradient.iter_mut()) {
+                *g += product::<FUSED>(&row[chunk.clone()], &change[..size]);
+            }
+        }
+        conjugate
+    }
+}
+
+/// The products of the rows of `J`, weighted: see [`Subproblem::hessian`].
+struct Products<'a> {
+    problem: &'a Subproblem<'a>,
+    tension: &'a [f64],
+    matrix: &'a mut [f64],
+    /// One row each.
+    weighted: &'a mut [Lanes],
+    stop: &'a dyn Fn() -> bool,
+}
+
+impl Work for Products<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) -> bool {
+        let Products { problem, tension, matrix, weighted, stop } = self;
+        let (n, count) = (problem.residual.len(), tension.len());
+        let scale = (problem.rho + problem.nu).recip();
+        for from in (0..count).step_by(CHUNK) {
+            if n > ROWS && stop() {
                 return false;
             }
-            for (j, b) in self.rows().take(i + 1).enumerate() {
-                matrix[i * n + j] = dot3(a, b, weights) + (i == j) as usize as f64;
+            let chunk = from..count.min(from + CHUNK);
+            let size = chunk.len().min(CHUNK);
+            let (tension, limits) = (&tension[chunk.clone()][..size], &problem.limits[chunk.clone()][..size]);
+            let mut weights = [0.0; CHUNK];
+            for l in 0..size {
+                let inside = tension[l] > limits[l][0] && tension[l] < limits[l][1];
+                weights[l] = if inside { scale } else { 0.0 };
+            }
+            for (row, weighted) in problem.rows().zip(weighted.iter_mut()) {
+                for ((out, j), w) in weighted[..size].iter_mut().zip(&row[chunk.clone()]).zip(&weights) {
+                    *out = j * w;
+                }
+            }
+            for (i, (a, entries)) in weighted.iter().zip(matrix.chunks_exact_mut(n.max(1))).enumerate() {
+                for (entry, b) in entries[..=i].iter_mut().zip(problem.rows()) {
+                    *entry += product::<FUSED>(&a[..size], &b[chunk.clone()]);
+                }
             }
         }
         true
@@ -147,29 +224,57 @@ impl Subproblem<'_> {
 /// Running sums in a dot product: independent of each other, so that they can be computed side by side.
 const LANES: usize = 8;
 
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let (mut a, mut b) = (a.chunks_exact(LANES), b[..a.len()].chunks_exact(LANES));
-    let mut sums = [0.0; LANES];
-    for (a, b) in (&mut a).zip(&mut b) {
-        for l in 0..LANES {
-            sums[l] += a[l] * b[l];
+/// `a b`.
+#[inline(always)]
+fn product<const FUSED: bool>(a: &[f64], b: &[f64]) -> f64 {
+    let ((a, end), (b, other)) = (a.as_chunks::<LANES>(), b[..a.len()].as_chunks::<LANES>());
+    let mut sums = [[0.0; LANES]; 2];
+    let (mut pairs, last) = ((a.chunks_exact(2), b.chunks_exact(2)), a.len() % 2);
+    for (a, b) in (&mut pairs.0).zip(&mut pairs.1) {
+        for (sums, (a, b)) in sums.iter_mut().zip(a.iter().zip(b)) {
+            for l in 0..LANES {
+                sums[l] = multiply_add::<FUSED>(a[l], b[l], sums[l]);
+            }
         }
     }
-    let rest: f64 = a.remainder().iter().zip(b.remainder()).map(|(a, b)| a * b).sum();
-    sums.iter().sum::<f64>() + rest
+    for (a, b) in a[a.len() - last..].iter().zip(&b[b.len() - last..]) {
+        for l in 0..LANES {
+            sums[0][l] = multiply_add::<FUSED>(a[l], b[l], sums[0][l]);
+        }
+    }
+    let rest: f64 = end.iter().zip(other).map(|(a, b)| a * b).sum();
+    let mut lanes = [0.0; LANES];
+    for l in 0..LANES {
+        lanes[l] = sums[0][l] + sums[1][l];
+    }
+    lanes.iter().sum::<f64>() + rest
 }
 
-fn dot3(a: &[f64], b: &[f64], c: &[f64]) -> f64 {
-    let n = a.len();
-    let (mut a, mut b, mut c) = (a.chunks_exact(LANES), b[..n].chunks_exact(LANES), c[..n].chunks_exact(LANES));
-    let mut sums = [0.0; LANES];
-    for ((a, b), c) in (&mut a).zip(&mut b).zip(&mut c) {
+/// The sum of all, of which any may be zero.
+#[inline(always)]
+fn sum(parts: &Lanes) -> f64 {
+    let mut lanes = [0.0; LANES];
+    for part in parts.as_chunks::<LANES>().0 {
         for l in 0..LANES {
-            sums[l] += a[l] * b[l] * c[l];
+            lanes[l] += part[l];
         }
     }
-    let rest = a.remainder().iter().zip(b.remainder()).zip(c.remainder()).map(|((a, b), c)| a * b * c);
-    sums.iter().sum::<f64>() + rest.sum::<f64>()
+    lanes.iter().sum()
+}
+
+struct Dot<'a>(&'a [f64], &'a [f64]);
+
+impl Work for Dot<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) -> f64 {
+        product::<FUSED>(self.0, self.1)
+    }
+}
+
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    wide::run(Dot(a, b))
 }
 
 /// `y += factor x`.

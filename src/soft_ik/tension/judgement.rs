@@ -54,9 +54,7 @@ impl Run {
     /// Compares `O` at the equilibrium that the state is on its way to, `x - u`, with what the last step promised. Keeps it if
     /// it is the best, and lets `nu` follow success.
     pub(super) fn judge(&mut self, question: &Question, form: HessianForm, work: &mut Workspace) -> Verdict {
-        let n = self.x.len();
-        let rows = 2 * question.objective.targets.len();
-        let u = &work.solved[(rows + 1) * n..];
+        let u = &work.newton;
         for ((p, x), u) in work.pulled.iter_mut().zip(&self.x).zip(u) {
             *p = x - u;
         }
@@ -148,12 +146,12 @@ impl Run {
 }
 
 impl Best {
-    /// Activations that hold the tensions at the positions, within the bounds, into `beta`.
-    pub fn activations_into(&self, question: &Question, beta: &mut [f64]) {
-        let elements = &question.model.contractile.elements;
+    /// Activations that hold the tensions at the positions, within the bounds, into `beta`. `lengths` becomes those of all elements.
+    pub fn activations_into(&self, question: &Question, lengths: &mut [f64], beta: &mut [f64]) {
+        let contractile = &question.model.contractile;
+        contractile.lengths_into(&self.x, lengths);
         for (b, fiber) in beta.iter_mut().zip(&self.fibers) {
-            let element = &elements[fiber.element];
-            *b = fiber.activation(element, element.length(&self.x));
+            *b = fiber.activation(&contractile.elements[fiber.element], lengths[fiber.element]);
         }
         question.actuation.clamp(beta);
     }

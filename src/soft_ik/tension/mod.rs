@@ -86,7 +86,8 @@ impl Method for AllAtOnce {
                 }
             }
             let mut beta = start.beta.clone();
-            run.best.activations_into(question, &mut beta);
+            let mut lengths = vec![0.0; question.model.contractile.elements.len()];
+            run.best.activations_into(question, &mut lengths, &mut beta);
             let (posture, factorizations) = question.settle(&beta, &run.best.x, budget.stop);
             answer.factorizations += factorizations;
             let snapped = posture.in_equilibrium() && snapped(posture.objective, run.best.objective, work.size);

@@ -181,7 +181,9 @@ impl Run {
     pub(super) fn set_laws(&self, question: &mut Question, work: &Workspace) {
         let steady = self.steady(work);
         let contractile = &mut question.model.contractile;
-        contractile.set_contractions(&question.actuation.fixed);
+        if self.fibers.len() < contractile.laws.len() {
+            contractile.set_contractions(&question.actuation.fixed);
+        }
         for fiber in &self.fibers {
             contractile.laws[fiber.element] = fiber.law(steady);
         }
@@ -233,7 +235,6 @@ impl Run {
             let moved = if stuck { 0.0 } else { f64::INFINITY };
             return Some(Progress { factorizations, moved, settled: stuck, gain: f64::INFINITY });
         }
-        let rows = 2 * question.objective.targets.len();
         let limited = self.linearise(question, work);
         self.append_secant(work);
         self.before = None;
@@ -245,7 +246,7 @@ impl Run {
         }
         let (step, changed) = self.take(question, form, work);
         if self.before.is_some() {
-            self.secant.leave(&work.jacobian[..rows * self.fibers.len()], &work.now, &work.next, step);
+            self.secant.leave(&mut work.jacobian, &work.now, &work.next, step);
         }
         if limited && step >= 0.5 {
             self.pull *= 2.0;

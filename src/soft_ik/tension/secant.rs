@@ -14,7 +14,7 @@ const LEAST_COSINE: f64 = 0.03;
 
 /// What the last step has shown of the curvature.
 pub(super) struct Secant {
-    /// `J` where the last step began, row after row, and the step; nothing where there is no such step.
+    /// `J` where the last step began, row after row, `z` below it, and the step; nothing where there is no such step.
     jacobian: Vec<f64>,
     step: Vec<f64>,
     taken: bool,
@@ -26,7 +26,7 @@ pub(super) struct Secant {
 impl Secant {
     pub fn new(elements: usize, rows: usize) -> Self {
         let zero = || vec![0.0; elements];
-        Self { jacobian: vec![0.0; elements * rows], step: zero(), taken: false, change: zero(), row: zero() }
+        Self { jacobian: vec![0.0; elements * (rows + 1)], step: zero(), taken: false, change: zero(), row: zero() }
     }
 
     /// Other targets: nothing is known.
@@ -40,9 +40,11 @@ impl Secant {
         self.taken = false;
     }
 
-    /// A part of the step from tensions `now` to `next` is taken, where the Jacobian is `jacobian`.
-    pub fn leave(&mut self, jacobian: &[f64], now: &[f64], next: &[f64], part: f64) {
-        self.jacobian.copy_from_slice(jacobian);
+    /// A part of the step from tensions `now` to `next` is taken, where the Jacobian is `jacobian` (with room for `z` below it); it
+    /// is exchanged for another of the same size.
+    pub fn leave(&mut self, jacobian: &mut Vec<f64>, now: &[f64], next: &[f64], part: f64) {
+        self.jacobian.resize(jacobian.len(), 0.0);
+        std::mem::swap(&mut self.jacobian, jacobian);
         for ((s, now), next) in self.step.iter_mut().zip(now).zip(next) {
             *s = part * (next - now);
         }
@@ -80,11 +82,16 @@ mod tests {
         ([x * x + y - 9.0, x * y], [2.0 * x, 1.0, y, x])
     }
 
+    /// With room for the row of the secant.
+    fn below(jacobian: &[f64]) -> Vec<f64> {
+        [jacobian, &[0.0; 2]].concat()
+    }
+
     #[test]
     fn the_row_gives_the_change_of_the_gradient_along_the_step() {
         let ([a, b], mut secant) = ([[2.0, 1.0], [3.5, 1.5]], Secant::new(2, 2));
         let ((_, before), (r, after)) = (residuals(a), residuals(b));
-        secant.leave(&before, &a, &b, 1.0);
+        secant.leave(&mut below(&before), &a, &b, 1.0);
         secant.arrive(&after, &r);
         let s = [b[0] - a[0], b[1] - a[1]];
         let along = dot(&secant.row, &s);
@@ -104,10 +111,10 @@ mod tests {
     fn negative_curvature_is_left_out() {
         let ([a, b], mut secant) = ([[2.0, 1.0], [2.5, 1.0]], Secant::new(2, 2));
         let ((_, before), (r, after)) = (residuals(a), residuals(b));
-        secant.leave(&before, &a, &b, 1.0);
+        secant.leave(&mut below(&before), &a, &b, 1.0);
         secant.arrive(&after, &[-r[0].abs(), 0.0]);
         assert_eq!(secant.row, [0.0, 0.0]);
-        secant.leave(&before, &a, &b, 0.0);
+        secant.leave(&mut below(&before), &a, &b, 0.0);
         secant.arrive(&after, &[1.0, 0.0]);
         assert_eq!(secant.row, [0.0, 0.0], "no part of the step was taken");
     }

@@ -4,7 +4,7 @@ use super::dual::Subproblem;
 use super::run::{Chosen, LARGEST_PROXIMAL, Run, STANDSTILL};
 use super::workspace::Workspace;
 use crate::physics::{HessianForm, statics};
-use crate::soft_ik::{PointTarget, Question};
+use crate::soft_ik::Question;
 use std::time::Instant;
 
 /// A Newton step is taken without a line search where at most this part of the unbalanced forces is left after it.
@@ -22,25 +22,34 @@ impl Run {
         let n = self.x.len();
         let objective = question.objective;
         let rows = 2 * objective.targets.len();
-        work.solved.resize(n * (rows + 2), 0.0);
-        work.solved[..n * rows].fill(0.0);
+        let columns = rows + 2;
+        let mut pull = std::mem::take(&mut work.side);
+        objective.rest_gradient(&self.x, &mut pull);
+        self.add_tension_of_springs(question, work, &mut pull);
+        work.solved.resize(n * columns, 0.0);
+        let sides = work.solved.chunks_exact_mut(columns);
+        for ((side, pull), g) in sides.zip(&pull).zip(&self.gradient) {
+            side[..rows].fill(0.0);
+            side[rows] = *pull;
+            side[rows + 1] = *g;
+        }
+        work.side = pull;
         for (t, target) in objective.targets.iter().enumerate() {
-            for axis in 0..2 {
-                add_row(target, axis, &mut work.solved[(2 * t + axis) * n..][..n]);
+            let root = target.weight.sqrt();
+            for (&n, w) in target.nodes.iter().zip(&target.weights) {
+                for axis in 0..2 {
+                    work.solved[(2 * n + axis) * columns + 2 * t + axis] += root * w;
+                }
             }
         }
-        let mut solved = std::mem::take(&mut work.solved);
-        let (pull, g) = solved[rows * n..].split_at_mut(n);
-        objective.rest_gradient(&self.x, pull);
-        self.add_tension_of_springs(question, work, pull);
-        g.copy_from_slice(&self.gradient);
-        work.solved = solved;
-        let mut columns = work.solved.chunks_mut(n * COLUMNS).peekable();
-        while let Some(some) = columns.next() {
-            question.model.solve_many(some, some.len() / n);
-            if columns.peek().is_some() && stop() {
+        for first in (0..columns).step_by(COLUMNS) {
+            if first > 0 && stop() {
                 return false;
             }
+            question.model.solve_rows(&mut work.solved, columns, first..columns.min(first + COLUMNS));
+        }
+        for (u, solved) in work.newton.iter_mut().zip(work.solved.chunks_exact(columns)) {
+            *u = solved[rows + 1];
         }
         work.phases.solves += clock.elapsed().as_secs_f64();
         true
@@ -62,25 +71,13 @@ impl Run {
     /// `J`, `c`, `r_0` and the limits; the last row of `J` is left for [`Self::append_secant`]. Whether a target's pull was limited.
     pub(super) fn linearise(&self, question: &Question, work: &mut Workspace) -> bool {
         let clock = Instant::now();
-        let n = self.x.len();
         let targets = &question.objective.targets;
-        let (rows, columns) = (2 * targets.len(), 2 * targets.len() + 1);
-        work.by_node.resize(n * columns, 0.0);
-        for (c, column) in work.solved.chunks_exact(n).take(columns).enumerate() {
-            for (d, v) in column.iter().enumerate() {
-                work.by_node[d * columns + c] = *v;
-            }
-        }
+        let rows = 2 * targets.len();
         let count = self.fibers.len();
         work.jacobian.resize(count * (rows + 1), 0.0);
-        work.row.resize(columns, 0.0);
+        work.cables.rates(&work.solved, rows + 2, &mut work.jacobian[..rows * count], &mut work.linear);
         let elements = &question.model.contractile.elements;
         for (k, fiber) in self.fibers.iter().enumerate() {
-            work.cables.rates(k, &work.by_node, &mut work.row);
-            for (r, rate) in work.row[..rows].iter().enumerate() {
-                work.jacobian[r * count + k] = *rate;
-            }
-            work.linear[k] = work.row[rows];
             work.now[k] = fiber.tension;
             work.limits[k] = fiber.limits(&elements[fiber.element], work.cables.lengths[k]);
         }
@@ -116,7 +113,6 @@ impl Run {
     /// to singular that the choice drowns in rounding. `false` where `stop` has ended it.
     pub(super) fn choose(&mut self, question: &mut Question, work: &mut Workspace, stop: &dyn Fn() -> bool) -> bool {
         let first = self.nu;
-        let n = self.x.len();
         let rows = work.residual.len();
         let most = self.reach * work.size;
         self.q.resize(rows, 0.0);
@@ -152,7 +148,7 @@ impl Run {
             }
             work.unbalanced = self.gradient.iter().zip(&work.dx).fold(0.0, |m, (g, d)| f64::max(m, (g - d).abs()));
             question.model.solve(&mut work.dx);
-            let u = &work.solved[rows * n..];
+            let u = &work.newton;
             own = longest(&work.dx);
             for (d, u) in work.dx.iter_mut().zip(u) {
                 *d -= u;
@@ -166,7 +162,7 @@ impl Run {
         self.q = q;
         let promised = self.promise(work);
         if promised >= -STANDSTILL * self.now.abs() {
-            let telling = own >= TELLING * longest(&work.solved[rows * n..]);
+            let telling = own >= TELLING * longest(&work.newton);
             self.before = Some(Chosen { objective: self.now, promised, telling });
         } else {
             self.nu = first;
@@ -230,7 +226,7 @@ impl Run {
 
     /// A Newton step of the statics under the tensions as they are.
     pub(super) fn balance(&self, work: &mut Workspace) {
-        for (d, u) in work.dx.iter_mut().zip(&work.solved[work.residual.len() * self.x.len()..]) {
+        for (d, u) in work.dx.iter_mut().zip(&work.newton) {
             *d = -u;
         }
         work.next.copy_from_slice(&work.now);
@@ -261,12 +257,6 @@ impl Run {
         }
         work.phases.line_search += clock.elapsed().as_secs_f64();
         (step, changed)
-    }
-}
-
-fn add_row(target: &PointTarget, axis: usize, out: &mut [f64]) {
-    for (&n, w) in target.nodes.iter().zip(&target.weights) {
-        out[2 * n + axis] += target.weight.sqrt() * w;
     }
 }
 

@@ -11,12 +11,13 @@ const SOFT: f64 = 10.0;
 /// What runs work in.
 pub(in crate::soft_ik) struct Workspace {
     pub(super) cables: Cables,
-    /// Right-hand sides and solutions, column after column.
+    /// Right-hand sides and solutions `[Y, v, u]`, of each degree of freedom all columns (see [`Cables::rates`]).
     pub(super) solved: Vec<f64>,
-    /// The solutions for the targets and the rest weights, node by node (see [`Cables::rates`]).
-    pub(super) by_node: Vec<f64>,
+    /// `u` by itself, the Newton step of the statics.
+    pub(super) newton: Vec<f64>,
+    /// One right-hand side by itself.
+    pub(super) side: Vec<f64>,
     pub(super) jacobian: Vec<f64>,
-    pub(super) row: Vec<f64>,
     pub(super) linear: Vec<f64>,
     pub(super) now: Vec<f64>,
     pub(super) next: Vec<f64>,
@@ -52,9 +53,9 @@ impl Workspace {
         Self {
             cables: Cables::new(members.map(|e| &elements[e])),
             solved: vec![0.0; n * (rows + 2)],
-            by_node: vec![0.0; n * (rows + 1)],
+            newton: vec![0.0; n],
+            side: vec![0.0; n],
             jacobian: vec![0.0; count * (rows + 1)],
-            row: vec![0.0; rows + 1],
             linear: vec![0.0; count],
             now: vec![0.0; count],
             next: vec![0.0; count],
