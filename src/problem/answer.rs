@@ -7,7 +7,8 @@ use super::file::{DragData, Problem, ProblemError};
 use super::frame::Frame;
 use crate::physics::{Body, Cause, Contractile, Element, Energy, Gravity, Model, ModelError, NeoHookean, Pin, Pins};
 use crate::soft_ik::{
-    self, Actuation, Budget, Objective, PointTarget, Quality, Question, Tracker, Winch, default_method, sensitivity,
+    self, Actuation, Budget, Objective, PointTarget, Quality, Question, Tracker, Winch, default_method, newton,
+    sensitivity,
 };
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -229,20 +230,38 @@ impl Work<'_> {
             answer.factorizations += factorizations;
             answer
         };
+        let milliseconds = clock.elapsed().as_secs_f64() * 1e3;
         let posture = answer.posture;
         let in_time = !stop();
-        if !posture.in_equilibrium() || (!in_time && !answer.converged) {
+        let scale = self.frame.objective();
+        let contractions = actuation.contractions(&posture.beta);
+        question.model.contractile.set_contractions(&contractions);
+        let gradient = sensitivity::gradient(&mut question, &posture.x, &contractions);
+        let projected = gradient.map(|g| newton::projected_gradient(&question, &posture.beta, &g.by_activation));
+        let minimal = projected.is_some_and(|p| newton::is_small(&question, p, posture.objective));
+        let tolerance = newton::TOLERANCE * posture.objective * scale;
+        if !posture.in_equilibrium() || (!in_time && !minimal) {
             self.failures.push(self.unbalanced(Part::SoftIk, &posture.x, in_time));
+        } else if !minimal {
+            self.failures.push(match projected {
+                None => Failure::Unstable,
+                Some(p) => Failure::NotMinimal { part: Part::SoftIk, projected: p * scale, tolerance },
+            });
         }
         let (length, frame) = (self.frame.length, self.frame);
         let lengths = |list: &[f64]| list.iter().map(|v| v * length).collect::<Vec<f64>>();
         self.out.soft_ik = Some(SoftIkAnswer {
-            alpha_c: lengths(&actuation.contractions(&posture.beta)),
+            alpha_c: lengths(&contractions),
             beta: lengths(&posture.beta),
+            converged: posture.in_equilibrium() && minimal,
             factorizations: answer.factorizations,
             iterations: answer.iterations,
-            milliseconds: clock.elapsed().as_secs_f64() * 1e3,
-            objective: posture.objective * frame.objective(),
+            milliseconds,
+            minimises: method.objective(),
+            objective: posture.objective * scale,
+            projected_gradient: projected.map(|p| p * scale),
+            starts: answer.starts,
+            tolerance,
             x: frame.points(&posture.x),
         });
         Ok(())

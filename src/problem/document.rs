@@ -49,10 +49,17 @@ pub struct Document {
 pub struct SoftIkAnswer {
     pub alpha_c: Vec<f64>,
     pub beta: Vec<f64>,
+    pub converged: bool,
     pub factorizations: usize,
     pub iterations: usize,
     pub milliseconds: f64,
+    pub minimises: &'static str,
     pub objective: f64,
+    /// Absent where the equilibrium has no derivatives.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub projected_gradient: Option<f64>,
+    pub starts: usize,
+    pub tolerance: f64,
     pub x: Vec<[f64; 2]>,
 }
 

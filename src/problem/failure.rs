@@ -12,6 +12,11 @@ pub enum Failure {
     FreeToMove { part: Part, cause: Cause, node: usize, whole: bool },
     #[error("{part}: the time budget ended the search")]
     TimeBudget { part: Part },
+    /// The search ended where the objective can still be lowered (both figures in units of the objective).
+    #[error(
+        "{part}: the search ended early, the projected gradient is {projected:.1e} and should be at most {tolerance:.1e}"
+    )]
+    NotMinimal { part: Part, projected: f64, tolerance: f64 },
     #[error("the equilibrium is not stable: it has no sensitivities")]
     Unstable,
     #[error("{part}: the numbers of the answer are beyond what can be written")]

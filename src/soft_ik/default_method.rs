@@ -5,6 +5,7 @@
 //! Few winches: Gauss-Newton in contraction space, from several starts, since few cables leave real local minima.
 
 use super::contraction::GaussNewton;
+use super::newton::Newton;
 use super::tension::AllAtOnce;
 use super::{Actuation, Answer, Budget, Method, Posture, Question};
 
@@ -66,6 +67,10 @@ impl Method for Default {
         }
         let from = best.posture.clone();
         best.absorb(GaussNewton::default().solve(question, &from, budget));
+        if own_objective {
+            let from = best.posture.clone();
+            best.absorb(Newton::default().solve(question, &from, budget));
+        }
         let contractions = question.actuation.contractions(&best.posture.beta);
         question.model.contractile.set_contractions(&contractions);
         best

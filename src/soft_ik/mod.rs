@@ -6,12 +6,13 @@
 //! O = 1/2 sum_T q_t |S_t x - x'_t|^2 + 1/2 sum_i q_i |x_i - X_i|^2 + lambda/2 sum (alpha_c/alpha_0)^2 + rho/2 sum_free tau^2
 //! ```
 //!
-//! `S_t x` is a point of the body. A muscle fibre is a winch with a single element. Three methods implement [`Method`]:
+//! `S_t x` is a point of the body. A muscle fibre is a winch with a single element. Four methods implement [`Method`]:
 //!
 //! | method | unknowns | for |
 //! | --- | --- | --- |
 //! | [`gradient`] | `xi`, the paper's reparametrisation | the baseline: Algorithm 1 as printed; may stall where elements go slack |
-//! | [`contraction`] | `beta`, Gauss-Newton with true bounds | winches; exact objective of problem files |
+//! | [`contraction`] | `beta`, Gauss-Newton with true bounds | winches |
+//! | [`newton`] | `beta`, Newton with true bounds, sparse | the question's own objective, at any number of fibres |
 //! | [`tension`] | `x` and the tensions of the free elements, all at once | many fibres under the hand |
 //!
 //! [`solve`] is the default: it chooses and combines them, and never returns an answer stuck in the slack stall.
@@ -101,6 +102,10 @@ pub struct Budget<'a> {
 /// A way to minimise `O` from a starting posture.
 pub trait Method {
     fn name(&self) -> &'static str;
+    /// What it minimises: the question's own `O`, where nothing else is said.
+    fn objective(&self) -> &'static str {
+        "objective"
+    }
     fn solve(&self, question: &mut Question, start: &Posture, budget: &Budget) -> Answer;
 }
 

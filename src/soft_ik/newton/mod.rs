@@ -30,10 +30,11 @@ impl Default for Newton {
 
 /// Iterations of little gain after which a search is given up.
 const PATIENCE: usize = 3;
-/// Converged where `|P_j| a_j <= TOLERANCE O` for every winch: `P` the projected gradient, `a_j` the length of [`rows::lengths`].
+/// Converged where the [`projected_gradient`] is at most this part of `O`: no winch, moved by its whole length, would change `O` by
+/// more to first order. Ten times less costs a further iteration, and asks for more than statics can always resolve.
 pub const TOLERANCE: f64 = 1e-5;
-/// `O` below this part of that at rest counts as zero: targets are reached to seven digits.
-const NOTHING: f64 = 1e-14;
+/// `O` below this part of that of the rest shape counts as zero: targets are reached to six digits.
+const NOTHING: f64 = 1e-12;
 /// Damping in units of a winch's own curvature: the first one, the least (below it counts as none), the largest.
 const FIRST_DAMPING: f64 = 1.0;
 const LEAST_DAMPING: f64 = 1e-6;
@@ -77,28 +78,21 @@ impl Method for Newton {
     }
 }
 
-/// The largest `|P_j| a_j` at activations `beta`, and the largest `|P_j|`.
-pub fn projected_gradient(question: &Question, beta: &[f64], gradient: &[f64]) -> [f64; 2] {
+/// The largest `|P_j| a_j` at activations `beta` with `gradient = dO/dbeta`, in units of `O`: `P_j` is the gradient, or zero where
+/// winch `j` is at a bound that the descent pushes against; `a_j` is the longest initial rest length of its elements, over
+/// its ratio.
+pub fn projected_gradient(question: &Question, beta: &[f64], gradient: &[f64]) -> f64 {
     let lengths = rows::lengths(question.actuation, &question.model.contractile.elements);
-    let mut largest = [0.0_f64; 2];
-    for (j, winch) in question.actuation.winches.iter().enumerate() {
-        let g = gradient[j];
-        let outward = beta[j] <= winch.lower && g > 0.0 || beta[j] >= winch.upper && g < 0.0;
-        if !outward {
-            largest[0] = largest[0].max(g.abs() * lengths[j]);
-            largest[1] = largest[1].max(g.abs());
-        }
-    }
-    largest
+    let inward = |j: usize| {
+        let (winch, g) = (&question.actuation.winches[j], gradient[j]);
+        !(beta[j] <= winch.lower && g > 0.0 || beta[j] >= winch.upper && g < 0.0)
+    };
+    (0..beta.len()).filter(|j| inward(*j)).map(|j| gradient[j].abs() * lengths[j]).fold(0.0, f64::max)
 }
 
-/// Whether a projected gradient (the first of [`projected_gradient`]) is small enough at an objective.
+/// Whether a [`projected_gradient`] is small enough at an objective.
 pub fn is_small(question: &Question, projected: f64, objective: f64) -> bool {
-    projected <= TOLERANCE * objective || objective <= NOTHING * at_rest(question)
-}
-
-fn at_rest(question: &Question) -> f64 {
-    question.objective.position_value(&question.model.rest)
+    projected <= TOLERANCE * objective || objective <= NOTHING * question.objective.position_value(&question.model.rest)
 }
 
 /// Structure and buffers of a search, and what it has learnt.
@@ -128,7 +122,6 @@ impl Search {
     }
 
     fn run(&mut self, question: &mut Question, relative_decrease: f64, budget: &Budget, answer: &mut Answer) {
-        let trace = std::env::var("TRACE").is_ok();
         let mut idle = 0;
         while answer.iterations < budget.iterations && !(budget.stop)() {
             answer.iterations += 1;
@@ -136,27 +129,16 @@ impl Search {
                 return;
             }
             let posture = &answer.posture;
-            let [projected, _] = projected_gradient(question, &posture.beta, &self.local.gradient);
+            let projected = projected_gradient(question, &posture.beta, &self.local.gradient);
             if is_small(question, projected, posture.objective) {
                 answer.converged = true;
                 return;
             }
             let before = posture.objective;
-            if !self.improve(question, budget, answer, trace) {
+            if !self.improve(question, budget, answer) {
                 return;
             }
             let gain = before - answer.posture.objective;
-            if trace {
-                eprintln!(
-                    "{} O {:.6e} gain {:.1e} pg {:.1e} damping {:.1e} fac {}",
-                    answer.iterations,
-                    answer.posture.objective,
-                    gain / before,
-                    projected / before,
-                    self.damping,
-                    answer.factorizations
-                );
-            }
             idle = if gain < relative_decrease * before { idle + 1 } else { 0 };
             if idle >= PATIENCE {
                 return;
@@ -165,7 +147,7 @@ impl Search {
     }
 
     /// Takes one step that lowers `O`; whether there was one.
-    fn improve(&mut self, question: &mut Question, budget: &Budget, answer: &mut Answer, trace: bool) -> bool {
+    fn improve(&mut self, question: &mut Question, budget: &Budget, answer: &mut Answer) -> bool {
         let unit = self.units(question);
         let mut form = if self.convex > 0 {
             Form::GaussNewton
@@ -195,9 +177,6 @@ impl Search {
             };
             let within = quadratic::minimise(&mut model, &mut answer.factorizations);
             let Ok(step) = within else {
-                if trace {
-                    eprintln!("   {form:?} not convex at {:.1e}", self.damping);
-                }
                 raised += 1;
                 if form == Form::Exact {
                     form = Form::Convexified;
@@ -227,12 +206,6 @@ impl Search {
             answer.factorizations += factorizations;
             let gain = posture.objective - trial.objective;
             let ratio = gain / promised;
-            if trace {
-                eprintln!(
-                    "   {form:?} t {t:.2e} promised {:.2e} ratio {ratio:.3} statics {factorizations}",
-                    promised / posture.objective
-                );
-            }
             let taken = trial.in_equilibrium() && promised > 0.0 && ratio > TAKEN;
             if ratio > GOOD && t == 1.0 {
                 self.damping = (self.damping * 0.1).max(LEAST_DAMPING);
@@ -245,7 +218,7 @@ impl Search {
                 let before = posture.clone();
                 answer.posture = trial;
                 if raised > 0 && ratio > GOOD && t == 1.0 {
-                    self.extend(question, budget, &before, &step, answer, trace);
+                    self.extend(question, budget, &before, &step, answer);
                 }
                 return true;
             }
@@ -276,15 +249,7 @@ impl Search {
     }
 
     /// Goes on along a step that the damping alone has kept short, while that lowers `O`.
-    fn extend(
-        &mut self,
-        question: &mut Question,
-        budget: &Budget,
-        from: &Posture,
-        step: &Step,
-        answer: &mut Answer,
-        trace: bool,
-    ) {
+    fn extend(&mut self, question: &mut Question, budget: &Budget, from: &Posture, step: &Step, answer: &mut Answer) {
         let most = self.longest_factor(step);
         let mut t = 1.0;
         while t < most && !(budget.stop)() {
@@ -293,12 +258,6 @@ impl Search {
             let guess = predicted(question, &from.x, &step.x, t);
             let (trial, factorizations) = question.settle(&beta, &guess, budget.stop);
             answer.factorizations += factorizations;
-            if trace {
-                eprintln!(
-                    "      extended {t:.1} gain {:.2e} statics {factorizations}",
-                    (answer.posture.objective - trial.objective) / from.objective
-                );
-            }
             if !trial.in_equilibrium() || trial.objective >= answer.posture.objective {
                 break;
             }

@@ -55,7 +55,7 @@ pub(super) fn minimise(model: &mut Model, factorizations: &mut usize) -> Result<
     let still = Step { beta: vec![0.0; count], x: vec![0.0; model.saddle.coordinates()], slope: 0.0, curvature: 0.0 };
     let mut best = Point { step: still, slopes: model.local.gradient.clone(), value: 0.0 };
     for _ in 0..PROJECTED_STEPS {
-        *factorizations += 1;
+        *factorizations += model.saddle.cost();
         let (next, done) = model.project(&best)?;
         if let Some(next) = next {
             best = next;
@@ -159,10 +159,6 @@ impl Model<'_, '_> {
                 .sum();
             let dual =
                 (0..count).filter(|j| !held[*j]).map(|j| ((slopes[j] - z[j][0] + z[j][1]) * self.lengths[j]).abs());
-            let dual_sum: f64 = dual.clone().sum();
-            if std::env::var("TRACE").is_ok() {
-                eprintln!("        ip gap {:.1e} dual {:.1e} worth {:.1e}", gap, dual_sum, worth);
-            }
             if gap <= GAP * worth && dual.sum::<f64>() <= GAP * worth {
                 break;
             }
@@ -171,7 +167,7 @@ impl Model<'_, '_> {
                 .map(|j| [0, 1].map(|s| if finite[j][s] { z[j][s] / distance(&beta, j, s) } else { 0.0 }).iter().sum())
                 .collect();
             let damping: Vec<f64> = self.damping.iter().zip(&barrier).map(|(d, b)| d + b).collect();
-            *factorizations += 1;
+            *factorizations += self.saddle.cost();
             self.saddle.factorize(self.question, rows, self.form, &damping, &held)?;
             let direction = |saddle: &mut Saddle, mu: f64, cross: &dyn Fn(usize, usize) -> f64| {
                 let force = |j: usize| {

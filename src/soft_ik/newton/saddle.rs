@@ -70,10 +70,16 @@ pub(super) struct Step {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct NotConvex;
 
+/// Up to this many winches the dense border costs less than a factorisation of the saddle-point matrix.
+const FEW: usize = 16;
+
 /// Structure, factor and buffers.
 pub(super) struct Saddle {
     pattern: Pattern,
-    factor: Indefinite,
+    /// None where there are few winches: all of them stand on the border, and what is left is solved with the factor of `H` alone.
+    factor: Option<Indefinite>,
+    /// Whether each winch is eliminated by its own row.
+    eliminated: Vec<bool>,
     pub stencils: Stencils,
     /// Where each stored value of the model's Hessian lands: positions with positions, multipliers with positions, and the mirror
     /// of the latter.
@@ -92,6 +98,8 @@ pub(super) struct Saddle {
     weights_now: Vec<f64>,
     border: Vec<usize>,
     columns: Vec<f64>,
+    /// Whether the columns of few winches are those of the matrix assembled last.
+    fresh: bool,
     schur: Option<Cholesky<f64, Dyn>>,
     z: Vec<f64>,
     rest: Vec<f64>,
@@ -105,16 +113,18 @@ impl Saddle {
         let model = &*question.model;
         let nodes = model.dimension() / 2;
         let twice = |list: &[usize]| list.iter().flat_map(|n| [2 * n, 2 * n + 1]).collect::<Vec<usize>>();
-        let single: Vec<Vec<usize>> = (0..stencils.count())
-            .map(|j| if is_single(question, j) { twice(stencils.nodes(j)) } else { Vec::new() })
-            .collect();
+        let winches = &question.actuation.winches;
+        let few = winches.len() <= FEW;
+        let eliminated: Vec<bool> = winches.iter().map(|w| !few && w.members.len() == 1).collect();
+        let single: Vec<Vec<usize>> =
+            (0..stencils.count()).map(|j| if eliminated[j] { twice(stencils.nodes(j)) } else { Vec::new() }).collect();
         let coupled = coupled(model.pattern());
         let pairs: Vec<Vec<usize>> = coupled.iter().map(|pair| twice(pair)).collect();
         let held: Vec<Vec<usize>> = question.objective.targets.iter().map(|t| twice(&t.nodes)).collect();
         let all = pairs.iter().chain(&single).chain(&held).map(|s| s.as_slice());
         let pattern = Pattern::new(2 * nodes, all);
         let slots = pattern.slots(single.iter().map(|s| s.as_slice()));
-        let factor = Indefinite::new(&pattern)?;
+        let factor = if few { None } else { Some(Indefinite::new(&pattern)?) };
         let mut places = Vec::with_capacity(model.pattern().nonzeros());
         let spread: Vec<usize> = model.pattern().unknowns().map(|d| 4 * (d / 2) + d % 2).collect();
         for column in 0..model.dimension() {
@@ -142,6 +152,7 @@ impl Saddle {
         Some(Self {
             pattern,
             factor,
+            eliminated,
             stencils,
             places,
             slots,
@@ -153,6 +164,7 @@ impl Saddle {
             weights_now: Vec::new(),
             border: Vec::new(),
             columns: Vec::new(),
+            fresh: false,
             schur: None,
             z,
             rest,
@@ -163,6 +175,7 @@ impl Saddle {
     /// Puts in what does not depend on which winches are free.
     pub fn assemble(&mut self, question: &Question, local: &Local, form: Form) {
         self.base.fill(0.0);
+        self.fresh = false;
         let bend = form.index().map(|k| &local.bend[k]);
         for (k, (place, h)) in self.places.iter().zip(&local.hessian).enumerate() {
             let [xx, px, xp] = place.map(|p| p as usize);
@@ -188,14 +201,16 @@ impl Saddle {
     /// [`Self::assemble`] in the same form.
     pub fn factorize(
         &mut self,
-        question: &Question,
+        question: &mut Question,
         rows: &Rows,
         form: Form,
         damping: &[f64],
         held: &[bool],
     ) -> Result<(), NotConvex> {
         self.form = form;
-        self.values.copy_from_slice(&self.base);
+        if self.factor.is_some() {
+            self.values.copy_from_slice(&self.base);
+        }
         self.weights_now.clear();
         self.border.clear();
         for j in 0..held.len() {
@@ -204,7 +219,7 @@ impl Saddle {
             if held[j] {
                 continue;
             }
-            if !is_single(question, j) {
+            if !self.eliminated[j] {
                 self.border.push(j);
             } else if w > 0.0 {
                 self.eliminate(rows, j, w, form);
@@ -212,11 +227,13 @@ impl Saddle {
                 return Err(NotConvex);
             }
         }
-        let inertia = self.factor.factorize(&self.pattern, &self.values);
-        if inertia.singular > 0 || inertia.negative != self.pattern.dimension() / 2 {
-            return Err(NotConvex);
+        if let Some(factor) = &mut self.factor {
+            let inertia = factor.factorize(&self.pattern, &self.values);
+            if inertia.singular > 0 || inertia.negative != self.pattern.dimension() / 2 {
+                return Err(NotConvex);
+            }
         }
-        self.factorize_border(rows)
+        self.factorize_border(question, rows)
     }
 
     /// The Newton step from a point at which the model has these `slopes`, with the last factor: the step, zero for held winches, and
@@ -225,7 +242,7 @@ impl Saddle {
         let form = self.form;
         self.z.fill(0.0);
         for (j, (w, g)) in self.weights_now.iter().zip(slopes).enumerate() {
-            if w.is_finite() && !self.is_border(j) {
+            if w.is_finite() && self.eliminated[j] {
                 rows.add(&self.stencils, j, g / w, &mut self.z, form);
             }
         }
@@ -237,7 +254,7 @@ impl Saddle {
             step[j] = *d;
         }
         for (j, (w, g)) in self.weights_now.iter().zip(slopes).enumerate() {
-            if w.is_finite() && !self.is_border(j) {
+            if w.is_finite() && self.eliminated[j] {
                 step[j] = -(g + rows.product(&self.stencils, j, &self.z, form)) / w;
             }
         }
@@ -249,10 +266,6 @@ impl Saddle {
         let form = self.form;
         let change = |(j, d): (usize, &f64)| rows.product(&self.stencils, j, &self.z, form) + rows.weight(j, form) * d;
         step.iter().enumerate().map(change).collect()
-    }
-
-    fn is_border(&self, j: usize) -> bool {
-        self.border.binary_search(&j).is_ok()
     }
 
     /// The model at a given step of all winches, with two solves by the factor of `H`; returns the step and the slopes of the damped
@@ -271,22 +284,22 @@ impl Saddle {
         for (j, d) in beta.iter().enumerate().filter(|(_, d)| **d != 0.0) {
             rows.add(&self.stencils, j, -d, &mut self.z, Form::GaussNewton);
         }
-        let mut x: Vec<f64> = self.z.chunks_exact(4).flat_map(|c| [c[2], c[3]]).collect();
+        let mut x = vec![0.0; self.coordinates()];
+        take(&self.z, &mut x, 2);
         question.model.solve(&mut x);
-        for (z, x) in self.z.chunks_exact_mut(4).zip(x.chunks_exact(2)) {
-            z.copy_from_slice(&[x[0], x[1], 0.0, 0.0]);
-        }
+        self.z.fill(0.0);
+        put(&x, &mut self.z, 0);
         self.pattern.multiply(&self.base, &self.z, &mut self.product);
         if form != Form::GaussNewton {
             for (j, d) in beta.iter().enumerate().filter(|(_, d)| **d != 0.0) {
                 rows.add(&self.stencils, j, *d, &mut self.product, form);
             }
         }
-        let mut p: Vec<f64> = self.product.chunks_exact(4).flat_map(|c| [-c[0], -c[1]]).collect();
+        let mut p = vec![0.0; self.coordinates()];
+        take(&self.product, &mut p, 0);
+        p.iter_mut().for_each(|p| *p = -*p);
         question.model.solve(&mut p);
-        for (z, p) in self.z.chunks_exact_mut(4).zip(p.chunks_exact(2)) {
-            z[2..].copy_from_slice(p);
-        }
+        put(&p, &mut self.z, 2);
         let (mut slope, mut curvature) = (0.0, 0.0);
         let slopes = (0..beta.len())
             .map(|j| {
@@ -322,6 +335,11 @@ impl Saddle {
         }
     }
 
+    /// Factorisations that each call of [`Self::factorize`] takes.
+    pub fn cost(&self) -> usize {
+        self.factor.is_some() as usize
+    }
+
     /// Coordinates of the body.
     pub fn coordinates(&self) -> usize {
         self.pattern.dimension() / 2
@@ -343,23 +361,18 @@ impl Saddle {
         });
     }
 
-    /// The Schur complement of the border: dense, as wide as there are free winches of several elements.
-    fn factorize_border(&mut self, rows: &Rows) -> Result<(), NotConvex> {
-        let (n, width) = (self.z.len(), self.border.len());
-        self.columns.clear();
+    /// The Schur complement of the border: dense, as wide as there are free winches on it.
+    fn factorize_border(&mut self, question: &mut Question, rows: &Rows) -> Result<(), NotConvex> {
         self.schur = None;
+        let width = self.border.len();
         if width == 0 {
             return Ok(());
         }
-        self.columns.resize(n * width, 0.0);
-        for (&j, column) in self.border.iter().zip(self.columns.chunks_exact_mut(n)) {
-            rows.add(&self.stencils, j, 1.0, column, self.form);
-        }
-        self.factor.solve_many(&mut self.columns, width);
+        self.solve_columns(question, rows);
         let mut schur = DMatrix::zeros(width, width);
         for (a, &j) in self.border.iter().enumerate() {
-            for (b, column) in self.columns.chunks_exact(n).enumerate() {
-                schur[(a, b)] = -rows.product(&self.stencils, j, column, self.form);
+            for (b, &k) in self.border.iter().enumerate() {
+                schur[(a, b)] = -rows.product(&self.stencils, j, self.column(b, k), self.form);
             }
             schur[(a, a)] += self.weights_now[j];
         }
@@ -368,36 +381,98 @@ impl Saddle {
         Ok(())
     }
 
+    /// The solution for the row of winch `j`, the `a`-th on the border.
+    fn column(&self, a: usize, j: usize) -> &[f64] {
+        let (n, k) = (self.z.len(), if self.factor.is_some() { a } else { j });
+        &self.columns[k * n..(k + 1) * n]
+    }
+
+    /// `K^-1 u` for the winches on the border; for few winches, of all, which neither bounds nor damping change.
+    fn solve_columns(&mut self, question: &mut Question, rows: &Rows) {
+        let n = self.z.len();
+        if let Some(factor) = &mut self.factor {
+            self.columns.clear();
+            self.columns.resize(n * self.border.len(), 0.0);
+            for (&j, column) in self.border.iter().zip(self.columns.chunks_exact_mut(n)) {
+                rows.add(&self.stencils, j, 1.0, column, self.form);
+            }
+            factor.solve_many(&mut self.columns, self.border.len());
+            return;
+        }
+        if self.fresh {
+            return;
+        }
+        self.fresh = true;
+        let count = self.stencils.count();
+        // K [dx, -dp] = u is H dx = u_p, then H (-dp) = u_x - L_xx dx.
+        let mut sides = vec![0.0; n / 2 * count];
+        self.columns.clear();
+        self.columns.resize(n * count, 0.0);
+        let columns = self.columns.chunks_exact_mut(n);
+        for ((j, column), side) in columns.enumerate().zip(sides.chunks_exact_mut(n / 2)) {
+            rows.add(&self.stencils, j, 1.0, column, self.form);
+            take(column, side, 2);
+        }
+        question.model.solve_many(&mut sides, count);
+        for (column, side) in self.columns.chunks_exact_mut(n).zip(sides.chunks_exact_mut(n / 2)) {
+            self.z.fill(0.0);
+            put(side, &mut self.z, 0);
+            self.pattern.multiply(&self.base, &self.z, &mut self.product);
+            for (p, u) in self.product.iter_mut().zip(column.iter()) {
+                *p = u - *p;
+            }
+            put(side, column, 0);
+            take(&self.product, side, 0);
+        }
+        question.model.solve_many(&mut sides, count);
+        for (column, side) in self.columns.chunks_exact_mut(n).zip(sides.chunks_exact(n / 2)) {
+            put(side, column, 2);
+        }
+    }
+
     /// The steps of the winches on the border; mends `z` for them.
     fn solve_border(&mut self, rows: &Rows, slopes: &[f64]) -> Vec<f64> {
         let Some(schur) = &self.schur else { return Vec::new() };
         let rhs = self.border.iter().map(|&j| -slopes[j] - rows.product(&self.stencils, j, &self.z, self.form));
         let moved = schur.solve(&DVector::from_iterator(self.border.len(), rhs));
-        for (column, d) in self.columns.chunks_exact(self.z.len()).zip(moved.iter()) {
-            for (z, c) in self.z.iter_mut().zip(column) {
+        let mut z = std::mem::take(&mut self.z);
+        let n = z.len();
+        for (a, (&j, d)) in self.border.iter().zip(moved.iter()).enumerate() {
+            let k = if self.factor.is_some() { a } else { j };
+            for (z, c) in z.iter_mut().zip(&self.columns[k * n..(k + 1) * n]) {
                 *z -= d * c;
             }
         }
+        self.z = z;
         moved.iter().copied().collect()
     }
 
     /// `z = K^-1 z`, once refined: pivots were free within panels only.
     fn refined(&mut self) {
-        self.factor.solve_many(&mut self.z, 1);
+        let Some(factor) = &mut self.factor else { return };
+        factor.solve_many(&mut self.z, 1);
         self.pattern.multiply(&self.values, &self.z, &mut self.product);
         for (p, r) in self.product.iter_mut().zip(&self.rest) {
             *p = r - *p;
         }
-        self.factor.solve_many(&mut self.product, 1);
+        factor.solve_many(&mut self.product, 1);
         for (z, p) in self.z.iter_mut().zip(&self.product) {
             *z += p;
         }
     }
 }
 
-/// Whether winch `j` winds a single element and so can be eliminated.
-fn is_single(question: &Question, j: usize) -> bool {
-    question.actuation.winches[j].members.len() == 1
+/// The positions (`at` 0) or multipliers (2) of a vector over both.
+fn take(both: &[f64], part: &mut [f64], at: usize) {
+    for (part, both) in part.chunks_exact_mut(2).zip(both.chunks_exact(4)) {
+        part.copy_from_slice(&both[at..at + 2]);
+    }
+}
+
+fn put(part: &[f64], both: &mut [f64], at: usize) {
+    for (part, both) in part.chunks_exact(2).zip(both.chunks_exact_mut(4)) {
+        both[at..at + 2].copy_from_slice(part);
+    }
 }
 
 /// The pairs of nodes that a pattern couples.

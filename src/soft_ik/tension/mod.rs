@@ -68,6 +68,11 @@ impl Method for AllAtOnce {
         "tension"
     }
 
+    /// `O` without `lambda`, with `rho` (`defaults::TENSION_WEIGHT / mu^2` where the question has none).
+    fn objective(&self) -> &'static str {
+        "tension-regularised"
+    }
+
     /// Panics if a winch winds several elements (a caller's mistake: see `Actuation::is_fibers_only`).
     fn solve(&self, question: &mut Question, start: &Posture, budget: &Budget) -> Answer {
         assert!(question.actuation.is_fibers_only(), "tension is the unknown of single elements only");
