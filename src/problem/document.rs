@@ -171,10 +171,15 @@ mod tests {
         let ik = SoftIkAnswer {
             alpha_c: vec![0.5],
             beta: vec![0.5],
+            converged: true,
             factorizations: 3,
             iterations: 2,
             milliseconds: 1.5,
+            minimises: "objective",
             objective: 1e-9,
+            projected_gradient: Some(1e-15),
+            starts: 3,
+            tolerance: 1e-14,
             x: vec![[1.0, -0.0]],
         };
         let reported = ReportedFrame { alpha_c: vec![], frame: 1, residual: 0.25, x: vec![] };

@@ -40,7 +40,7 @@ impl Method for Default {
     }
 
     fn solve(&self, question: &mut Question, start: &Posture, budget: &Budget) -> Answer {
-        let own_objective = question.objective.contraction_weight > 0.0 || question.objective.tension_weight == 0.0;
+        let own_objective = question.objective.tension_weight == 0.0;
         let count = question.actuation.winches.len();
         let mut best = Answer::at(start);
         let fibers = question.actuation.is_fibers_only();

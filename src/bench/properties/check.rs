@@ -23,18 +23,21 @@ pub enum End {
     FreeToMove,
     TimeBudget,
     Unstable,
+    /// Soft IK ended above a minimum.
+    NotMinimal,
     /// Statics, Soft IK or a frame without an equilibrium, with a typed cause.
     NoEquilibrium,
     Overflow,
 }
 
 impl End {
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Answered,
         Self::Refused,
         Self::FreeToMove,
         Self::TimeBudget,
         Self::Unstable,
+        Self::NotMinimal,
         Self::NoEquilibrium,
         Self::Overflow,
     ];
@@ -46,6 +49,7 @@ impl End {
             Self::FreeToMove => "free to move",
             Self::TimeBudget => "time budget",
             Self::Unstable => "unstable equilibrium",
+            Self::NotMinimal => "soft IK above a minimum",
             Self::NoEquilibrium => "no equilibrium",
             Self::Overflow => "overflow",
         }
@@ -89,6 +93,7 @@ fn end(answered: &Answered) -> End {
         Failure::FreeToMove { .. } => End::FreeToMove,
         Failure::TimeBudget { .. } => End::TimeBudget,
         Failure::Unstable => End::Unstable,
+        Failure::NotMinimal { .. } => End::NotMinimal,
         Failure::Overflow { .. } => End::Overflow,
     };
     answered.failures.iter().map(kind).max().unwrap_or(End::Answered)

@@ -7,13 +7,14 @@
 //! It is a local method: what it finds depends on where it starts ([`super::fibers`]). An element that is slack feels
 //! nothing but the regulariser.
 
+mod interior;
 mod quadratic;
 mod rows;
 mod saddle;
 
 use super::{Answer, Budget, Method, Posture, Question};
 use crate::physics::HessianForm;
-use saddle::{Form, Local, Saddle, Step};
+use saddle::{Form, Local, NotConvex, Saddle, Step};
 
 /// Descends to a point where the projected gradient of `O` vanishes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,20 +42,28 @@ const LEAST_DAMPING: f64 = 1e-6;
 const LARGEST_DAMPING: f64 = 1e16;
 /// A winch's own curvature counts as at least this part of all targets' weights: without a regulariser it has none.
 const LEAST_CURVATURE: f64 = 1e-7;
-/// Longest step of a node, as a part of the body, and of a winch, as a part of its length.
+/// Longest step of a node, as a part of the body, and of a winch, as a part of its length: beyond it the linearised lengths mean
+/// nothing.
 const LONGEST_MOVE: f64 = 0.3;
 const LONGEST_PULL: f64 = 0.5;
 /// Gain ratios: a step is taken above the first; damping falls above the second, and grows below the third.
 const TAKEN: f64 = 1e-4;
 const GOOD: f64 = 0.75;
 const POOR: f64 = 0.25;
-/// Iterations with Gauss-Newton after the exact Hessian was not convex.
+/// By what damping falls, and by what it grows where a step is not taken and where it is poor.
+const RELAXED: f64 = 0.1;
+const REJECTED: f64 = 8.0;
+const DOUBTED: f64 = 2.0;
+/// Iterations for which a form of the Hessian is used that is convex, before the exact one is tried again.
 const CONVEX_AFTER: usize = 2;
+/// Forms and dampings that are tried in an iteration before Gauss-Newton takes the place of the convexified Hessian.
+const MOST_RAISED: usize = 4;
+/// Where the Hessian had to be damped to be convex, `O` may fall far along the step: it is gone on with by this factor.
+const EXTENSION: f64 = 3.0;
 /// A winch this near to a bound, in its lengths, is on it.
 const ON_BOUND: f64 = 1e-12;
+/// A promise below this part of `O` is rounding.
 const NO_PROMISE: f64 = 1e-15;
-const EXTENSION: f64 = 3.0;
-const MOST_RAISED: usize = 4;
 /// Step of the difference quotient of `H` along `p`, as a part of the body: error 1e-8, rounding 1e-12.
 const DIFFERENCE: f64 = 1e-5;
 
@@ -63,7 +72,9 @@ impl Method for Newton {
         "newton"
     }
 
+    /// Panics where the question has a weight on tensions (a caller's mistake: its derivatives are not here).
     fn solve(&self, question: &mut Question, start: &Posture, budget: &Budget) -> Answer {
+        assert!(question.objective.tension_weight == 0.0, "Newton's method knows no weight on tensions");
         let mut answer = Answer::at(start);
         if question.actuation.winches.is_empty() {
             answer.converged = true;
@@ -148,89 +159,113 @@ impl Search {
 
     /// Takes one step that lowers `O`; whether there was one.
     fn improve(&mut self, question: &mut Question, budget: &Budget, answer: &mut Answer) -> bool {
-        let unit = self.units(question);
-        let mut form = if self.convex > 0 {
-            Form::GaussNewton
-        } else if self.convexified > 0 {
-            Form::Convexified
-        } else {
-            Form::Exact
-        };
-        self.convex = self.convex.saturating_sub(1);
-        self.convexified = self.convexified.saturating_sub(1);
+        let mut form = self.first_form();
         self.saddle.assemble(question, &self.local, form);
         let (first, mut raised) = (self.damping, 0);
         while self.damping <= LARGEST_DAMPING && !(budget.stop)() {
-            let factor = if self.damping <= LEAST_DAMPING { 0.0 } else { self.damping };
-            let damping: Vec<f64> = unit.iter().map(|u| factor * u).collect();
-            let beta = &answer.posture.beta;
-            let room = question.actuation.winches.iter().zip(beta).map(|(w, b)| [w.lower - b, w.upper - b]).collect();
-            let mut model = quadratic::Model {
-                saddle: &mut self.saddle,
-                question,
-                local: &self.local,
-                form,
-                damping: &damping,
-                room,
-                lengths: &self.lengths,
-                objective: answer.posture.objective,
-            };
-            let within = quadratic::minimise(&mut model, &mut answer.factorizations);
-            let Ok(step) = within else {
+            let Ok(step) = self.minimise(question, form, answer) else {
                 raised += 1;
-                if form == Form::Exact {
-                    form = Form::Convexified;
-                    self.convexified = CONVEX_AFTER;
-                    self.saddle.assemble(question, &self.local, form);
-                } else if form == Form::Convexified && raised >= MOST_RAISED {
-                    form = Form::GaussNewton;
-                    self.convex = CONVEX_AFTER;
-                    self.damping = first;
-                    self.saddle.assemble(question, &self.local, form);
-                } else {
-                    self.damping = (8.0 * self.damping).max(LEAST_DAMPING);
+                match form {
+                    Form::Exact => {
+                        form = Form::Convexified;
+                        self.convexified = CONVEX_AFTER;
+                        self.saddle.assemble(question, &self.local, form);
+                    }
+                    Form::Convexified if raised >= MOST_RAISED => {
+                        form = Form::GaussNewton;
+                        self.convex = CONVEX_AFTER;
+                        self.damping = first;
+                        self.saddle.assemble(question, &self.local, form);
+                    }
+                    _ => self.raise(),
                 }
                 continue;
             };
-            let posture = &answer.posture;
-            let t = self.longest(&step);
+            let t = self.longest(&step).min(1.0);
             let promised = -(t * step.slope + t * t * step.curvature);
-            if promised <= NO_PROMISE * posture.objective {
+            if promised <= NO_PROMISE * answer.posture.objective {
                 // The bounds leave nothing of a step this long.
-                self.damping = (8.0 * self.damping).max(LEAST_DAMPING);
+                self.raise();
                 continue;
             }
-            let beta = self.stepped(question, &posture.beta, &step.beta, t);
-            let guess = predicted(question, &posture.x, &step.x, t);
-            let (trial, factorizations) = question.settle(&beta, &guess, budget.stop);
-            answer.factorizations += factorizations;
-            let gain = posture.objective - trial.objective;
-            let ratio = gain / promised;
-            let taken = trial.in_equilibrium() && promised > 0.0 && ratio > TAKEN;
-            if ratio > GOOD && t == 1.0 {
-                self.damping = (self.damping * 0.1).max(LEAST_DAMPING);
+            let trial = self.settle_at(question, &answer.posture, &step, t, budget, &mut answer.factorizations);
+            let ratio = (answer.posture.objective - trial.objective) / promised;
+            let taken = trial.in_equilibrium() && ratio > TAKEN;
+            if taken && ratio > GOOD && t == 1.0 {
+                self.damping = (RELAXED * self.damping).max(LEAST_DAMPING);
             } else if !taken {
-                self.damping = (self.damping * 8.0).max(LEAST_DAMPING * 10.0);
+                self.raise();
             } else if ratio < POOR {
-                self.damping *= 2.0;
+                self.damping *= DOUBTED;
             }
             if taken {
-                let before = posture.clone();
-                answer.posture = trial;
+                let from = std::mem::replace(&mut answer.posture, trial);
                 if raised > 0 && ratio > GOOD && t == 1.0 {
-                    self.extend(question, budget, &before, &step, answer);
+                    self.extend(question, budget, &from, &step, answer);
                 }
                 return true;
             }
             // Statics has left its own factor behind.
-            let contractions = question.actuation.contractions(&posture.beta);
+            let contractions = question.actuation.contractions(&answer.posture.beta);
             question.model.contractile.set_contractions(&contractions);
             answer.factorizations += 1;
-            if question.model.factorize(&posture.x, HessianForm::Exact).is_err() {
+            if question.model.factorize(&answer.posture.x, HessianForm::Exact).is_err() {
                 return false;
             }
         }
         false
+    }
+
+    /// The form of the Hessian that an iteration begins with.
+    fn first_form(&mut self) -> Form {
+        let form = match (self.convex, self.convexified) {
+            (1.., _) => Form::GaussNewton,
+            (0, 1..) => Form::Convexified,
+            (0, 0) => Form::Exact,
+        };
+        self.convex = self.convex.saturating_sub(1);
+        self.convexified = self.convexified.saturating_sub(1);
+        form
+    }
+
+    fn raise(&mut self) {
+        self.damping = (REJECTED * self.damping).max(REJECTED * LEAST_DAMPING);
+    }
+
+    /// The minimiser of the model at the answer's posture with the present damping.
+    fn minimise(&mut self, question: &mut Question, form: Form, answer: &mut Answer) -> Result<Step, NotConvex> {
+        let damping = if self.damping <= LEAST_DAMPING { 0.0 } else { self.damping };
+        let damping: Vec<f64> = self.units(question).iter().map(|unit| damping * unit).collect();
+        let beta = &answer.posture.beta;
+        let room = question.actuation.winches.iter().zip(beta).map(|(w, b)| [w.lower - b, w.upper - b]).collect();
+        let mut model = quadratic::Model {
+            saddle: &mut self.saddle,
+            question,
+            local: &self.local,
+            form,
+            damping: &damping,
+            room,
+            lengths: &self.lengths,
+            objective: answer.posture.objective,
+        };
+        quadratic::minimise(&mut model, &mut answer.factorizations)
+    }
+
+    /// The equilibrium after `t` times a step.
+    fn settle_at(
+        &self,
+        question: &mut Question,
+        from: &Posture,
+        step: &Step,
+        t: f64,
+        budget: &Budget,
+        factorizations: &mut usize,
+    ) -> Posture {
+        let beta = self.stepped(question, &from.beta, &step.beta, t);
+        let guess = predicted(question, &from.x, &step.x, t);
+        let (posture, count) = question.settle(&beta, &guess, budget.stop);
+        *factorizations += count;
+        posture
     }
 
     /// Activations after a part of a step, within their bounds, and on them where rounding alone keeps them off.
@@ -249,15 +284,12 @@ impl Search {
     }
 
     /// Goes on along a step that the damping alone has kept short, while that lowers `O`.
-    fn extend(&mut self, question: &mut Question, budget: &Budget, from: &Posture, step: &Step, answer: &mut Answer) {
-        let most = self.longest_factor(step);
+    fn extend(&self, question: &mut Question, budget: &Budget, from: &Posture, step: &Step, answer: &mut Answer) {
+        let most = self.longest(step);
         let mut t = 1.0;
         while t < most && !(budget.stop)() {
             t = (EXTENSION * t).min(most);
-            let beta = self.stepped(question, &from.beta, &step.beta, t);
-            let guess = predicted(question, &from.x, &step.x, t);
-            let (trial, factorizations) = question.settle(&beta, &guess, budget.stop);
-            answer.factorizations += factorizations;
+            let trial = self.settle_at(question, from, step, t, budget, &mut answer.factorizations);
             if !trial.in_equilibrium() || trial.objective >= answer.posture.objective {
                 break;
             }
@@ -272,12 +304,8 @@ impl Search {
         self.local.rows.explicit.iter().map(|own| own.max(least)).collect()
     }
 
-    /// The part of a step that is not too long.
+    /// The multiple of a step beyond which it is too long.
     fn longest(&self, step: &Step) -> f64 {
-        self.longest_factor(step).min(1.0)
-    }
-
-    fn longest_factor(&self, step: &Step) -> f64 {
         let moved = step.x.iter().fold(0.0_f64, |m, d| m.max(d.abs())) / (LONGEST_MOVE * self.size);
         let pulled = step.beta.iter().zip(&self.lengths).map(|(d, l)| d.abs() / (LONGEST_PULL * l)).fold(0.0, f64::max);
         1.0 / moved.max(pulled).max(f64::MIN_POSITIVE)
@@ -347,3 +375,6 @@ fn predicted(question: &Question, x: &[f64], dx: &[f64], t: f64) -> Vec<f64> {
     let limit = question.model.step_limit(x, &scaled);
     x.iter().zip(&scaled).map(|(x, d)| x + limit * d).collect()
 }
+
+#[cfg(test)]
+mod tests;
