@@ -12,7 +12,9 @@ from springs import Springs
 
 # Equilibrium: largest component of dE/dx, as a part of mu times the body length (the same measure at every size).
 RESIDUAL = 1e-10
-# Where rounding no longer lets the energy fall, a residual of this many times that will do.
+# A decrease by this part of the energy drowns in its rounding.
+BLUNT = 1e-12
+# Where rounding no longer lets a state get better, a residual of this many times that will do.
 ROUNDED = 1e3
 # Newton steps before statics gives up, and halvings of one step.
 STEPS, HALVINGS = 200, 40
@@ -123,6 +125,14 @@ class Body:
             if np.abs(g).max() <= goal:
                 return x, factor
             step = -factor.solve(g)
+            if abs(g @ step) <= BLUNT * abs(energy) and self.farthest(x, step) > 1.0:
+                # Energies no longer tell states apart; forces still do.
+                tried = x + step
+                if np.abs(self.gradient(tried, alpha)).max() < np.abs(g).max():
+                    x, energy = tried, self.energy(tried, alpha)
+                    continue
+                if np.abs(g).max() <= ROUNDED * goal:
+                    return x, factor
             moved = self.advance(x, alpha, step, energy, g @ step) if g @ step < 0.0 else None
             if moved is None:
                 step = -factorise(self.hessian(x, alpha, projected=True)).solve(g)

@@ -45,15 +45,15 @@ def timed(command):
 
 
 def ours(program, problem, folder, *options):
-    """The answer of `plushwright solve`, its CPU time, s, and what part of its own clock went into solving."""
+    """The answer of `plushwright solve`, its CPU time, s, and where `--times` is asked for, what part of its own clock went into solving."""
     question, answer = folder / "question.json", folder / "answer.json"
     question.write_text(json.dumps(problem))
     answer.unlink(missing_ok=True)
-    said, seconds = timed([program, "solve", question, "-o", answer, "--times", *options])
+    said, seconds = timed([program, "solve", question, "-o", answer, *options])
     if not answer.exists():
         sys.exit(f"{problem['name']}: plushwright gave no answer: {said.strip()}")
-    reading, solving, writing = (float(t) for t in re.findall(r"ing ([0-9.]+) ms", said))
-    return json.loads(answer.read_text()), seconds, solving / (reading + solving + writing)
+    times = [float(t) for t in re.findall(r"ing ([0-9.]+) ms", said)]
+    return json.loads(answer.read_text()), seconds, times[1] / sum(times) if times else 1.0
 
 
 def judged(problem, ik):
@@ -90,7 +90,7 @@ def statics_part(options, folder):
         problem = at_work(options.seed, number, fibres)
         if options.keep:
             (options.keep / f"statics-{fibres}.json").write_text(json.dumps(problem))
-        answer, whole, part = min((ours(options.program, problem, folder) for _ in range(TURNS)), key=lambda r: r[1])
+        answer, whole, part = min((ours(options.program, problem, folder, "--times") for _ in range(TURNS)), key=lambda r: r[1])
         for library in ("felupe", "skfem"):
             other, seconds = min((theirs(library, problem, folder) for _ in range(TURNS)), key=lambda r: r[1])
             apart = np.abs(np.array(other["x"]) - np.array(answer["x"]).ravel()).max()
