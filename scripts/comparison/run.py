@@ -3,11 +3,14 @@
 import argparse
 import json
 import os
+import platform
 import re
 import subprocess
 import sys
 import tempfile
 import time
+from datetime import date
+from importlib import metadata
 from pathlib import Path
 
 import numpy as np
@@ -157,8 +160,17 @@ def summary(rows):
     print(f"Converged {column('converged').sum()} of {len(rows)}" + (f"; wrongly: {' '.join(wrong)}." if wrong else "."))
 
 
+def versions():
+    """Who is compared, where and when."""
+    libraries = ", ".join(f"{name} {metadata.version(name)}" for name in ("numpy", "scipy", "felupe", "scikit-fem"))
+    cpuinfo = Path("/proc/cpuinfo")
+    named = re.search(r"model name\s*: (.*)", cpuinfo.read_text()) if cpuinfo.exists() else None
+    print(f"{date.today()}, {named[1] if named else platform.processor() or platform.machine()}, Python {platform.python_version()}, {libraries}")
+
+
 def main():
     options = arguments()
+    versions()
     if options.keep:
         options.keep.mkdir(parents=True, exist_ok=True)
         (options.keep / "results.jsonl").unlink(missing_ok=True)
