@@ -90,7 +90,7 @@ class Inverse:
         return np.clip(np.zeros(len(self.scale)), self.lower, self.upper)
 
     def projected_gradient(self, beta, gradient):
-        """Largest component of dO/dbeta that a bound does not hold, in m; and with activations in rest lengths, as a part of O."""
+        """Largest component of dO/dbeta that a bound does not hold, m; and with activations in rest lengths, m^2."""
         reach = 1e-9 * self.scale
         held = ((beta <= self.lower + reach) & (gradient > 0)) | ((beta >= self.upper - reach) & (gradient < 0))
         free = np.where(held, 0.0, np.abs(gradient))

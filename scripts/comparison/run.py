@@ -75,7 +75,7 @@ def judged(problem, ik):
         return None
     absolute, scaled = inverse.projected_gradient(beta, gradient)
     outside = max((inverse.lower - beta).max(), (beta - inverse.upper).max())
-    return {"objective": value, "projected_gradient": absolute, "scaled": scaled / value, "outside_bounds": max(outside, 0.0)}
+    return {"objective": value, "projected_gradient": absolute, "scaled": scaled / inverse.at_rest(), "outside_bounds": max(outside, 0.0)}
 
 
 def theirs(library, problem, folder):
@@ -116,7 +116,7 @@ def inverse_part(options, folder):
     print("\nInverse problems: scipy's L-BFGS-B (better of zero and taut) against `plushwright solve`, one thread each.")
     print("O ratio: ours / theirs. Time ratios: theirs / ours, theirs the run with the better value (the quicker one if equal):")
     print("whole: CPU time of the whole run / of the whole process; solver: CPU time until it is within 0.1 % of its value / of `milliseconds`.")
-    print("pg: largest free dO/dbeta times rest length, part of O, by independent statics at our activations.\n")
+    print("pg: largest free dO/dbeta times rest length, part of O at rest, by independent statics at our activations.\n")
     print(f"{'problem':>7} {'winches':>7} {'nodes':>6} {'O theirs':>10} {'O ours':>10} {'O ratio':>8} {'s theirs':>8} {'s ours':>7} {'whole':>7} {'solver':>7} {'pg':>8}  converged")
     rows, earlier = [], {}
     if options.earlier:
