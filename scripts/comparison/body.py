@@ -12,7 +12,9 @@ from springs import Springs
 
 # Equilibrium: largest component of dE/dx, as a part of mu times the body length (the same measure at every size).
 RESIDUAL = 1e-10
-# Where rounding no longer lets the energy fall, a residual of this many times that will do.
+# A decrease by this part of the energy drowns in its rounding.
+BLUNT = 1e-12
+# Where rounding no longer lets a state get better, a residual of this many times that will do.
 ROUNDED = 1e3
 # Newton steps before statics gives up, and halvings of one step.
 STEPS, HALVINGS = 200, 40
@@ -22,7 +24,7 @@ CAP = 0.9
 FLOOR = 1e-6
 
 
-class NoEquilibrium(Exception):
+class NoEquilibrium(RuntimeError):
     pass
 
 
@@ -119,16 +121,30 @@ class Body:
         energy = self.energy(x, alpha)
         for _ in range(STEPS):
             g = self.gradient(x, alpha)
-            factor = factorise(self.hessian(x, alpha))
-            if np.abs(g).max() <= goal:
+            try:
+                factor = factorise(self.hessian(x, alpha))
+                step = -factor.solve(g)
+            except RuntimeError:  # exactly singular
+                factor, step = None, np.zeros_like(x)
+            if factor and np.abs(g).max() <= goal:
                 return x, factor
-            step = -factor.solve(g)
+            if factor and abs(g @ step) <= BLUNT * abs(energy) and self.farthest(x, step) > 1.0:
+                # Energies no longer tell states apart; forces still do.
+                tried = x + step
+                if np.abs(self.gradient(tried, alpha)).max() < np.abs(g).max():
+                    x, energy = tried, self.energy(tried, alpha)
+                    continue
+                if np.abs(g).max() <= ROUNDED * goal:
+                    return x, factor
             moved = self.advance(x, alpha, step, energy, g @ step) if g @ step < 0.0 else None
             if moved is None:
-                step = -factorise(self.hessian(x, alpha, projected=True)).solve(g)
+                try:
+                    step = -factorise(self.hessian(x, alpha, projected=True)).solve(g)
+                except RuntimeError:
+                    break
                 moved = self.advance(x, alpha, step, energy, g @ step)
             if moved is None:
-                if np.abs(g).max() <= ROUNDED * goal:
+                if factor and np.abs(g).max() <= ROUNDED * goal:
                     return x, factor
                 break
             x, energy = moved

@@ -7,9 +7,9 @@ from scipy.optimize import minimize
 
 from body import Body, NoEquilibrium
 
-# Ends of L-BFGS-B in the scaled problem (activations in rest lengths, O in its value at zero).
+# Ends of L-BFGS-B in the scaled problem (activations in rest lengths, O in its value at rest).
 OPTIONS = {"maxiter": 5000, "maxfun": 10000, "maxcor": 20, "ftol": 1e-11, "gtol": 1e-8}
-# What an activation without equilibrium is said to cost, in O at zero: the line search then goes back.
+# What an activation without equilibrium is said to cost, in O at rest: the line search then goes back.
 UNSETTLED = 1e3
 
 
@@ -73,10 +73,9 @@ class Inverse:
         along = np.bincount(springs.entry_owner, springs.length_gradient(direction) * adjoint[springs.entry_dof], springs.count)
         return value, self.by_winch(self.regulariser * strain / springs.alpha0 - stiffness * along)
 
-    def begin(self, beta):
-        """Winds from rest to beta, for a first evaluation."""
-        self.x, self.last = self.body.rest.ravel(), None
-        return self.value(beta)
+    def at_rest(self):
+        """O of the rest shape without contraction: the unit of the scaled problem."""
+        return 0.5 * self.q @ ((self.body.rest - self.goal) ** 2).sum(axis=1)
 
     def taut(self):
         """Every winch wound until its first element leaves the zone in which it goes slack, at rest."""
@@ -91,7 +90,7 @@ class Inverse:
         return np.clip(np.zeros(len(self.scale)), self.lower, self.upper)
 
     def projected_gradient(self, beta, gradient):
-        """Largest component of dO/dbeta that a bound does not hold, in m; and with activations in rest lengths, as a part of O."""
+        """Largest component of dO/dbeta that a bound does not hold, m; and with activations in rest lengths, m^2."""
         reach = 1e-9 * self.scale
         held = ((beta <= self.lower + reach) & (gradient > 0)) | ((beta >= self.upper - reach) & (gradient < 0))
         free = np.where(held, 0.0, np.abs(gradient))
@@ -102,7 +101,7 @@ def descend(problem, name, limit):
     """One run of L-BFGS-B from `zero` or `taut`: its best O, the CPU time it took, and when it first was within 0.1 % of that."""
     began = time.process_time()
     inverse = Inverse(problem)
-    unit = inverse.begin(inverse.zero())[0]
+    unit = inverse.at_rest()
     start = getattr(inverse, name)()
     course, best = [], [np.inf, start]
 

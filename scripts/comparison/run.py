@@ -3,10 +3,14 @@
 import argparse
 import json
 import os
+import platform
 import re
 import subprocess
 import sys
 import tempfile
+import time
+from datetime import date
+from importlib import metadata
 from pathlib import Path
 
 import numpy as np
@@ -36,24 +40,28 @@ def arguments():
 
 
 def timed(command):
-    """Runs a command to its end: its standard error and the CPU time of the whole process, s, which does not depend on who else is there."""
+    """Runs a command to its end: its standard error, the CPU time of the whole process, s, which does not depend on who else is there, and
+    what part that is of the time by the clock."""
+    began = time.perf_counter()
     with tempfile.TemporaryFile() as said:
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=said)
         _, _, used = os.wait4(process.pid, 0)
+        seconds = used.ru_utime + used.ru_stime
         said.seek(0)
-        return said.read().decode(), used.ru_utime + used.ru_stime
+        return said.read().decode(), seconds, min(1.0, seconds / (time.perf_counter() - began))
 
 
 def ours(program, problem, folder, *options):
-    """The answer of `plushwright solve`, its CPU time, s, and what part of its own clock went into solving."""
+    """The answer of `plushwright solve`, its CPU time, s, and the CPU time of solving alone where the answer or `--times` says how long that took."""
     question, answer = folder / "question.json", folder / "answer.json"
     question.write_text(json.dumps(problem))
     answer.unlink(missing_ok=True)
-    said, seconds = timed([program, "solve", question, "-o", answer, "--times", *options])
+    said, seconds, busy = timed([program, "solve", question, "-o", answer, *options])
     if not answer.exists():
         sys.exit(f"{problem['name']}: plushwright gave no answer: {said.strip()}")
-    reading, solving, writing = (float(t) for t in re.findall(r"ing ([0-9.]+) ms", said))
-    return json.loads(answer.read_text()), seconds, solving / (reading + solving + writing)
+    answer = json.loads(answer.read_text())
+    solving = re.findall(r"solving ([0-9.]+) ms", said) or [answer.get("soft_ik", {}).get("milliseconds", np.nan)]
+    return answer, seconds, 1e-3 * busy * float(solving[0])
 
 
 def judged(problem, ik):
@@ -67,7 +75,7 @@ def judged(problem, ik):
         return None
     absolute, scaled = inverse.projected_gradient(beta, gradient)
     outside = max((inverse.lower - beta).max(), (beta - inverse.upper).max())
-    return {"objective": value, "projected_gradient": absolute, "scaled": scaled / value, "outside_bounds": max(outside, 0.0)}
+    return {"objective": value, "projected_gradient": absolute, "scaled": scaled / inverse.at_rest(), "outside_bounds": max(outside, 0.0)}
 
 
 def theirs(library, problem, folder):
@@ -75,7 +83,7 @@ def theirs(library, problem, folder):
     question, answer = folder / "question.json", folder / "answer.json"
     question.write_text(json.dumps(problem))
     answer.unlink(missing_ok=True)
-    said, seconds = timed([sys.executable, Path(__file__).parent / "others.py", library, question, answer])
+    said, seconds, _ = timed([sys.executable, Path(__file__).parent / "others.py", library, question, answer])
     if not answer.exists():
         sys.exit(f"{problem['name']}: {library} gave no answer: {said.strip()}")
     return json.loads(answer.read_text()), seconds
@@ -90,13 +98,13 @@ def statics_part(options, folder):
         problem = at_work(options.seed, number, fibres)
         if options.keep:
             (options.keep / f"statics-{fibres}.json").write_text(json.dumps(problem))
-        answer, whole, part = min((ours(options.program, problem, folder) for _ in range(TURNS)), key=lambda r: r[1])
+        answer, whole, alone = min((ours(options.program, problem, folder, "--times") for _ in range(TURNS)), key=lambda r: r[1])
         for library in ("felupe", "skfem"):
             other, seconds = min((theirs(library, problem, folder) for _ in range(TURNS)), key=lambda r: r[1])
             apart = np.abs(np.array(other["x"]) - np.array(answer["x"]).ravel()).max()
             print(
                 f"{SHAPES[number % len(SHAPES)]:>6} {len(problem['elements']):>6} {library:>8} {seconds:8.2f} {whole:7.3f} {seconds / whole:7.1f} "
-                f"{1e-3 * other['milliseconds']:8.3f} {1e3 * part * whole:7.1f} {1e-3 * other['milliseconds'] / (part * whole):7.1f} {other['steps']:>5} {other['iterations']:>6} {answer['iterations']:>5} {apart:8.1e}",
+                f"{1e-3 * other['milliseconds']:8.3f} {1e3 * alone:7.1f} {1e-3 * other['milliseconds'] / alone:7.1f} {other['steps']:>5} {other['iterations']:>6} {answer['iterations']:>5} {apart:8.1e}",
                 flush=True,
             )
 
@@ -107,8 +115,8 @@ def inverse_part(options, folder):
         questions = [(f"{number:03}", lambda n=number: generate(options.seed, n)) for number in options.only or range(options.count)]
     print("\nInverse problems: scipy's L-BFGS-B (better of zero and taut) against `plushwright solve`, one thread each.")
     print("O ratio: ours / theirs. Time ratios: theirs / ours, theirs the run with the better value (the quicker one if equal):")
-    print("whole: CPU time of the whole run / of the whole process; solver: CPU time until it is within 0.1 % of its value / `milliseconds`.")
-    print("pg: largest free dO/dbeta times rest length, part of O, by independent statics at our activations.\n")
+    print("whole: CPU time of the whole run / of the whole process; solver: CPU time until it is within 0.1 % of its value / of `milliseconds`.")
+    print("pg: largest free dO/dbeta times rest length, part of O at rest, by independent statics at our activations.\n")
     print(f"{'problem':>7} {'winches':>7} {'nodes':>6} {'O theirs':>10} {'O ours':>10} {'O ratio':>8} {'s theirs':>8} {'s ours':>7} {'whole':>7} {'solver':>7} {'pg':>8}  converged")
     rows, earlier = [], {}
     if options.earlier:
@@ -124,11 +132,11 @@ def inverse_part(options, folder):
         row = {"problem": name, "name": problem["name"], "winches": len(problem["soft_ik"]["winch_ids"]), "nodes": len(problem["mesh"]["nodes"]), "theirs": best, "runs": runs}
         if options.program:
             asked = {k: v for k, v in problem.items() if k != "contractions"}
-            answer, whole, _ = ours(options.program, asked, folder, "--method", options.method)
+            answer, whole, alone = ours(options.program, asked, folder, "--method", options.method)
             ik = answer["soft_ik"]
             row |= {"ours": ik["objective"], "ratio": ik["objective"] / best, "converged": answer["converged"], "error": answer.get("error")}
-            row |= {"milliseconds": ik["milliseconds"], "whole_s": whole, "factorizations": ik["factorizations"], "claimed_gradient": ik.get("projected_gradient")}
-            row |= {"judged": judged(problem, ik), "whole_ratio": peer["seconds"] / whole, "solver_ratio": peer["seconds_to_0.1%"] / (1e-3 * ik["milliseconds"])}
+            row |= {"solver_s": alone, "whole_s": whole, "factorizations": ik["factorizations"], "claimed_gradient": ik.get("projected_gradient")}
+            row |= {"judged": judged(problem, ik), "whole_ratio": peer["seconds"] / whole, "solver_ratio": peer["seconds_to_0.1%"] / alone}
             scaled = row["judged"]["scaled"] if row["judged"] else np.nan
             print(
                 f"{name[-7:]:>7} {row['winches']:>7} {row['nodes']:>6} {best:10.4e} {row['ours']:10.4e} {row['ratio']:8.4f} {peer['seconds']:8.2f} {whole:7.3f} "
@@ -152,8 +160,17 @@ def summary(rows):
     print(f"Converged {column('converged').sum()} of {len(rows)}" + (f"; wrongly: {' '.join(wrong)}." if wrong else "."))
 
 
+def versions():
+    """Who is compared, where and when."""
+    libraries = ", ".join(f"{name} {metadata.version(name)}" for name in ("numpy", "scipy", "felupe", "scikit-fem"))
+    cpuinfo = Path("/proc/cpuinfo")
+    named = re.search(r"model name\s*: (.*)", cpuinfo.read_text()) if cpuinfo.exists() else None
+    print(f"{date.today()}, {named[1] if named else platform.processor() or platform.machine()}, Python {platform.python_version()}, {libraries}")
+
+
 def main():
     options = arguments()
+    versions()
     if options.keep:
         options.keep.mkdir(parents=True, exist_ok=True)
         (options.keep / "results.jsonl").unlink(missing_ok=True)

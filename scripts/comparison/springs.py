@@ -5,6 +5,9 @@ Positions are flat arrays [x0, y0, x1, y1, ...] in m. All loops over elements ar
 
 import numpy as np
 
+# Width of a point, in rest lengths of its element: where the ends of a segment meet, its length is smooth.
+POINT = 1e-9
+
 
 class Springs:
     def __init__(self, problem):
@@ -43,10 +46,10 @@ class Springs:
         self.pair_j += first[self.entry_owner[self.pair_i]]
 
     def segments(self, x):
-        """Lengths of the elements; lengths and directions of their segments."""
+        """Lengths of the elements; lengths and directions (unit vectors, but for points that meet) of their segments."""
         points = x.reshape(-1, 2)
         d = points[self.ends[:, 1]] - points[self.ends[:, 0]]
-        length = np.hypot(d[:, 0], d[:, 1])
+        length = np.sqrt((d**2).sum(axis=1) + (POINT * self.alpha0[self.owner]) ** 2)
         return np.bincount(self.owner, length, self.count), length, d / length[:, None]
 
     def laws(self, gamma):

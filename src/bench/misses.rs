@@ -24,6 +24,8 @@ const EARLY: usize = 40;
 const LONGEST: usize = 120;
 /// Frames of rest after which it is looked at again.
 const PATIENT: usize = 60;
+/// Frames in which targets are moved to their goals, for another start.
+const SLOW: usize = 24;
 /// Missing parts of the possible decrease: what counts as good, and what is never to happen.
 const GOOD: f64 = 0.01;
 const BAD: f64 = 0.05;
@@ -149,6 +151,8 @@ fn judge(question: &mut Question, starts: &[Vec<f64>], session: &Session) -> Res
     };
     let descended = slope(question, &rest, GRADIENT_ITERATIONS[0]);
     known.note(&descended, "gradient".into());
+    let dragged = dragged(question, &rest, stop);
+    known.note(&dragged, "slow drag".into());
     let settled: Vec<Posture> = starts
         .iter()
         .map(|beta| {
@@ -156,7 +160,13 @@ fn judge(question: &mut Question, starts: &[Vec<f64>], session: &Session) -> Res
             question.settle(beta, &x, stop).0
         })
         .collect();
-    let named = [(&rest, "rest"), (&shown, "frames of rest"), (&solved, "solve"), (&descended, "gradient")];
+    let named = [
+        (&rest, "rest"),
+        (&shown, "frames of rest"),
+        (&solved, "solve"),
+        (&descended, "gradient"),
+        (&dragged, "slow drag"),
+    ];
     let named = named.map(|(from, name)| (from, format!("on from {name}")));
     let random = settled.iter().enumerate().map(|(k, from)| (from, format!("random start {k}")));
     for (from, by) in named.into_iter().chain(random) {
@@ -208,6 +218,23 @@ fn rested(question: &mut Question, rest: &Posture, stop: &dyn Fn() -> bool) -> P
     let mut tracker = Tracker::new(question, rest);
     for _ in 0..PATIENT {
         tracker.frame(question, Quality::Balanced, stop);
+    }
+    let shown = tracker.posture().clone();
+    question.settle(&shown.beta, &shown.x, stop).0
+}
+
+/// Where the targets lead that are moved to their goals in [`SLOW`] frames, settled.
+fn dragged(question: &mut Question, rest: &Posture, stop: &dyn Fn() -> bool) -> Posture {
+    let mut tracker = Tracker::new(question, rest);
+    let mut moved = question.objective.clone();
+    let begin = positions(question.objective, &rest.x);
+    for frame in 1..=SLOW {
+        let part = frame as f64 / SLOW as f64;
+        for ((target, from), to) in moved.targets.iter_mut().zip(&begin).zip(&question.objective.targets) {
+            target.goal = [0, 1].map(|axis| from[axis] + part * (to.goal[axis] - from[axis]));
+        }
+        let mut question = Question { model: &mut *question.model, actuation: question.actuation, objective: &moved };
+        tracker.frame(&mut question, Quality::Balanced, stop);
     }
     let shown = tracker.posture().clone();
     question.settle(&shown.beta, &shown.x, stop).0
