@@ -63,10 +63,11 @@ impl Segments {
         let mut cable = [[0.0; CHUNK]; 3];
         let (mut dx, mut dy, mut widths) = ([0.0; CHUNK], [0.0; CHUNK], [0.0; CHUNK]);
         let mut slack = true;
+        let (points, _) = x.as_chunks::<2>();
         for (l, (&k, ends)) in self.elements[chunk.clone()].iter().zip(&self.ends[chunk]).enumerate().take(count) {
             let (element, law) = (&elements[k as usize], &laws[k as usize]);
-            let [a, b] = ends.map(|n| 2 * n as usize);
-            (dx[l], dy[l]) = (x[b] - x[a], x[b + 1] - x[a + 1]);
+            let [a, b] = ends.map(|n| points[n as usize]);
+            (dx[l], dy[l]) = (b[0] - a[0], b[1] - a[1]);
             widths[l] = element.point();
             spring[2][l] = 1.0;
             match *law {

@@ -51,13 +51,12 @@ impl Triangles {
         let fma = multiply_add::<FUSED>;
         let count = chunk.len().min(CHUNK);
         let mut edges = [[0.0; CHUNK]; 4];
+        let (points, _) = x.as_chunks::<2>();
         for (l, t) in self.nodes[chunk.clone()].iter().enumerate().take(count) {
-            let [i, j, k] = t.map(|n| 2 * n as usize);
+            let [i, j, k] = t.map(|n| points[n as usize]);
             // From differences: far from the origin, sums of whole coordinates would lose what tells the corners apart.
-            edges[0][l] = x[j] - x[i];
-            edges[1][l] = x[j + 1] - x[i + 1];
-            edges[2][l] = x[k] - x[i];
-            edges[3][l] = x[k + 1] - x[i + 1];
+            (edges[0][l], edges[1][l]) = (j[0] - i[0], j[1] - i[1]);
+            (edges[2][l], edges[3][l]) = (k[0] - i[0], k[1] - i[1]);
         }
         let [b0, b1, c0, c1] = self.shape.each_ref().map(|s| &s[chunk.clone()][..count]);
         let mut out = Deformed { f: [[0.0; CHUNK]; 4], j: [0.0; CHUNK] };
@@ -157,14 +156,13 @@ impl Work for Gradient<'_, '_> {
                 force[3][l] = w * fma(p10, c0[l], p11 * c1[l]);
             }
             for (l, t) in all.nodes[chunk.clone()].iter().enumerate().take(count) {
-                let [i, j, k] = t.map(|n| 2 * n as usize);
                 let [px, py, qx, qy] = [force[0][l], force[1][l], force[2][l], force[3][l]];
-                self.gradient[i] -= px + qx;
-                self.gradient[i + 1] -= py + qy;
-                self.gradient[j] += px;
-                self.gradient[j + 1] += py;
-                self.gradient[k] += qx;
-                self.gradient[k + 1] += qy;
+                let forces = [[-(px + qx), -(py + qy)], [px, py], [qx, qy]];
+                let (gradient, _) = self.gradient.as_chunks_mut::<2>();
+                for (&n, force) in t.iter().zip(forces) {
+                    let g = &mut gradient[n as usize];
+                    *g = [g[0] + force[0], g[1] + force[1]];
+                }
             }
             let Some((scales, floor)) = &mut self.scales else { continue };
             let modulus = ROUNDING * (2.0 * mu + kappa);
