@@ -69,6 +69,8 @@ impl Drag {
             "factorisations",
             "fastest factor",
             "in factors",
+            "p95 in factors",
+            "worst in factors",
             "Alg. 1 / ours",
             "from ours",
             "reached",
@@ -229,7 +231,7 @@ impl Measured {
         cells.push(Summary::of(self.iterations.iter().copied()).median.into());
         cells.push(Summary::of(self.factorizations.iter().copied()).median.into());
         cells.push(unit.into());
-        cells.push((time.median / unit).into());
+        cells.extend([time.median, time.p95, time.worst].map(|time| Cell::from(time / unit)));
         for comparison in [&self.own, &self.handed] {
             cells.push(match comparison.median() {
                 None => Cell::Missing,

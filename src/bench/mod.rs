@@ -62,7 +62,11 @@ pub struct Session<'a> {
 /// Why a study has no result.
 #[derive(Debug, thiserror::Error)]
 pub enum BenchError {
-    #[error("no bundled shape is called `{0}`; there are {known}", known = shapes::names().join(", "))]
+    #[error(
+        "no shape is called `{0}`; there are {known}, and {made} with a number, such as hand-1",
+        known = shapes::names().join(", "),
+        made = silhouettes::FAMILIES.join(", ")
+    )]
     NoSuchShape(String),
     #[error("{shape}: {source}")]
     Mesh { shape: String, source: MeshError },

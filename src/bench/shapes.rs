@@ -2,6 +2,8 @@
 
 use super::BenchError;
 use super::random::Random;
+use super::silhouettes;
+use crate::defaults;
 use crate::design::{Design, Target, bundled};
 use crate::engine::compile::{Plushie, View, compile};
 use crate::mesh::{self, BodyPoint, Mesh, MeshError};
@@ -29,12 +31,22 @@ pub fn names() -> Vec<String> {
     bundled::ALL.iter().map(|b| b.name.to_lowercase()).collect()
 }
 
-/// The bundled design as it is, networks and poses included.
+/// The bundled design as it is, networks and poses included; or the one that is made from the number in a name such as `hand-3`.
 pub fn original(name: &str) -> Result<Design, BenchError> {
+    if let Some((family, number)) = seeded(name) {
+        return silhouettes::design(family, defaults::FIBERS, &mut Random::of(number, family, 0));
+    }
     let found = bundled::ALL.iter().find(|b| b.name.to_lowercase() == name.to_lowercase());
     let found = found.ok_or_else(|| BenchError::NoSuchShape(name.to_owned()))?;
     // A test reads every bundled design; what it cannot read is not there.
     found.design().map_err(|_| BenchError::NoSuchShape(name.to_owned()))
+}
+
+/// Family and number of a shape that is made from the seed.
+fn seeded(name: &str) -> Option<(&'static str, u64)> {
+    let (family, number) = name.rsplit_once('-')?;
+    let family = silhouettes::FAMILIES.into_iter().find(|f| *f == family.to_lowercase())?;
+    Some((family, number.parse().ok()?))
 }
 
 /// The bundled design with about `fibers` fibres, its pins and the targets of its poses carried over by their rest positions.
@@ -197,6 +209,15 @@ mod tests {
         for (fiber, c) in subject.plushie.fibers.iter().zip(&contractions[subject.plushie.fiber_elements.clone()]) {
             assert!(*c >= 0.0 && *c <= fiber.upper);
         }
+    }
+
+    #[test]
+    fn shapes_are_made_from_numbers() {
+        let [a, b, c] = ["hand-1", "Hand-1", "hand-2"].map(|name| original(name).unwrap().outline);
+        assert!(a == b && a != c);
+        assert!(original("hand-x").is_err() && original("cow-1").is_err());
+        let subject = Subject::new("limb-1", 1055).unwrap();
+        assert!(subject.fibers().abs_diff(1055) <= 60 && subject.design.pins.len() == 3);
     }
 
     #[test]

@@ -29,7 +29,7 @@ pub struct Bench {
 /// Options of every study.
 #[derive(Debug, Args)]
 struct Common {
-    /// Bundled shapes: pig, robot, puppy, squid, e, s, or `all`
+    /// Bundled shapes: pig, robot, puppy, squid, e, s, or `all`; also limb, spiral, hand or star with a number, such as hand-1
     #[arg(long, value_delimiter = ',')]
     shapes: Vec<String>,
     /// Seed of all random numbers

@@ -339,6 +339,55 @@ mod tests {
         }
     }
 
+    /// A grid, which fills in, with stencils of three nodes.
+    fn grid(side: usize) -> (Pattern, Vec<f64>) {
+        let corner = |i: usize, j: usize| i * side + j;
+        let cells = (1..side).flat_map(|i| (1..side).map(move |j| (i, j)));
+        let stencils: Vec<[usize; 3]> = cells
+            .flat_map(|(i, j)| {
+                let [a, b, c, d] = [corner(i - 1, j - 1), corner(i, j - 1), corner(i, j), corner(i - 1, j)];
+                [[a, b, c], [c, d, a]]
+            })
+            .collect();
+        let pattern = Pattern::new(side * side, stencils.iter().map(|s| s.as_slice()));
+        let (pattern, _) = Cholesky::ordered(&pattern).unwrap();
+        let slots = pattern.slots(stencils.iter().map(|s| s.as_slice()));
+        let mut values = vec![0.0; pattern.nonzeros()];
+        let mut scatter = Scatter::new(&slots, &mut values);
+        for k in 0..stencils.len() {
+            scatter.add(k, |a, b| if a == b { [2.1, 0.3, 0.3, 2.2] } else { [-0.9, 0.1, 0.2, -0.7] });
+        }
+        (0..pattern.dimension()).for_each(|d| values[pattern.diagonal(d)] += 5.0);
+        (pattern, values)
+    }
+
+    /// Any number of them, dense ones and such that begin in few nodes, stored by columns and by rows.
+    #[test]
+    fn right_hand_sides_side_by_side_are_solved_as_alone() {
+        let (pattern, values) = grid(17);
+        let variant = Variant { ordering: Ordering::Given, kernel: Kernel::Supernodal(&[]) };
+        let mut cholesky = Cholesky::with(&pattern, &variant).unwrap();
+        cholesky.factorize(&pattern, &values).unwrap();
+        let n = pattern.dimension();
+        for columns in [1, 2, 3, 4, 5, 8, 9, 10, 12, 13, 27] {
+            let few = |i: usize, c: usize| c % 3 == 2 || (i + 7 * c) % n < 6;
+            let b = |i: usize, c: usize| if few(i, c) { (0.7 * (i + 31 * c) as f64).sin() } else { 0.0 };
+            let mut by_column: Vec<f64> = (0..columns).flat_map(|c| (0..n).map(move |i| b(i, c))).collect();
+            let mut by_row: Vec<f64> = (0..n).flat_map(|i| (0..columns).map(move |c| b(i, c))).collect();
+            cholesky.solve_many(&mut by_column, columns);
+            cholesky.solve_rows(&mut by_row, columns, 0..columns);
+            let mut y = vec![0.0; n];
+            for c in 0..columns {
+                let z = &by_column[c * n..(c + 1) * n];
+                pattern.multiply(&values, z, &mut y);
+                for i in 0..n {
+                    assert_eq!(z[i], by_row[i * columns + c], "{columns} columns");
+                    assert!((y[i] - b(i, c)).abs() < 1e-12, "{columns} columns: {i} of {c}");
+                }
+            }
+        }
+    }
+
     #[test]
     fn every_variant_solves_the_same_system() {
         let (pattern, values) = chain(60);

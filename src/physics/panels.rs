@@ -262,10 +262,7 @@ fn forward<const FUSED: bool, const N: usize, const FROM: usize, const W: usize>
 /// The lanes `FROM .. FROM + W`.
 #[inline(always)]
 fn part<const N: usize, const FROM: usize, const W: usize>(lanes: &[f64; N]) -> &[f64; W] {
-    match lanes[FROM..].first_chunk() {
-        Some(part) => part,
-        None => &[0.0; W],
-    }
+    lanes[FROM..].first_chunk().expect("the lanes are there")
 }
 
 #[inline(always)]

@@ -213,13 +213,15 @@ impl<'a> Scatter<'a> {
     fn add_block(&mut self, slot: &Slot, diagonal: bool, m: [f64; 4]) {
         let (base, stride) = (slot.base as usize, slot.stride as usize);
         let [m00, m01, m10, m11] = if slot.transposed { [m[0], m[2], m[1], m[3]] } else { m };
-        self.values[base] += m00;
-        self.values[base + 1] += m10;
+        let first = &mut self.values[base..base + 2];
+        first[0] += m00;
+        first[1] += m10;
         // The second column of a diagonal block starts one entry later: its top entry is above the diagonal.
+        let second = &mut self.values[base + stride..base + stride + 2];
         if !diagonal {
-            self.values[base + stride] += m01;
+            second[0] += m01;
         }
-        self.values[base + stride + 1] += m11;
+        second[1] += m11;
     }
 
     /// Adds `block(a, b)` (row-major 2 x 2, derivative by node `a` then node `b`) for all stencil positions `a >= b`.

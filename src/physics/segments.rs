@@ -63,10 +63,11 @@ impl Segments {
         let mut cable = [[0.0; CHUNK]; 3];
         let (mut dx, mut dy, mut widths) = ([0.0; CHUNK], [0.0; CHUNK], [0.0; CHUNK]);
         let mut slack = true;
+        let (points, _) = x.as_chunks::<2>();
         for (l, (&k, ends)) in self.elements[chunk.clone()].iter().zip(&self.ends[chunk]).enumerate().take(count) {
             let (element, law) = (&elements[k as usize], &laws[k as usize]);
-            let [a, b] = ends.map(|n| 2 * n as usize);
-            (dx[l], dy[l]) = (x[b] - x[a], x[b + 1] - x[a + 1]);
+            let [a, b] = ends.map(|n| points[n as usize]);
+            (dx[l], dy[l]) = (b[0] - a[0], b[1] - a[1]);
             widths[l] = element.point();
             spring[2][l] = 1.0;
             match *law {
@@ -258,6 +259,72 @@ impl Work for Hessian<'_, '_> {
                     self.out.add_all(k as usize, PAIRS, |pair| blocks[pair]);
                 }
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Contractile;
+    use super::super::energy::{Energy, HessianForm};
+    use super::super::pattern::Pattern;
+    use super::*;
+
+    /// Springs (slack, bent and straight), cables and what stands for stiff ones; more than a chunk of them.
+    fn elements() -> (Contractile, Vec<f64>) {
+        let nodes = 90;
+        let x: Vec<f64> = (0..2 * nodes).map(|d| (d / 2) as f64 * 0.3 + (1.3 * d as f64).sin()).collect();
+        let element = |k: usize| {
+            let routing = if k % 2 == 0 { vec![k, k + 1] } else { vec![k + 3, k] };
+            Element { routing, stiffness: 0.5 + (k % 7) as f64, epsilon: 0.2, alpha0: 1.0 }
+        };
+        let mut contractile = Contractile::new((0..nodes - 3).map(element).collect());
+        for (k, (e, law)) in contractile.elements.iter().zip(&mut contractile.laws).enumerate() {
+            let length = e.length(&x);
+            *law = match k % 5 {
+                0 => Law::Spring { alpha: length - 0.6 },
+                1 => Law::Spring { alpha: length + 0.05 },
+                2 => Law::Tension(if k % 2 == 0 { 0.0 } else { 0.8 }),
+                3 => Law::Elastic { tension: 0.4, length: length - 0.1, stiffness: 2.0 },
+                _ => Law::Elastic { tension: 0.4, length: length + 1.1, stiffness: 2.0 },
+            };
+        }
+        (contractile, x)
+    }
+
+    #[test]
+    fn many_at_a_time_are_what_the_laws_say_of_each() {
+        let (contractile, x) = elements();
+        let n = x.len();
+        let count = contractile.elements.len();
+        let (mut gradient, mut lengths, mut tensions) = (vec![0.0; n], vec![0.0; count], vec![0.0; count]);
+        contractile.add_gradient(&x, &mut gradient);
+        contractile.lengths_into(&x, &mut lengths);
+        contractile.tensions_into(&x, &mut tensions);
+        let pattern = Pattern::new(n / 2, (0..count).map(|k| contractile.stencil(k)));
+        let slots = pattern.slots((0..count).map(|k| contractile.stencil(k)));
+        let mut values = vec![0.0; pattern.nonzeros()];
+        contractile.add_hessian(&x, HessianForm::Exact, &mut Scatter::new(&slots, &mut values));
+        let v: Vec<f64> = (0..n).map(|d| (0.7 * d as f64).cos()).collect();
+        let (mut product, mut right) = (vec![0.0; n], vec![0.0; n]);
+        pattern.multiply(&values, &v, &mut product);
+        let mut expected = vec![0.0; n];
+        for (k, (e, law)) in contractile.elements.iter().zip(&contractile.laws).enumerate() {
+            let (tau, tangent) = law.tension_and_tangent(e, e.length(&x));
+            assert!((lengths[k] - e.length(&x)).abs() < 1e-14 && (tensions[k] - tau).abs() < 1e-13, "{k}");
+            e.add_length_gradient(&x, tau, &mut expected);
+            // Along and across the segment.
+            e.add_length_gradient(&x, (tangent - tau / lengths[k]) * e.length_rate(&x, &v), &mut right);
+            let [a, b] = [e.routing[0], e.routing[1]];
+            for axis in 0..2 {
+                let bend = tau / lengths[k] * (v[2 * b + axis] - v[2 * a + axis]);
+                right[2 * a + axis] -= bend;
+                right[2 * b + axis] += bend;
+            }
+        }
+        for d in 0..n {
+            assert!((gradient[d] - expected[d]).abs() < 1e-12, "force {d}: {} is not {}", gradient[d], expected[d]);
+            assert!((product[d] - right[d]).abs() < 1e-11, "Hessian {d}: {} is not {}", product[d], right[d]);
         }
     }
 }

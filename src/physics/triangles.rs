@@ -51,13 +51,12 @@ impl Triangles {
         let fma = multiply_add::<FUSED>;
         let count = chunk.len().min(CHUNK);
         let mut edges = [[0.0; CHUNK]; 4];
+        let (points, _) = x.as_chunks::<2>();
         for (l, t) in self.nodes[chunk.clone()].iter().enumerate().take(count) {
-            let [i, j, k] = t.map(|n| 2 * n as usize);
+            let [i, j, k] = t.map(|n| points[n as usize]);
             // From differences: far from the origin, sums of whole coordinates would lose what tells the corners apart.
-            edges[0][l] = x[j] - x[i];
-            edges[1][l] = x[j + 1] - x[i + 1];
-            edges[2][l] = x[k] - x[i];
-            edges[3][l] = x[k + 1] - x[i + 1];
+            (edges[0][l], edges[1][l]) = (j[0] - i[0], j[1] - i[1]);
+            (edges[2][l], edges[3][l]) = (k[0] - i[0], k[1] - i[1]);
         }
         let [b0, b1, c0, c1] = self.shape.each_ref().map(|s| &s[chunk.clone()][..count]);
         let mut out = Deformed { f: [[0.0; CHUNK]; 4], j: [0.0; CHUNK] };
@@ -157,14 +156,13 @@ impl Work for Gradient<'_, '_> {
                 force[3][l] = w * fma(p10, c0[l], p11 * c1[l]);
             }
             for (l, t) in all.nodes[chunk.clone()].iter().enumerate().take(count) {
-                let [i, j, k] = t.map(|n| 2 * n as usize);
                 let [px, py, qx, qy] = [force[0][l], force[1][l], force[2][l], force[3][l]];
-                self.gradient[i] -= px + qx;
-                self.gradient[i + 1] -= py + qy;
-                self.gradient[j] += px;
-                self.gradient[j + 1] += py;
-                self.gradient[k] += qx;
-                self.gradient[k + 1] += qy;
+                let forces = [[-(px + qx), -(py + qy)], [px, py], [qx, qy]];
+                let (gradient, _) = self.gradient.as_chunks_mut::<2>();
+                for (&n, force) in t.iter().zip(forces) {
+                    let g = &mut gradient[n as usize];
+                    *g = [g[0] + force[0], g[1] + force[1]];
+                }
             }
             let Some((scales, floor)) = &mut self.scales else { continue };
             let modulus = ROUNDING * (2.0 * mu + kappa);
@@ -332,5 +330,104 @@ impl Work for Inversion<'_> {
                 }
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::double::Double;
+    use super::super::energy::{Energy, HessianForm};
+    use super::super::pattern::Pattern;
+    use super::super::{Body, Material};
+    use super::*;
+    use nalgebra::{Matrix2, Matrix4};
+
+    /// The same material, which does not say what it is: its triangles are worked on one by one.
+    struct Disguised(NeoHookean);
+
+    impl Material for Disguised {
+        fn density(&self, f: &Matrix2<f64>) -> f64 {
+            self.0.density(f)
+        }
+        fn stress(&self, f: &Matrix2<f64>) -> Matrix2<f64> {
+            self.0.stress(f)
+        }
+        fn tangent(&self, f: &Matrix2<f64>) -> Matrix4<f64> {
+            self.0.tangent(f)
+        }
+        fn precise_stress(&self, f: &[Double; 4]) -> Matrix2<f64> {
+            self.0.precise_stress(f)
+        }
+        fn shear_modulus(&self) -> f64 {
+            self.0.shear_modulus()
+        }
+        fn largest_modulus(&self) -> f64 {
+            self.0.largest_modulus()
+        }
+    }
+
+    /// A strip of triangles, deformed; more than two chunks of them, and not whole ones.
+    fn strip() -> (Vec<[f64; 2]>, Vec<[usize; 3]>, Vec<f64>) {
+        let columns = 80;
+        let nodes: Vec<[f64; 2]> = (0..2 * columns).map(|k| [(k / 2) as f64, (k % 2) as f64]).collect();
+        let triangles =
+            (0..columns - 1).flat_map(|c| [[2 * c, 2 * c + 2, 2 * c + 1], [2 * c + 1, 2 * c + 2, 2 * c + 3]]);
+        let wave = |k: usize| 0.2 * (1.7 * k as f64).sin();
+        let x = nodes.iter().flatten().enumerate().map(|(d, v)| 1.1 * v + wave(d * d % 97)).collect();
+        (nodes.clone(), triangles.collect(), x)
+    }
+
+    fn close(a: &[f64], b: &[f64], what: &str) {
+        let scale = a.iter().filter(|v| v.is_finite()).fold(1e-300, |m: f64, v| m.max(v.abs()));
+        for (k, (a, b)) in a.iter().zip(b).enumerate() {
+            assert!(
+                (a - b).abs() <= 1e-14 * scale || a == b || (a.is_nan() && b.is_nan()),
+                "{what} {k}: {a} is not {b}"
+            );
+        }
+    }
+
+    #[test]
+    fn many_at_a_time_are_what_they_are_one_by_one() {
+        let (nodes, triangles, mut x) = strip();
+        let material = NeoHookean { mu: 0.7, kappa: 1.9 };
+        let stiffness: Vec<f64> = (0..triangles.len()).map(|k| 1.0 + 0.1 * (k % 5) as f64).collect();
+        let wide = Body::new(&nodes, &triangles, Box::new(material), Some(&stiffness)).unwrap();
+        let alone = Body::new(&nodes, &triangles, Box::new(Disguised(material)), Some(&stiffness)).unwrap();
+        let pattern = Pattern::new(nodes.len(), triangles.iter().map(|t| &t[..]));
+        let slots = pattern.slots(triangles.iter().map(|t| &t[..]));
+        let dx: Vec<f64> = (0..x.len()).map(|d| 3.0 * (0.9 * d as f64).cos()).collect();
+        for inverted in [false, true] {
+            if inverted {
+                x[61] += 40.0;
+            }
+            let all = [&wide, &alone].map(|body| {
+                let mut gradient = vec![0.0; x.len()];
+                let (mut together, mut scales) = (gradient.clone(), gradient.clone());
+                body.add_gradient(&x, &mut gradient);
+                body.add_gradient_and_scales(&x, &mut together, &mut Scales::together(&mut scales));
+                let mut values = vec![0.0; pattern.nonzeros()];
+                body.add_hessian(&x, HessianForm::Exact, &mut Scatter::new(&slots, &mut values));
+                let single = [body.value(&x), body.smallest_determinant(&x), body.step_limit(&x, &dx)];
+                (single, gradient, together, scales, values)
+            });
+            let [a, b] = &all;
+            assert_eq!(a.0[0].is_infinite(), inverted);
+            close(&a.0, &b.0, "energy, determinant, step");
+            close(&a.1, &b.1, "gradient");
+            close(&a.2, &b.2, "gradient with scales");
+            close(&a.3, &b.3, "scale");
+            close(&a.4, &b.4, "Hessian");
+        }
+    }
+
+    #[test]
+    fn a_number_that_is_none_is_no_determinant() {
+        let (nodes, triangles, mut x) = strip();
+        let body = Body::new(&nodes, &triangles, Box::new(NeoHookean { mu: 1.0, kappa: 1.0 }), None).unwrap();
+        assert!(body.smallest_determinant(&x) > 0.0);
+        x[100] = f64::NAN;
+        assert_eq!(body.smallest_determinant(&x), f64::NEG_INFINITY);
+        assert_eq!(body.value(&x), f64::INFINITY);
     }
 }

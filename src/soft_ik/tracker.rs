@@ -116,6 +116,8 @@ struct Fibers {
     waited: usize,
     /// The run is the challenger's until its pose was compared; whether it has converged.
     deciding: Option<bool>,
+    /// How far `O` is above what the last iteration promised.
+    lag: f64,
     /// Whether the run has converged in this frame, and how often such a state has snapped since the targets moved.
     ended: bool,
     snaps: usize,
@@ -155,6 +157,11 @@ const SHOWN: f64 = 1e-3;
 const SHOWN_WITH_MARGIN: f64 = 0.9e-3;
 const STILL_SETTLING: f64 = 0.6;
 const REUSES: usize = 6;
+/// In large scenes a frame under the hand goes on for so many factorisations where `O` ended higher than its iteration promised, by
+/// as much as if a target were missed by this part of the body more: out of reach, limbs turn, and one iteration trails. Reachable
+/// targets never ask for it.
+const LAGGING: f64 = 3e-3;
+const SECOND_TRIES: usize = 1;
 /// Newton steps spent on that at most, before the pose of the last frame stays: in small scenes, and in large ones, where the
 /// hand would feel them.
 const SETTLING_STEPS: usize = 60;
@@ -191,6 +198,7 @@ impl Tracker {
                 stage,
                 waited: 0,
                 deciding: None,
+                lag: 0.0,
                 ended: false,
                 snaps: 0,
             }
@@ -359,7 +367,11 @@ impl Fibers {
         }
         let mut fresh = moved || self.waited == 1;
         self.ended = false;
-        while frame.factorizations < budget && self.stage != Stage::Done && !stop() {
+        self.lag = 0.0;
+        let more = if moved && budget < SMALL { SECOND_TRIES } else { 0 };
+        let lagging = self.work.worth(LAGGING);
+        let within = |spent: usize, lag: f64| spent < budget || lag > lagging && spent < budget + more;
+        while within(frame.factorizations, self.lag) && self.stage != Stage::Done && !stop() {
             match self.stage {
                 Stage::Following => {
                     fresh = true;
@@ -467,6 +479,7 @@ impl Fibers {
         match run.iterate(question, &mut self.work, stop) {
             None => !stop(),
             Some(progress) => {
+                self.lag = progress.lag;
                 frame.factorizations += progress.factorizations;
                 progress.settled && progress.moved <= tolerance || progress.gain <= self.work.worth(tolerance)
             }

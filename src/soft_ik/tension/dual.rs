@@ -1,6 +1,6 @@
 //! The convex subproblem of the all-at-once method, solved in its dual of the size of the targets.
 
-use crate::physics::wide::{self, CHUNK, Lanes, Work, multiply_add};
+use crate::physics::wide::{self, Work, multiply_add};
 
 /// `min 1/2 |r_0 + J (tau - tau_k)|^2 + c (tau - tau_k) + rho/2 |tau|^2 + nu/2 |tau - tau_k|^2` over `lowest <= tau <= highest`.
 ///
@@ -22,8 +22,6 @@ pub(super) struct Subproblem<'a> {
 /// What the solution works in; kept between subproblems.
 #[derive(Default)]
 pub(super) struct Dual {
-    /// `r_0 - J tau_k`.
-    offset: Vec<f64>,
     gradient: Vec<f64>,
     trial_gradient: Vec<f64>,
     step: Vec<f64>,
@@ -31,7 +29,7 @@ pub(super) struct Dual {
     trial_tension: Vec<f64>,
     matrix: Vec<f64>,
     /// The rows of `J`, weighted, for a chunk of the elements.
-    weighted: Vec<Lanes>,
+    weighted: Vec<Part>,
 }
 
 /// Newton steps: the set of elements between their limits settles in a few.
@@ -47,17 +45,13 @@ impl Dual {
     /// Solves from the multipliers `q`; leaves the solution in `q` and `tension`. `false` where `stop` has ended the search.
     pub fn solve(&mut self, problem: &Subproblem, q: &mut [f64], tension: &mut [f64], stop: &dyn Fn() -> bool) -> bool {
         let rows = problem.residual.len();
-        for buffer in [&mut self.offset, &mut self.gradient, &mut self.trial_gradient, &mut self.step, &mut self.trial]
-        {
+        for buffer in [&mut self.gradient, &mut self.trial_gradient, &mut self.step, &mut self.trial] {
             buffer.resize(rows, 0.0);
         }
         self.trial_tension.resize(tension.len(), 0.0);
         self.matrix.resize(rows * rows, 0.0);
-        for ((o, r), row) in self.offset.iter_mut().zip(problem.residual).zip(problem.rows()) {
-            *o = r - dot(row, problem.now);
-        }
-        self.weighted.resize(rows, [0.0; CHUNK]);
-        let mut value = problem.value(q, &self.offset, tension, &mut self.gradient);
+        self.weighted.resize(rows, [0.0; PART]);
+        let mut value = problem.value(q, tension, &mut self.gradient);
         for _ in 0..MAX_STEPS {
             if largest(&self.gradient) <= TOLERANCE * (largest(problem.residual) + largest(q)) {
                 break;
@@ -79,7 +73,7 @@ impl Dual {
                     *p = q + t * s;
                 }
                 let (tau, g) = (&mut self.trial_tension, &mut self.trial_gradient);
-                let next = problem.value(&self.trial, &self.offset, tau, g);
+                let next = problem.value(&self.trial, tau, g);
                 if next <= value + 1e-4 * t * slope + 1e-14 * value.abs() {
                     q.copy_from_slice(&self.trial);
                     tension.copy_from_slice(&self.trial_tension);
@@ -98,23 +92,30 @@ impl Dual {
     }
 }
 
+impl Dual {
+    /// `J (tau - tau_k)` of the solution last found, where that was at the multipliers `q`.
+    pub fn change<'a>(&'a self, residual: &'a [f64], q: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
+        q.iter().zip(residual).zip(&self.gradient).map(|((q, r), g)| q - r - g)
+    }
+}
+
 impl Subproblem<'_> {
     fn rows(&self) -> std::slice::ChunksExact<'_, f64> {
         self.jacobian.chunks_exact(self.now.len().max(1))
     }
 
     /// `tau(q)` into `tension`; the dual function (to be minimised), and its gradient into `gradient`.
-    fn value(&self, q: &[f64], offset: &[f64], tension: &mut [f64], gradient: &mut [f64]) -> f64 {
-        let conjugate = wide::run(Choice { problem: self, q, tension, gradient });
+    fn value(&self, q: &[f64], tension: &mut [f64], gradient: &mut [f64]) -> f64 {
+        let rest = wide::run(Choice { problem: self, q, tension, gradient });
         for ((g, q), r) in gradient.iter_mut().zip(q).zip(self.residual) {
             *g = q - r - *g;
         }
-        0.5 * dot(q, q) - dot(q, offset) + conjugate
+        0.5 * dot(q, q) - dot(q, self.residual) + rest
     }
 
     /// `I + J_F J_F^T/(rho + nu)` over the elements `F` between their limits; lower triangle, row by row. `false` where `stop` has
     /// ended it.
-    fn hessian(&self, tension: &[f64], matrix: &mut [f64], weighted: &mut [Lanes], stop: &dyn Fn() -> bool) -> bool {
+    fn hessian(&self, tension: &[f64], matrix: &mut [f64], weighted: &mut [Part], stop: &dyn Fn() -> bool) -> bool {
         matrix.fill(0.0);
         let n = self.residual.len();
         if !wide::run(Products { problem: self, tension, matrix: &mut *matrix, weighted, stop }) {
@@ -127,7 +128,8 @@ impl Subproblem<'_> {
     }
 }
 
-/// The choice of all tensions: see [`Subproblem::value`]. Leaves `J (tau - tau_k)` in `gradient`; returns the conjugate's part.
+/// The choice of all tensions: see [`Subproblem::value`]. Leaves `J (tau - tau_k)` in `gradient`; returns `q J tau_k` and the
+/// conjugate.
 struct Choice<'a> {
     problem: &'a Subproblem<'a>,
     q: &'a [f64],
@@ -147,13 +149,15 @@ impl Work for Choice<'_> {
         let inverse = weight.recip();
         gradient.fill(0.0);
         let mut conjugate = 0.0;
-        for from in (0..count).step_by(CHUNK) {
-            let chunk = from..count.min(from + CHUNK);
-            let size = chunk.len().min(CHUNK);
-            let (mut pull, mut change, mut parts) = ([0.0; CHUNK], [0.0; CHUNK], [0.0; CHUNK]);
+        for from in (0..count).step_by(PART) {
+            let chunk = from..count.min(from + PART);
+            let size = chunk.len().min(PART);
+            let (mut pull, mut change, mut parts) = ([0.0; PART], [0.0; PART], [0.0; PART]);
             let (now, linear) = (&problem.now[chunk.clone()][..size], &problem.linear[chunk.clone()][..size]);
+            let mut base = [0.0; PART];
             for l in 0..size {
-                pull[l] = fma(problem.nu, now[l], -linear[l]);
+                base[l] = fma(problem.nu, now[l], -linear[l]);
+                pull[l] = base[l];
             }
             for (row, q) in problem.rows().zip(q) {
                 for (pull, j) in pull[..size].iter_mut().zip(&row[chunk.clone()]) {
@@ -163,7 +167,7 @@ impl Work for Choice<'_> {
             let (limits, tension) = (&problem.limits[chunk.clone()][..size], &mut tension[chunk.clone()][..size]);
             for l in 0..size {
                 let tau = (pull[l] * inverse).min(limits[l][1]).max(limits[l][0]);
-                parts[l] = fma(-0.5 * weight, tau, pull[l]) * tau;
+                parts[l] = fma(fma(-0.5 * weight, tau, pull[l]), tau, (base[l] - pull[l]) * now[l]);
                 change[l] = tau - now[l];
                 tension[l] = tau;
             }
@@ -182,7 +186,7 @@ struct Products<'a> {
     tension: &'a [f64],
     matrix: &'a mut [f64],
     /// One row each.
-    weighted: &'a mut [Lanes],
+    weighted: &'a mut [Part],
     stop: &'a dyn Fn() -> bool,
 }
 
@@ -194,14 +198,14 @@ impl Work for Products<'_> {
         let Products { problem, tension, matrix, weighted, stop } = self;
         let (n, count) = (problem.residual.len(), tension.len());
         let scale = (problem.rho + problem.nu).recip();
-        for from in (0..count).step_by(CHUNK) {
+        for from in (0..count).step_by(PART) {
             if n > ROWS && stop() {
                 return false;
             }
-            let chunk = from..count.min(from + CHUNK);
-            let size = chunk.len().min(CHUNK);
+            let chunk = from..count.min(from + PART);
+            let size = chunk.len().min(PART);
             let (tension, limits) = (&tension[chunk.clone()][..size], &problem.limits[chunk.clone()][..size]);
-            let mut weights = [0.0; CHUNK];
+            let mut weights = [0.0; PART];
             for l in 0..size {
                 let inside = tension[l] > limits[l][0] && tension[l] < limits[l][1];
                 weights[l] = if inside { scale } else { 0.0 };
@@ -220,6 +224,10 @@ impl Work for Products<'_> {
         true
     }
 }
+
+/// Elements that are taken through a loop together: their rows of `J`, and these once more, weighted, stay in the nearest cache.
+const PART: usize = 256;
+type Part = [f64; PART];
 
 /// Running sums in a dot product: independent of each other, so that they can be computed side by side.
 const LANES: usize = 8;
@@ -252,7 +260,7 @@ fn product<const FUSED: bool>(a: &[f64], b: &[f64]) -> f64 {
 
 /// The sum of all, of which any may be zero.
 #[inline(always)]
-fn sum(parts: &Lanes) -> f64 {
+fn sum(parts: &Part) -> f64 {
     let mut lanes = [0.0; LANES];
     for part in parts.as_chunks::<LANES>().0 {
         for l in 0..LANES {

@@ -42,6 +42,8 @@ pub(in crate::soft_ik) struct Progress {
     pub settled: bool,
     /// The decrease of `O` that the iteration promised; infinite where the promise is not to be trusted.
     pub gain: f64,
+    /// How far `O` is above what was promised: what another iteration might still gain. Infinite where no step was chosen.
+    pub lag: f64,
 }
 
 /// A step in tension.
@@ -233,7 +235,7 @@ impl Run {
             let stuck = self.nu >= LARGEST_PROXIMAL * work.rho;
             self.go_back(question, work);
             let moved = if stuck { 0.0 } else { f64::INFINITY };
-            return Some(Progress { factorizations, moved, settled: stuck, gain: f64::INFINITY });
+            return Some(Progress { factorizations, moved, settled: stuck, gain: f64::INFINITY, lag: f64::INFINITY });
         }
         let limited = self.linearise(question, work);
         self.append_secant(work);
@@ -252,14 +254,19 @@ impl Run {
             self.pull *= 2.0;
         }
         self.note(question, work);
+        let lag = match &self.before {
+            Some(step) => value(&self.x, &self.fibers, question, work.rho) - (step.objective - step.promised),
+            None => f64::INFINITY,
+        };
         let gentle = self.nu <= LARGEST_FIRST * work.rho;
         let promised = self.before.map_or(f64::INFINITY, |step| step.promised);
         if !limited && (gentle && promised <= STANDSTILL * self.now.abs() || self.stagnant > STAGNANT) {
-            return Some(Progress { factorizations, moved: 0.0, settled: true, gain: promised });
+            return Some(Progress { factorizations, moved: 0.0, settled: true, gain: promised, lag: 0.0 });
         }
         let moved = step * longest(&work.dx) / work.size;
         let gain = if gentle && !limited && self.unverified == 0 { promised } else { f64::INFINITY };
-        Some(Progress { factorizations, moved, settled: !limited && !changed && step >= 0.5 && gentle, gain })
+        let settled = !limited && !changed && step >= 0.5 && gentle;
+        Some(Progress { factorizations, moved, settled, gain, lag })
     }
 }
 

@@ -178,8 +178,7 @@ impl Run {
             let (now, next) = (work.now[k], work.next[k]);
             promised -= (work.linear[k] + 0.5 * work.rho * (next + now)) * (next - now);
         }
-        for (r, row) in work.residual.iter().zip(work.jacobian.chunks_exact(count.max(1))) {
-            let change: f64 = row.iter().zip(&work.next).zip(&work.now).map(|((j, next), now)| j * (next - now)).sum();
+        for (r, change) in work.residual.iter().zip(work.dual.change(&work.residual, &self.q)) {
             promised -= change * (r + 0.5 * change);
         }
         promised
