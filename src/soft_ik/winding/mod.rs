@@ -19,12 +19,15 @@
 //!
 //! All of it is counted in factorisations and can be spread over frames.
 
+mod least;
 mod proof;
 mod rays;
+mod recruit;
 mod search;
 mod walk;
 
+pub use least::least;
 pub use proof::wound;
-pub use rays::reach;
-pub use search::{Care, Search};
+pub use recruit::{absorb, explore, from_several};
+pub use search::{Care, LATTICE, Search};
 pub use walk::distance;

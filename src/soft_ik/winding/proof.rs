@@ -1,7 +1,7 @@
 //! Whether winding from rest leads to a posture: all winches in proportion, in equal steps, each settled from the one before; with
 //! ever more steps, until their number makes no difference.
 
-use super::walk::{distance, on_the_way};
+use super::walk::{distance, passing};
 use crate::soft_ik::{Posture, Question};
 
 /// Steps of the first attempt; each further one takes twice as many.
@@ -9,6 +9,9 @@ const FIRST_STEPS: usize = 8;
 /// Steps of the last one. Where that still ends elsewhere than the one before, the end depends on how the winches are turned, and
 /// nothing is promised.
 const LAST_STEPS: usize = 128;
+/// On the way forces balance to this part of those at work: positions are then good to about three digits. The end is settled
+/// fully.
+const ON_THE_WAY: f64 = 1e-4;
 /// Two poses are the same where no node is further away than this part of the body: states on one branch agree to six digits,
 /// those of different branches differ by far more.
 pub const SAME_POSE: f64 = 1e-3;
@@ -59,7 +62,7 @@ impl Proof {
         let part = self.done as f64 / self.steps as f64;
         if self.done < self.steps {
             let beta: Vec<f64> = self.from.beta.iter().zip(&self.beta).map(|(a, b)| a + part * (b - a)).collect();
-            let (next, spent) = question.settle_to(&beta, &self.now.x, &on_the_way(), stop);
+            let (next, spent) = question.settle_to(&beta, &self.now.x, &passing(ON_THE_WAY), stop);
             self.now = next;
             return (Verdict::Open, spent);
         }

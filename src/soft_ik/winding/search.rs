@@ -2,7 +2,7 @@
 
 use super::proof::{Proof, SAME_POSE, Verdict};
 use super::rays::{Ray, ranges, rays, spread};
-use super::walk::{Walk, distance, size};
+use super::walk::{Pace, Walk, distance, size};
 use crate::soft_ik::contraction::GaussNewton;
 use crate::soft_ik::{Answer, Budget, Method, Posture, Question};
 use std::collections::VecDeque;
@@ -31,8 +31,8 @@ pub struct Care {
     pub levels: [usize; LATTICE],
     /// Lines where there are more winches.
     pub spread: usize,
-    /// Largest move of a node in a step of a walk, as a part of the body: a valley narrower than that may be stepped over.
-    pub stride: f64,
+    /// How the lines are walked.
+    pub pace: Pace,
     /// Valleys polished at most.
     pub polished: usize,
     /// Factorisations spent on walks at most.
@@ -43,11 +43,22 @@ pub struct Care {
 
 impl Care {
     /// For a plushie's pose that is kept: what winding from rest reaches.
-    pub const THOROUGH: Self =
-        Self { levels: [1, 8, 4], spread: 24, stride: 0.05, polished: 8, walking: usize::MAX, proved: true };
+    pub const THOROUGH: Self = Self {
+        levels: [1, 8, 4],
+        spread: 24,
+        pace: Pace { stride: 0.05, longest: 0.125, balance: 1e-4 },
+        polished: 8,
+        walking: usize::MAX,
+        proved: true,
+    };
     /// For the equilibrium of least `O`, on whatever branch, in a few times the work of one Gauss-Newton run.
-    pub const QUICK: Self =
-        Self { levels: [1, 2, 1], spread: 0, stride: 0.12, polished: 3, walking: usize::MAX, proved: false };
+    pub fn quick(winches: usize) -> Self {
+        let pace = match winches {
+            1 => Pace { stride: 0.1, longest: 0.125, balance: 1e-2 },
+            _ => Pace { stride: 0.2, longest: 0.25, balance: 1e-2 },
+        };
+        Self { levels: [1, 2, 2], spread: 0, pace, polished: 3, walking: usize::MAX, proved: false }
+    }
 }
 
 /// The bottom of a valley on a line.
@@ -62,16 +73,29 @@ struct Valley {
 struct End {
     posture: Posture,
     from: Option<Posture>,
+    /// Whether Gauss-Newton has come to its end there.
+    finished: bool,
     done: bool,
 }
 
 enum Stage {
     Walking,
     /// Gauss-Newton from a valley, and the iterations taken.
-    Polishing { from: Option<Posture>, now: Posture, iterations: usize },
+    Polishing {
+        from: Option<Posture>,
+        now: Posture,
+        iterations: usize,
+    },
     /// The same to the end, from the best end that is not done.
-    Finishing { end: usize, iterations: usize },
-    Proving { end: usize, proof: Box<Proof>, what: Attempt },
+    Finishing {
+        end: usize,
+        iterations: usize,
+    },
+    Proving {
+        end: usize,
+        proof: Box<Proof>,
+        what: Attempt,
+    },
     Done,
 }
 
@@ -81,7 +105,11 @@ enum Attempt {
     /// The wound state from which an end came that winding does not reach.
     Valley,
     /// A state between the two.
-    Between { low: Posture, high: Vec<f64>, left: usize },
+    Between {
+        low: Posture,
+        high: Vec<f64>,
+        left: usize,
+    },
 }
 
 /// Finds the best wound state for the present targets.
@@ -134,11 +162,20 @@ impl Search {
         }
     }
 
-    /// Takes note of a posture found otherwise. Where proof is asked for, it counts once that is given.
-    pub fn offer(&mut self, posture: &Posture) {
+    /// Takes note of a posture found otherwise (`finished`: Gauss-Newton has nothing to add to it). Where proof is asked for, it
+    /// counts once that is given.
+    pub fn offer(&mut self, posture: &Posture, finished: bool) {
         if posture.in_equilibrium() {
-            self.note(End { posture: posture.clone(), from: None, done: false });
+            self.note(End { posture: posture.clone(), from: None, finished, done: false });
         }
+    }
+
+    /// Looks no further: what is known by now is followed to its end.
+    pub fn hurry(&mut self) {
+        if let Stage::Polishing { from, now, .. } = std::mem::replace(&mut self.stage, Stage::Done) {
+            self.note(End { posture: now, from, finished: false, done: false });
+        }
+        self.stage = self.next_end();
     }
 
     pub fn is_done(&self) -> bool {
@@ -182,8 +219,8 @@ impl Search {
 
     fn walk_on(&mut self, question: &mut Question, stop: &dyn Fn() -> bool) -> Stage {
         if self.walk.is_none() && self.walked < self.care.walking {
-            let stride = self.care.stride * self.size;
-            self.walk = self.rays.pop_front().map(|ray| Walk::new(&self.origin, ray.end, stride));
+            let next = self.rays.pop_front();
+            self.walk = next.map(|ray| Walk::new(&self.origin, ray.end, self.size, self.care.pace));
         }
         let Some(walk) = &mut self.walk else {
             self.choose_valleys();
@@ -223,9 +260,8 @@ impl Search {
             2..=LATTICE => NEXT_TO / self.care.levels[count - 1] as f64,
             _ => 0.5,
         };
-        let apart = |a: &Valley, b: &Valley| {
-            a.parts.iter().zip(&b.parts).map(|(p, q)| (p - q).abs()).fold(0.0, f64::max)
-        };
+        let apart =
+            |a: &Valley, b: &Valley| a.parts.iter().zip(&b.parts).map(|(p, q)| (p - q).abs()).fold(0.0, f64::max);
         let mut chosen: Vec<bool> = Vec::new();
         for (k, valley) in all.iter().enumerate() {
             chosen.push(all[..k].iter().all(|lower| apart(valley, lower) > near));
@@ -262,7 +298,7 @@ impl Search {
         }
         self.polished += 1;
         if answer.posture.in_equilibrium() {
-            let known = !self.note(End { posture: answer.posture, from, done: false });
+            let known = !self.note(End { posture: answer.posture, from, finished: false, done: false });
             self.repeats += known as usize;
         }
         self.next_valley(question, stop)
@@ -291,8 +327,8 @@ impl Search {
             }
             Some(k) => {
                 let known = &mut self.ends[k];
-                if !known.done && end.posture.objective < known.posture.objective {
-                    known.posture = end.posture;
+                if !known.done && !known.finished && end.posture.objective < known.posture.objective {
+                    (known.posture, known.finished) = (end.posture, end.finished);
                 }
                 known.from = known.from.take().or(end.from);
                 false
@@ -314,14 +350,17 @@ impl Search {
     }
 
     fn finish(&mut self, question: &mut Question, end: usize, iterations: usize, stop: &dyn Fn() -> bool) -> Stage {
-        let from = self.ends[end].posture.clone();
-        let answer = self.descend(question, &from, LAST_DECREASE, stop);
-        self.ends[end].posture = answer.posture;
-        let iterations = iterations + answer.iterations;
-        if answer.iterations == UNIT && !answer.converged && iterations < LAST_ITERATIONS {
-            return Stage::Finishing { end, iterations };
+        if !self.ends[end].finished {
+            let from = self.ends[end].posture.clone();
+            let answer = self.descend(question, &from, LAST_DECREASE, stop);
+            self.ends[end].posture = answer.posture;
+            let iterations = iterations + answer.iterations;
+            if answer.iterations == UNIT && !answer.converged && iterations < LAST_ITERATIONS {
+                return Stage::Finishing { end, iterations };
+            }
+            self.ends[end].finished = answer.converged;
         }
-        self.converged = answer.converged;
+        self.converged = self.ends[end].finished;
         if !self.care.proved {
             let posture = self.ends[end].posture.clone();
             self.take(&posture);
@@ -365,7 +404,7 @@ impl Search {
                 if let Some(posture) = reached {
                     // Another branch: what Gauss-Newton makes of it is another end.
                     let answer = self.descend(question, &posture, EXPLORING_DECREASE, stop);
-                    self.note(End { posture: answer.posture, from: Some(posture), done: false });
+                    self.note(End { posture: answer.posture, from: Some(posture), finished: false, done: false });
                 }
                 let Some(from) = self.ends[end].from.clone() else { return self.next_end() };
                 let proof = Box::new(Proof::new(&self.origin, &from.beta, self.size));

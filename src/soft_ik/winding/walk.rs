@@ -5,8 +5,6 @@ use crate::soft_ik::{Posture, Question};
 
 /// First step, as a part of the way; what moves tells how long the next may be.
 const FIRST_STEP: f64 = 1.0 / 16.0;
-/// Longest step: where all is slack nothing moves, and yet a valley must not be stepped over.
-const LONGEST_STEP: f64 = 1.0 / 8.0;
 /// Shortest step. A pose that still moves far in it has snapped to another branch, as the plushie would.
 const SHORTEST_STEP: f64 = 1.0 / 1024.0;
 /// A step may move the pose so many times further than asked before it is taken back.
@@ -14,15 +12,23 @@ const TOO_FAR: f64 = 1.6;
 /// Steps aim at this part of what is asked, grow at most to this many times their length, and shrink at most to the inverse.
 const AIM: f64 = 0.9;
 const GROWTH: f64 = 2.0;
-/// On the way forces balance to this part of those at work: positions are then good to about three digits, far more than it
-/// takes to tell one valley from another, for one or two factorisations a step.
-const ON_THE_WAY: f64 = 1e-4;
 /// Newton steps for one state on the way. One that needs more is told as not in equilibrium, and the walk goes on from there.
 const MOST_NEWTON_STEPS: usize = 60;
 
+/// How a walk proceeds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pace {
+    /// Largest move of a node in a step, as a part of the body: a valley narrower than that may be stepped over.
+    pub stride: f64,
+    /// Longest step, as a part of the way: where all is slack nothing moves, and yet a valley must not be stepped over.
+    pub longest: f64,
+    /// On the way forces balance to this part of those at work. It need only tell one valley from another.
+    pub balance: f64,
+}
+
 /// Settings of statics for states that are passed by.
-pub fn on_the_way() -> StaticsSettings {
-    StaticsSettings { tolerance: ON_THE_WAY, stagnation_tolerance: ON_THE_WAY, max_iterations: MOST_NEWTON_STEPS }
+pub fn passing(balance: f64) -> StaticsSettings {
+    StaticsSettings { tolerance: balance, stagnation_tolerance: balance, max_iterations: MOST_NEWTON_STEPS }
 }
 
 /// A walk from a posture in equilibrium to other activations, step by step.
@@ -37,21 +43,23 @@ pub struct Walk {
     before: Option<(f64, Vec<f64>)>,
     /// Whether `O` fell in the last step.
     falling: bool,
+    pace: Pace,
     /// Largest move of a node in a step, length.
     stride: f64,
 }
 
 impl Walk {
-    pub fn new(start: &Posture, to: Vec<f64>, stride: f64) -> Self {
+    pub fn new(start: &Posture, to: Vec<f64>, size: f64, pace: Pace) -> Self {
         Self {
             from: start.beta.clone(),
             to,
             t: 0.0,
-            step: FIRST_STEP,
+            step: FIRST_STEP.min(pace.longest),
             now: start.clone(),
             before: None,
             falling: false,
-            stride,
+            pace,
+            stride: pace.stride * size,
         }
     }
 
@@ -71,7 +79,7 @@ impl Walk {
                 self.from.iter().zip(&self.to).map(|(a, b)| a + t * (b - a)).collect()
             };
             let guess = self.predict(question, t);
-            let (next, count) = question.settle_to(&beta, &guess, &on_the_way(), stop);
+            let (next, count) = question.settle_to(&beta, &guess, &passing(self.pace.balance), stop);
             spent += count;
             let moved = distance(&next.x, &self.now.x);
             if moved <= TOO_FAR * self.stride || t - self.t <= SHORTEST_STEP || stop() {
@@ -80,7 +88,7 @@ impl Walk {
             self.step = ((t - self.t) * (AIM * self.stride / moved).max(0.25)).max(SHORTEST_STEP);
         };
         let longer = (AIM * self.stride / moved.max(f64::MIN_POSITIVE)).clamp(1.0 / GROWTH, GROWTH);
-        self.step = ((t - self.t) * longer).clamp(SHORTEST_STEP, LONGEST_STEP);
+        self.step = ((t - self.t) * longer).clamp(SHORTEST_STEP, self.pace.longest);
         let falls = next.objective < self.now.objective;
         let last = std::mem::replace(&mut self.now, next);
         let valley = if self.falling && !falls && last.in_equilibrium() {
