@@ -6,7 +6,7 @@
 //! and proportional winding from rest does not is not a state to be shown, so the states that are better than what is
 //! shown are wound from rest once more, in proportion, the best first.
 
-mod rigs;
+pub mod rigs;
 
 use self::rigs::{Rig, rig};
 use super::report::significant;
@@ -33,7 +33,7 @@ const SAME_VALUE: f64 = 1e-4;
 /// Iterations of every method.
 const ITERATIONS: usize = 300;
 /// Times are the shortest of so many.
-const RUNS: usize = 3;
+const RUNS: usize = 5;
 /// Parts of the ranges from which the Gauss-Newton method starts; the best counts.
 const STARTS: [f64; 3] = [0.0, 0.35, 0.7];
 
@@ -315,8 +315,8 @@ mod tests {
     fn poses_of_seeded_rigs_are_as_good_as_a_dense_scan() {
         let cancel = AtomicBool::new(false);
         let session = Session { seed: 3, stop: &|| false, cancel: &cancel, progress: &|_| {} };
-        let shapes = ["pig", "e"].map(String::from).to_vec();
-        let report = Winding { shapes, rigs: 2 }.run(&session).unwrap();
+        let shapes = vec!["e".to_owned()];
+        let report = Winding { shapes, rigs: 1 }.run(&session).unwrap();
         for row in &report.tables[0].rows {
             let Cell::Number(missing) = row[9] else { panic!("no figure") };
             assert!(missing <= MISSING, "{row:?}");

@@ -5,13 +5,18 @@ use super::search::{Care, LATTICE, Search};
 use crate::soft_ik::contraction::GaussNewton;
 use crate::soft_ik::{Answer, Budget, Method, Posture, Question};
 
-/// Walks along lines may take so many times the factorisations of the first run, and all exploring so many times: for one winch,
-/// whose range is then covered in all but rare cases, and for two and three.
-const WALKING: [f64; 2] = [2.0, 1.5];
-const EXPLORING: [f64; 2] = [3.0, 2.5];
+/// For one, two and three winches: walks along lines may take so many times the factorisations of the first run, and so many at
+/// most. One winch has few states and its range is covered in all but rare cases; more have valleys that are wide enough for a
+/// coarse look.
+const WALKING: [f64; LATTICE] = [2.0, 1.2, 1.5];
+const MOST_WALKING: [usize; LATTICE] = [100, 80, 120];
+/// Polishing valleys may take so many times the factorisations of the first run.
+const POLISHING: f64 = 0.8;
 /// A run that is done sooner counts as this many factorisations: otherwise a start next to a valley would leave nothing for a
 /// look at the others.
-const SHORT_RUN: usize = 12;
+const SHORT_RUN: usize = 16;
+/// Iterations of the first run, before it waits for what the walks find: it may be slow towards a valley that is not the best.
+const FIRST_ITERATIONS: usize = 12;
 /// An end is better than the first where `O` is below this part of it: less is the same value.
 const BETTER: f64 = 1.0 - 1e-9;
 
@@ -21,17 +26,17 @@ pub fn least(question: &mut Question, start: &Posture, budget: &Budget) -> Answe
     if question.actuation.winches.len() > LATTICE {
         return recruit::from_several(question, start, budget);
     }
-    let mut first = GaussNewton::default().solve(question, start, budget);
+    let some = Budget { iterations: budget.iterations.min(FIRST_ITERATIONS), stop: budget.stop };
+    let mut first = GaussNewton::default().solve(question, start, &some);
     if (budget.stop)() || question.actuation.winches.is_empty() {
         return first;
     }
-    let work = first.factorizations.max(SHORT_RUN);
     let winches = question.actuation.winches.len();
-    let times = |factor: [f64; 2]| (factor[usize::from(winches > 1)] * work as f64) as usize;
-    let care = Care { walking: times(WALKING), ..Care::quick(winches) };
-    let mut search = Search::new(question, start, care);
-    search.offer(&first.posture, true);
-    search.advance(question, times(EXPLORING), budget.stop);
+    let work = first.factorizations.max(SHORT_RUN) as f64;
+    let walking = MOST_WALKING[winches - 1].min((WALKING[winches - 1] * work) as usize);
+    let mut search = Search::new(question, start, Care { walking, ..Care::quick(winches) });
+    search.offer(&first.posture, first.converged);
+    search.advance(question, walking + (POLISHING * work) as usize, budget.stop);
     search.hurry();
     let found = search.run(question, budget.stop);
     first.iterations += found.iterations;

@@ -3,8 +3,8 @@
 use super::proof::{Proof, SAME_POSE, Verdict};
 use super::rays::{Ray, ranges, rays, spread};
 use super::walk::{Pace, Walk, distance, size};
-use crate::soft_ik::contraction::GaussNewton;
-use crate::soft_ik::{Answer, Budget, Method, Posture, Question};
+use crate::soft_ik::contraction::{FIRST_DAMPING, GaussNewton};
+use crate::soft_ik::{Answer, Budget, Posture, Question};
 use std::collections::VecDeque;
 
 /// Up to this many winches, the lines lie on a lattice.
@@ -17,7 +17,8 @@ const UNIT: usize = 4;
 /// The best is followed to this relative decrease, for at most so many iterations.
 const LAST_DECREASE: f64 = 1e-9;
 const LAST_ITERATIONS: usize = 200;
-/// A valley within so many lattice spacings of a lower one is the slope of that one.
+/// A valley within so many lattice spacings of a lower one, or so many strides of where Gauss-Newton has ended lower, is the slope
+/// of that one.
 const NEXT_TO: f64 = 1.5;
 /// Polishing ends after so many valleys that end where others have.
 const REPEATS: usize = 2;
@@ -80,16 +81,18 @@ struct End {
 
 enum Stage {
     Walking,
-    /// Gauss-Newton from a valley, and the iterations taken.
+    /// Gauss-Newton from a valley, the iterations taken, and the damping it has come to.
     Polishing {
         from: Option<Posture>,
         now: Posture,
         iterations: usize,
+        damping: f64,
     },
     /// The same to the end, from the best end that is not done.
     Finishing {
         end: usize,
         iterations: usize,
+        damping: f64,
     },
     Proving {
         end: usize,
@@ -194,8 +197,12 @@ impl Search {
             let stage = std::mem::replace(&mut self.stage, Stage::Done);
             self.stage = match stage {
                 Stage::Walking => self.walk_on(question, stop),
-                Stage::Polishing { from, now, iterations } => self.polish(question, from, now, iterations, stop),
-                Stage::Finishing { end, iterations } => self.finish(question, end, iterations, stop),
+                Stage::Polishing { from, now, iterations, damping } => {
+                    self.polish(question, from, now, (iterations, damping), stop)
+                }
+                Stage::Finishing { end, iterations, damping } => {
+                    self.finish(question, end, (iterations, damping), stop)
+                }
                 Stage::Proving { end, proof, what } => self.prove(question, end, proof, what, stop),
                 Stage::Done => Stage::Done,
             };
@@ -262,9 +269,16 @@ impl Search {
         };
         let apart =
             |a: &Valley, b: &Valley| a.parts.iter().zip(&b.parts).map(|(p, q)| (p - q).abs()).fold(0.0, f64::max);
+        let stride = NEXT_TO * self.care.pace.stride * self.size;
+        let known = |valley: &Valley| {
+            self.ends.iter().any(|end| {
+                let near = distance(&end.posture.x, &valley.posture.x) <= stride;
+                near && end.posture.objective <= valley.posture.objective
+            })
+        };
         let mut chosen: Vec<bool> = Vec::new();
         for (k, valley) in all.iter().enumerate() {
-            chosen.push(all[..k].iter().all(|lower| apart(valley, lower) > near));
+            chosen.push(all[..k].iter().all(|lower| apart(valley, lower) > near) && !known(valley));
         }
         let kept = all.into_iter().zip(chosen).filter(|(_, chosen)| *chosen).map(|(valley, _)| valley);
         self.valleys = kept.take(self.care.polished).collect();
@@ -278,7 +292,7 @@ impl Search {
             let (posture, spent) = question.settle(&loose.beta, &loose.x, stop);
             self.factorizations += spent;
             let from = Some(posture.clone());
-            return Stage::Polishing { from, now: posture, iterations: 0 };
+            return Stage::Polishing { from, now: posture, iterations: 0, damping: FIRST_DAMPING };
         }
         self.next_end()
     }
@@ -288,13 +302,13 @@ impl Search {
         question: &mut Question,
         from: Option<Posture>,
         now: Posture,
-        iterations: usize,
+        (iterations, mut damping): (usize, f64),
         stop: &dyn Fn() -> bool,
     ) -> Stage {
-        let answer = self.descend(question, &now, EXPLORING_DECREASE, stop);
+        let answer = self.descend(question, &now, EXPLORING_DECREASE, &mut damping, stop);
         let iterations = iterations + answer.iterations;
         if answer.iterations == UNIT && !answer.converged && iterations < EXPLORING_ITERATIONS {
-            return Stage::Polishing { from, now: answer.posture, iterations };
+            return Stage::Polishing { from, now: answer.posture, iterations, damping };
         }
         self.polished += 1;
         if answer.posture.in_equilibrium() {
@@ -309,9 +323,11 @@ impl Search {
         question: &mut Question,
         from: &Posture,
         relative_decrease: f64,
+        damping: &mut f64,
         stop: &dyn Fn() -> bool,
     ) -> Answer {
-        let answer = GaussNewton { relative_decrease }.solve(question, from, &Budget { iterations: UNIT, stop });
+        let budget = Budget { iterations: UNIT, stop };
+        let answer = GaussNewton { relative_decrease }.resume(question, from, &budget, damping);
         self.iterations += answer.iterations;
         self.factorizations += answer.factorizations;
         answer
@@ -346,17 +362,23 @@ impl Search {
             return Stage::Done;
         }
         self.ends[end].done = true;
-        Stage::Finishing { end, iterations: 0 }
+        Stage::Finishing { end, iterations: 0, damping: FIRST_DAMPING }
     }
 
-    fn finish(&mut self, question: &mut Question, end: usize, iterations: usize, stop: &dyn Fn() -> bool) -> Stage {
+    fn finish(
+        &mut self,
+        question: &mut Question,
+        end: usize,
+        (iterations, mut damping): (usize, f64),
+        stop: &dyn Fn() -> bool,
+    ) -> Stage {
         if !self.ends[end].finished {
             let from = self.ends[end].posture.clone();
-            let answer = self.descend(question, &from, LAST_DECREASE, stop);
+            let answer = self.descend(question, &from, LAST_DECREASE, &mut damping, stop);
             self.ends[end].posture = answer.posture;
             let iterations = iterations + answer.iterations;
             if answer.iterations == UNIT && !answer.converged && iterations < LAST_ITERATIONS {
-                return Stage::Finishing { end, iterations };
+                return Stage::Finishing { end, iterations, damping };
             }
             self.ends[end].finished = answer.converged;
         }
@@ -403,7 +425,8 @@ impl Search {
             (Attempt::End, reached) => {
                 if let Some(posture) = reached {
                     // Another branch: what Gauss-Newton makes of it is another end.
-                    let answer = self.descend(question, &posture, EXPLORING_DECREASE, stop);
+                    let mut damping = FIRST_DAMPING;
+                    let answer = self.descend(question, &posture, EXPLORING_DECREASE, &mut damping, stop);
                     self.note(End { posture: answer.posture, from: Some(posture), finished: false, done: false });
                 }
                 let Some(from) = self.ends[end].from.clone() else { return self.next_end() };

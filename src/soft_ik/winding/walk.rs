@@ -39,8 +39,8 @@ pub struct Walk {
     t: f64,
     step: f64,
     now: Posture,
-    /// The state before `now`, whose difference predicts the next.
-    before: Option<(f64, Vec<f64>)>,
+    /// The two states before `now`, the later one first: they predict the next.
+    before: Vec<(f64, Vec<f64>)>,
     /// Whether `O` fell in the last step.
     falling: bool,
     pace: Pace,
@@ -56,7 +56,7 @@ impl Walk {
             t: 0.0,
             step: FIRST_STEP.min(pace.longest),
             now: start.clone(),
-            before: None,
+            before: Vec::new(),
             falling: false,
             pace,
             stride: pace.stride * size,
@@ -99,22 +99,46 @@ impl Walk {
             None
         };
         self.falling = falls;
-        self.before = Some((self.t, last.x));
+        self.before.truncate(1);
+        self.before.insert(0, (self.t, last.x));
         self.t = t;
         (valley, spent)
     }
 
-    /// First-order prediction of the state at `t`, or the present one where that would invert a triangle.
+    /// Prediction of the state at `t`: along the parabola through the last three states, or along the line through the last two
+    /// where these are not on a smooth curve (a cable has become taut), or the present one where a prediction would invert a
+    /// triangle.
     fn predict(&self, question: &Question, t: f64) -> Vec<f64> {
         let x = &self.now.x;
-        let Some((before, old)) = &self.before else { return x.clone() };
-        let scale = (t - self.t) / (self.t - before);
-        let dx: Vec<f64> = x.iter().zip(old).map(|(a, b)| scale * (a - b)).collect();
+        let Some((t1, x1)) = self.before.first() else { return x.clone() };
+        let slope = |k: usize| (x[k] - x1[k]) / (self.t - t1);
+        let ahead = t - self.t;
+        let mut dx: Vec<f64> = (0..x.len()).map(|k| ahead * slope(k)).collect();
+        if let Some((t2, x2)) = self.before.get(1) {
+            // Newton's form: the second divided difference bends the line.
+            let bend = |k: usize| (slope(k) - (x1[k] - x2[k]) / (t1 - t2)) / (self.t - t2);
+            let bent: Vec<f64> = (0..x.len()).map(|k| dx[k] + ahead * (t - t1) * bend(k)).collect();
+            let (straight, off) = (largest(&dx), largest_difference(&bent, &dx));
+            if off <= BENT * straight {
+                dx = bent;
+            }
+        }
         if question.model.step_limit(x, &dx) < 1.0 {
             return x.clone();
         }
         x.iter().zip(&dx).map(|(a, d)| a + d).collect()
     }
+}
+
+/// A parabola is trusted where it departs from the line by at most this part of the step.
+const BENT: f64 = 0.5;
+
+fn largest(v: &[f64]) -> f64 {
+    v.iter().fold(0.0, |m, a| m.max(a.abs()))
+}
+
+fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).fold(0.0, |m, (p, q)| m.max((p - q).abs()))
 }
 
 /// The largest distance between the places of a node in two poses.
