@@ -14,13 +14,15 @@ use std::time::Instant;
 const SCREENING_STEPS: usize = 4;
 const SETTLING_STEPS: usize = 8;
 /// Steps in which a rig is wound from rest to the pose it reached.
-pub const WINDING_STEPS: usize = 5;
+const WINDING_STEPS: usize = 5;
 /// Gauss-Newton iterations: enough to tell networks apart, and to settle on one.
 const SCREENING_ITERATIONS: usize = 4;
 const SETTLING_ITERATIONS: usize = 25;
+/// Factorisations of a look at other valleys: about what settling in one costs.
+const LOOKING: usize = 150;
 
 /// Two states count as the same where their objectives agree to this factor.
-pub const SAME_STATE: f64 = 1.01;
+const SAME_STATE: f64 = 1.01;
 
 /// How carefully a rig is tried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -124,7 +126,12 @@ fn look(question: &mut Question, known: &Posture, care: Care, stop: &dyn Fn() ->
     let count = known.beta.len();
     let rest = question.model.rest.clone();
     let (zero, _) = question.settle(&vec![0.0; count], &rest, stop);
-    let care = if care == Care::Whole { winding::Care::THOROUGH } else { winding::Care::quick(count) };
+    let care = match care {
+        Care::Whole => winding::Care::THOROUGH,
+        // With many winches a look around costs more than it finds: what is known is proved.
+        _ if count > winding::LATTICE => winding::Care { walking: 0, polished: 0, ..winding::Care::quick(count) },
+        _ => winding::Care { walking: LOOKING, ..winding::Care::quick(count) },
+    };
     // A body that can turn freely has nothing to prove.
     let proved = question.model.free_pieces() == 0;
     let mut search = Search::new(question, &zero, winding::Care { proved, ..care });

@@ -317,7 +317,8 @@ impl Tracker {
         self.posture.objective = question.objective_at(&self.posture.x, &self.contractions);
         let iterations = if moved || !self.wound { budget } else { 0 };
         let mut answer = GaussNewton::default().solve(question, &self.posture, &Budget { iterations, stop });
-        self.wound = answer.converged || iterations == 0;
+        // It has ended, too, where no step leads on.
+        self.wound = answer.converged || iterations == 0 || answer.iterations < iterations && !stop();
         self.posture = answer.posture;
         if moved {
             self.search = None;

@@ -45,8 +45,8 @@ pub struct Care {
 impl Care {
     /// For a plushie's pose that is kept: what winding from rest reaches.
     pub const THOROUGH: Self = Self {
-        levels: [1, 8, 4],
-        spread: 24,
+        levels: [1, 4, 2],
+        spread: 8,
         pace: Pace { stride: 0.05, longest: 0.125, balance: 1e-4 },
         polished: 8,
         walking: usize::MAX,
