@@ -30,6 +30,8 @@ const PROVED: usize = 40;
 pub const MISSING: f64 = 0.01;
 /// Two values of `O` are the same where they differ by at most this part of the whole decrease.
 const SAME_VALUE: f64 = 1e-4;
+/// Where winches hardly help, what is missing is compared with this part of `O` at rest.
+const HARDLY: f64 = 1e-3;
 /// Iterations of every method.
 const ITERATIONS: usize = 300;
 /// Times are the shortest of so many.
@@ -109,8 +111,8 @@ impl Winding {
                 significant(missed.worst)
             ),
             format!(
-                "As problems {same} of {} have the best known value; the worst misses {} of the decrease. Time over that of \
-                 Gauss-Newton from its best start: median {}, worst {}.",
+                "As problems {same} of {} have the best known value; the worst misses {} of the decrease. \
+                 Factorisations over those of Gauss-Newton from its best start: median {}, worst {}.",
                 parts.len(),
                 significant(Summary::of(parts.iter().copied()).worst),
                 significant(times.median),
@@ -147,7 +149,7 @@ impl Winding {
         Ok((row, missing))
     }
 
-    /// The rig as a question of a problem file, with the missing part of the decrease of `O` and the ratio of times.
+    /// The rig as a question of a problem file, with the missing part of the decrease of `O` and the ratio of factorisations.
     fn problem(
         &self,
         shape: &str,
@@ -177,7 +179,7 @@ impl Winding {
             });
             session.check()?;
             let value = answer.posture.objective;
-            let decrease = (start.objective - value).max(f64::MIN_POSITIVE);
+            let decrease = (start.objective - value).max(HARDLY * start.objective).max(f64::MIN_POSITIVE);
             let better = alone.is_none_or(|(o, _, t)| {
                 value < o - SAME_VALUE * decrease || value <= o + SAME_VALUE * decrease && time < t
             });
@@ -190,7 +192,7 @@ impl Winding {
         let value = answer.posture.objective;
         let (alone, fewest, shortest) = alone.unwrap_or((start.objective, 1, f64::NAN));
         best = best.min(alone).min(value);
-        let decrease = (start.objective - best).max(f64::MIN_POSITIVE);
+        let decrease = (start.objective - best).max(HARDLY * start.objective).max(f64::MIN_POSITIVE);
         let (missing, alone) = ((value - best) / decrease, (alone - best) / decrease);
         let row = vec![
             (number + 1).into(),
@@ -201,7 +203,7 @@ impl Winding {
             fewest.into(),
             (time / shortest).into(),
         ];
-        Ok((row, missing, time / shortest))
+        Ok((row, missing, answer.factorizations as f64 / fewest.max(1) as f64))
     }
 }
 
