@@ -12,9 +12,11 @@ const WALKING: [f64; LATTICE] = [2.0, 1.2, 1.5];
 const MOST_WALKING: [usize; LATTICE] = [100, 80, 120];
 /// Polishing valleys may take so many times the factorisations of the first run.
 const POLISHING: f64 = 0.8;
-/// A run that is done sooner counts as this many factorisations: otherwise a start that no step leads away from, or next to a
-/// valley, would leave nothing for a look at the others.
-const SHORT_RUN: [usize; LATTICE] = [24, 40, 48];
+/// A run that is done sooner counts as this many factorisations: a start next to a valley leaves something for a look at the
+/// others.
+const SHORT_RUN: usize = 16;
+/// The same for a start that no step leads away from: there the walks are all that may lead to a valley.
+const STALLED_RUN: [usize; LATTICE] = [24, 40, 48];
 /// Iterations of the first run, before it waits for what the walks find: it may be slow towards a valley that is not the best.
 const FIRST_ITERATIONS: usize = 12;
 /// An end is better than the first where `O` is below this part of it: less is the same value.
@@ -32,7 +34,9 @@ pub fn least(question: &mut Question, start: &Posture, budget: &Budget) -> Answe
         return first;
     }
     let winches = question.actuation.winches.len();
-    let work = first.factorizations.max(SHORT_RUN[winches - 1]) as f64;
+    let stalled = first.posture.objective >= BETTER * start.objective;
+    let least = if stalled { STALLED_RUN[winches - 1] } else { SHORT_RUN };
+    let work = first.factorizations.max(least) as f64;
     let walking = MOST_WALKING[winches - 1].min((WALKING[winches - 1] * work) as usize);
     let mut search = Search::new(question, start, Care { walking, ..Care::quick(winches) });
     search.offer(&first.posture, first.converged);
