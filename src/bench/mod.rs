@@ -5,6 +5,7 @@
 //! | [`drag`] | what does a frame under the hand cost, and how good is it? |
 //! | [`cold`] | how fast is a far target approached from rest? ([`misses`]: how often is the best pose missed, on any shape?) |
 //! | [`wander`] | does a pose come back when the hand does, and may every frame on the way be shown? |
+//! | [`winding`] | is the pose shown the best that winding from rest reaches, and what does that cost? |
 //! | [`trade`] | what does accuracy cost, and which settings are never worth it? ([`locking`] of the triangles) |
 //! | [`resolution`] | how far do poses, activations and networks agree over mesh resolutions? |
 //! | [`scene`] | what does each optional part of a scene cost? |
@@ -39,6 +40,7 @@ pub mod silhouettes;
 pub mod statistics;
 pub mod trade;
 pub mod wander;
+pub mod winding;
 
 pub use crate::soft_ik::{Quality, Tracker};
 pub use report::{Cell, Report, Table};

@@ -7,7 +7,7 @@ use super::solve::Effort;
 use crate::bench::drags::{Path as DragPath, SWEEP_FRAMES};
 use crate::bench::{
     BenchError, Quality, Report, Session, cold, drag, extremes, import, linear, misses, properties, resolution, scene,
-    shapes, trade, wander,
+    shapes, trade, wander, winding,
 };
 use clap::{Args, Subcommand, ValueEnum};
 use std::cell::Cell;
@@ -97,6 +97,14 @@ enum Study {
         /// Drags of each shape
         #[arg(long, default_value_t = 10)]
         drags: usize,
+        #[command(flatten)]
+        common: Common,
+    },
+    /// Rigs of one to three winches: is the pose shown the best that winding from rest reaches, and at what cost
+    Winding {
+        /// Rigs of each number of winches
+        #[arg(long, default_value_t = 25)]
+        rigs: usize,
         #[command(flatten)]
         common: Common,
     },
@@ -198,6 +206,7 @@ impl Study {
             Self::Drag { common, .. }
             | Self::Cold { common, .. }
             | Self::Wander { common, .. }
+            | Self::Winding { common, .. }
             | Self::Trade { common, .. }
             | Self::Resolution { common, .. }
             | Self::Scene { common, .. }
@@ -245,6 +254,9 @@ impl Study {
             }
             Self::Wander { fibers, drags, common } => {
                 wander::Wander { shapes: common.shapes(&["all"]), fibers: *fibers, drags: *drags }.run(session)
+            }
+            Self::Winding { rigs, common } => {
+                winding::Winding { shapes: common.shapes(&["all"]), rigs: *rigs }.run(session)
             }
             Self::Trade { fibers, reference, common } => {
                 let shapes = common.shapes(&["pig"]);

@@ -30,6 +30,12 @@ pub struct PoseFigures {
     pub error_rest: f64,
     pub error_idealized: f64,
     pub error_realizable: f64,
+    /// The worst error of the realizable plushie where one winch is a millimetre off; absent without winches.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error_realizable_1mm_off: Option<f64>,
+    /// Whether that is so much worse that the pose counts as narrow.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub narrow: Option<bool>,
     pub milliseconds_idealized: f64,
     pub milliseconds_realizable: f64,
     /// Largest unbalanced force as a part of the forces at work.
@@ -108,6 +114,8 @@ fn pose_figures(design: &Design, pose: &Pose, cancel: &AtomicBool) -> Result<Pos
         error_rest: target_error(design, &pose.targets, &design.mesh.nodes),
         error_idealized: idealized.target_error,
         error_realizable: realizable.target_error,
+        error_realizable_1mm_off: realizable.play.map(|play| play.error),
+        narrow: realizable.play.map(|_| matches!(realizable.warning, Some(Warning::Narrow { .. }))),
         milliseconds_idealized: idealized.milliseconds,
         milliseconds_realizable: realizable.milliseconds,
         imbalance_idealized: idealized.distance_from_equilibrium(),

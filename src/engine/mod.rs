@@ -5,6 +5,7 @@
 
 pub mod compile;
 pub mod patch;
+pub mod play;
 pub mod propose;
 pub mod response;
 pub mod rig;
@@ -14,6 +15,7 @@ pub mod warning;
 pub mod worker;
 
 pub use crate::soft_ik::Quality;
+pub use play::Play;
 pub use propose::propose;
 pub use solver::{Effort, Solver};
 pub use warning::Warning;
@@ -50,6 +52,10 @@ pub struct Shape {
     pub factorizations: usize,
     /// From the question to this shape.
     pub milliseconds: f64,
+    /// Whether this is the best pose that winding from rest was found to reach: looked for with all effort, not cut short.
+    pub wound: bool,
+    /// What a millimetre of cable does to the pose, where it was looked for with all effort.
+    pub play: Option<Play>,
     /// What the user should know.
     pub warning: Option<Warning>,
 }

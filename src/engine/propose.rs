@@ -42,7 +42,7 @@ pub struct Candidate {
 pub fn propose(design: &Design, targets: &[Target], base: &Parameters, cancel: &AtomicBool) -> Vec<Proposal> {
     let mut tendon_nums = vec![base.tendon_num];
     tendon_nums.extend((1..=3).filter(|n| *n != base.tendon_num));
-    let Some(before) = Trial::new(design).map(|mut t| t.pose(design, targets, None, Care::Settle, cancel)) else {
+    let Some(before) = Trial::new(design).map(|mut t| t.pose(design, targets, None, Care::Whole, cancel)) else {
         return Vec::new();
     };
     let poses = [Known { targets, before: &before }];
@@ -189,7 +189,7 @@ pub fn rank(
     if cancel.load(Ordering::Relaxed) {
         return Vec::new();
     }
-    let settled = try_all(design, &best, poses, Care::Settle, cancel);
+    let settled = try_all(design, &best, poses, Care::Look, cancel);
     let before: Vec<Reached> = poses.iter().map(|p| p.before.clone()).collect();
     let mut out: Vec<(Candidate, Vec<Reached>)> = best.into_iter().zip(settled).collect();
     out.retain(|(_, reached)| misfit(design, poses, reached) < misfit(design, poses, &before));

@@ -65,7 +65,7 @@ pub fn rig(
         return Err(RigError::NoTargets);
     }
     let mut current = design.clone();
-    let mut reached = reach(&current, &poses, cancel);
+    let mut reached = reach(&current, &poses, &[], cancel);
     for winch in 0..options.max_winches {
         let known: Vec<Known> =
             poses.iter().zip(&reached).map(|((_, targets), before)| Known { targets, before }).collect();
@@ -87,7 +87,7 @@ pub fn rig(
         }
         drop(known);
         current = with_network(&current, &best.tendons);
-        reached = now;
+        reached = reach(&current, &poses, &now, cancel);
         let errors: Vec<String> =
             poses.iter().zip(&reached).map(|((name, _), r)| format!("{name} {:.1} %", 100.0 * r.error)).collect();
         progress(&format!("winch {}: {} tendons; {}", winch + 1, best.tendons.len(), errors.join(", ")));
@@ -99,12 +99,13 @@ pub fn rig(
     Ok(current)
 }
 
-/// What the present networks reach in every pose.
-fn reach(design: &Design, poses: &[(String, Vec<Target>)], cancel: &AtomicBool) -> Vec<Reached> {
+/// What the present networks reach in every pose when they are wound from rest; `known`: what was reached so far.
+fn reach(design: &Design, poses: &[(String, Vec<Target>)], known: &[Reached], cancel: &AtomicBool) -> Vec<Reached> {
     let mut out = Vec::new();
     if let Some(mut trial) = Trial::new(design) {
-        for (_, targets) in poses {
-            out.push(trial.pose(design, targets, None, Care::Settle, cancel));
+        for (k, (_, targets)) in poses.iter().enumerate() {
+            let known = known.get(k).map(|reached| &reached.posture);
+            out.push(trial.pose(design, targets, known, Care::Whole, cancel));
         }
     }
     out

@@ -1,11 +1,12 @@
 //! Poses both plushies of a design, warm-started from the request before.
 
 use super::compile::{Plushie, View, compile, objective};
-use super::trial::{SAME_STATE, WINDING_STEPS};
+use super::play::Play;
 use super::{Outcome, Quality, Question, Request, Shape, Warning};
 use crate::design::{Design, Target};
 use crate::soft_ik::contraction::GaussNewton;
-use crate::soft_ik::{self, Actuation, Answer, Budget, Method, Posture, Tracker, default_method};
+use crate::soft_ik::winding::{self, Care, Search};
+use crate::soft_ik::{self, Actuation, Answer, Budget, Method, Posture, Tracker};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
@@ -93,8 +94,14 @@ fn realize(slot: &mut Option<Compiled>, design: &Design, question: &Question, wo
         }
     };
     let answer = compiled.answer(design, targets, &actuation, beta, None, work);
+    let play = compiled.play(design, targets, &actuation, &answer.posture, work);
     let plushie = &compiled.plushie;
     let mut shape = report(design, plushie, targets, &answer.posture, clock).counted(&answer);
+    shape.wound = play.is_some() && plushie.model.free_pieces() == 0;
+    if shape.warning.is_none() {
+        shape.warning = Warning::of_play(design, targets, &shape, play.as_ref());
+    }
+    shape.play = play;
     if let Question::Activations(beta) = question {
         shape.activations_mm = beta.clone();
     }
@@ -137,6 +144,24 @@ fn idealize(
 }
 
 impl Compiled {
+    /// What a millimetre of cable does to a pose that was looked for with all effort; `None` where it was not.
+    fn play(
+        &mut self,
+        design: &Design,
+        targets: &[Target],
+        actuation: &Actuation,
+        posture: &Posture,
+        work: &Work,
+    ) -> Option<Play> {
+        let stop = || work.cancel.load(Ordering::Relaxed);
+        if targets.is_empty() || actuation.winches.is_empty() || work.effort != Effort::Thorough || stop() {
+            return None;
+        }
+        let objective = objective(design, &self.plushie, targets);
+        let mut question = soft_ik::Question { model: &mut self.plushie.model, actuation, objective: &objective };
+        Some(Play::of(&mut question, design, targets, posture, &stop))
+    }
+
     /// Solves one view. Without targets there is no inverse problem: statics alone, at activations `beta`.
     fn answer(
         &mut self,
@@ -204,7 +229,7 @@ fn answered(tracker: &Tracker, frame: &soft_ik::Frame) -> Answer {
     }
 }
 
-/// The winches from rest, and from where the hand has left them: the best of what both lead to and of what the hand has found.
+/// The best state that winding from rest reaches, what the hand has found included where winding leads there.
 fn wind_from_all(
     question: &mut soft_ik::Question,
     hand: Option<&Posture>,
@@ -212,37 +237,29 @@ fn wind_from_all(
     stop: &dyn Fn() -> bool,
 ) -> Answer {
     let rest = question.model.rest.clone();
-    let (rest, _) = question.settle(zero, &rest, stop);
-    let mut answer = wind_thoroughly(question, &rest, stop);
-    if let Some(hand) = hand {
-        let onwards = wind_thoroughly(question, hand, stop);
-        let found = Answer { posture: hand.clone(), ..answer.clone() };
-        let factorizations = answer.factorizations + onwards.factorizations;
-        for other in [onwards, found] {
-            let (new, old) = (&other.posture, &answer.posture);
-            if new.in_equilibrium() && (new.objective < old.objective || !old.in_equilibrium()) {
-                answer = other;
-            }
-        }
-        answer.factorizations = factorizations;
-    }
-    let contractions = question.actuation.contractions(&answer.posture.beta);
-    question.model.contractile.set_contractions(&contractions);
-    answer
-}
-
-/// The winches from several starts, ending in a state that winding from rest leads to.
-fn wind_thoroughly(question: &mut soft_ik::Question, start: &Posture, stop: &dyn Fn() -> bool) -> Answer {
+    let (rest, mut spent) = question.settle(zero, &rest, stop);
+    // A body that can turn freely ends in another position of the same pose each time: there is nothing to prove.
+    let proved = question.model.free_pieces() == 0;
+    let mut search = Search::new(question, &rest, Care { proved, ..Care::THOROUGH });
     let budget = Budget { iterations: THOROUGH_ITERATIONS, stop };
-    let mut answer = default_method::Default.solve(question, start, &budget);
-    // A state that winding from rest does not lead to is not one to promise.
-    let rest = question.model.rest.clone();
-    let (zero, _) = question.settle(&vec![0.0; start.beta.len()], &rest, stop);
-    let (wound, factorizations) = question.wind(&zero, &answer.posture.beta, WINDING_STEPS, stop);
-    answer.factorizations += factorizations;
-    if wound.objective > SAME_STATE * answer.posture.objective {
-        answer = GaussNewton::default().solve(question, &wound, &budget);
+    if zero.len() > winding::LATTICE {
+        let found = winding::from_several(question, &rest, &budget);
+        spent += found.factorizations;
+        search.offer(&found.posture, found.converged);
     }
+    if let Some(hand) = hand {
+        let onwards = GaussNewton::default().solve(question, hand, &budget);
+        spent += onwards.factorizations;
+        search.offer(&onwards.posture, onwards.converged);
+        search.offer(hand, false);
+    }
+    let mut answer = search.run(question, stop);
+    if let Some(hand) = hand.filter(|hand| stop() && hand.objective < answer.posture.objective) {
+        answer.posture = hand.clone();
+        let contractions = question.actuation.contractions(&answer.posture.beta);
+        question.model.contractile.set_contractions(&contractions);
+    }
+    answer.factorizations += spent;
     answer
 }
 
@@ -344,6 +361,8 @@ pub(super) fn report(
         iterations: 0,
         factorizations: 0,
         milliseconds: clock.elapsed().as_secs_f64() * 1e3,
+        wound: false,
+        play: None,
         warning: Warning::of(plushie, posture),
     }
 }

@@ -5,6 +5,7 @@ use super::compile::{Plushie, View, compile, objective};
 use super::solver::{report, target_error};
 use crate::design::{Design, Target};
 use crate::soft_ik::contraction::GaussNewton;
+use crate::soft_ik::winding::{self, Search};
 use crate::soft_ik::{Actuation, Budget, Method, Posture, Question};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
@@ -13,19 +14,27 @@ use std::time::Instant;
 const SCREENING_STEPS: usize = 4;
 const SETTLING_STEPS: usize = 8;
 /// Steps in which a rig is wound from rest to the pose it reached.
-pub const WINDING_STEPS: usize = 5;
+const WINDING_STEPS: usize = 5;
 /// Gauss-Newton iterations: enough to tell networks apart, and to settle on one.
 const SCREENING_ITERATIONS: usize = 4;
 const SETTLING_ITERATIONS: usize = 25;
+/// Factorisations of a look at other valleys: about what settling in one costs.
+const LOOKING: usize = 150;
 
 /// Two states count as the same where their objectives agree to this factor.
-pub const SAME_STATE: f64 = 1.01;
+const SAME_STATE: f64 = 1.01;
 
 /// How carefully a rig is tried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Care {
+    /// Enough to tell candidates apart.
     Screen,
+    /// To the end of the valley at hand.
     Settle,
+    /// A look at the other valleys as well; what is reached is proved to be wound from rest.
+    Look,
+    /// The same with all effort: what `check` tells of the pose.
+    Whole,
 }
 
 /// A pose reached by a rig.
@@ -78,7 +87,7 @@ impl Trial {
         let steps = match care {
             _ if known_count == count => 0,
             Care::Screen => SCREENING_STEPS,
-            Care::Settle => SETTLING_STEPS,
+            _ => SETTLING_STEPS,
         };
         for step in 1..=steps {
             (posture, _) = question.settle(&at(step as f64 / steps as f64), &posture.x, &stop);
@@ -97,6 +106,9 @@ impl Trial {
                 posture = GaussNewton::default().solve(&mut question, &wound, &budget).posture;
             }
         }
+        if matches!(care, Care::Look | Care::Whole) {
+            posture = look(&mut question, &posture, care, &stop);
+        }
         let nodes: Vec<[f64; 2]> = posture.x.chunks_exact(2).map(|p| [p[0], p[1]]).collect();
         Reached { error: target_error(design, targets, &nodes), posture }
     }
@@ -107,4 +119,22 @@ impl Trial {
         self.plushie.model.contractile.set_contractions(&contractions);
         report(design, &self.plushie, targets, &reached.posture, Instant::now())
     }
+}
+
+/// The best that winding from rest reaches, `known` included where winding leads there.
+fn look(question: &mut Question, known: &Posture, care: Care, stop: &dyn Fn() -> bool) -> Posture {
+    let count = known.beta.len();
+    let rest = question.model.rest.clone();
+    let (zero, _) = question.settle(&vec![0.0; count], &rest, stop);
+    let care = match care {
+        Care::Whole => winding::Care::THOROUGH,
+        // With many winches a look around costs more than it finds: what is known is proved.
+        _ if count > winding::LATTICE => winding::Care { walking: 0, polished: 0, ..winding::Care::quick(count) },
+        _ => winding::Care { walking: LOOKING, ..winding::Care::quick(count) },
+    };
+    // A body that can turn freely has nothing to prove.
+    let proved = question.model.free_pieces() == 0;
+    let mut search = Search::new(question, &zero, winding::Care { proved, ..care });
+    search.offer(known, false);
+    search.run(question, stop).posture
 }

@@ -1,12 +1,19 @@
 //! What the user should know about a shape.
 
 use super::compile::Plushie;
+use super::solver::target_error;
+use super::{Play, Shape};
+use crate::design::{Design, Target};
 use crate::outline::Point;
 use crate::physics::Cause;
 use crate::soft_ik::Posture;
 
 /// A triangle of less than this part of its area is pressed flat: stuffing does not go there.
 const PRESSED_FLAT: f64 = 1e-2;
+
+/// A pose whose target error grows by more than this part of the error at rest where a cable is a millimetre off is a narrow one:
+/// hardly a winch is set that well.
+const NARROW: f64 = 0.05;
 
 /// Ready to be shown as one line.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -20,6 +27,19 @@ pub enum Warning {
     },
     #[error("A part of the body is pressed flat: pull less, pull elsewhere, or soften the cables.")]
     PressedFlat,
+    #[error(
+        "A narrow pose: with a millimetre of cable too much or too little on {winch}, the target error grows from {:.1} % to \
+         {:.1} % of the body length.",
+        100.0 * before,
+        100.0 * after
+    )]
+    Narrow {
+        /// The winch on which it costs most.
+        winch: String,
+        /// Target errors, in body lengths.
+        before: f64,
+        after: f64,
+    },
     #[error("Not in equilibrium: {0}.")]
     Unbalanced(Cause),
     #[error("{0}")]
@@ -46,6 +66,15 @@ impl Warning {
             return Some(Self::PressedFlat);
         }
         posture.unsettled.map(Self::Unbalanced)
+    }
+
+    /// About a pose that is only reached where cables have exactly the right length.
+    pub(super) fn of_play(design: &Design, targets: &[Target], shape: &Shape, play: Option<&Play>) -> Option<Self> {
+        let Play { winch, error } = *play?;
+        let rest = target_error(design, targets, &design.mesh.nodes);
+        let narrow = error - shape.target_error > NARROW * rest;
+        let winch = design.networks.get(winch)?.name.clone();
+        narrow.then_some(Self::Narrow { winch, before: shape.target_error, after: error })
     }
 
     /// Whether it will go by itself once the solver has had its time.

@@ -202,7 +202,11 @@ fn is_better(new: &Outcome, old: &Outcome) -> bool {
     if pairs().any(|(new, old)| new.converged && !old.converged) {
         return true;
     }
-    let gain = |(new, old): (&Shape, &Shape)| old.target_error - new.target_error;
+    // What the hand has led to and winding from rest does not is left, though it may be nearer to the targets.
+    let gain = |(new, old): (&Shape, &Shape)| {
+        let gain = old.target_error - new.target_error;
+        if new.wound && !old.wound { gain.abs() } else { gain }
+    };
     pairs().map(gain).any(|gain| gain > WORTH_SHOWING) && pairs().map(gain).all(|gain| gain > -WORTH_SHOWING)
 }
 

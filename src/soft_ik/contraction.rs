@@ -27,7 +27,7 @@ impl Default for GaussNewton {
 }
 
 /// First damping, relative to the diagonal of `J^T J`.
-const FIRST_DAMPING: f64 = 1e-4;
+pub const FIRST_DAMPING: f64 = 1e-4;
 /// A tangent below this part of `K` counts as slack: rounding, or the very foot of the cubic, leaves no useful derivative.
 const BARELY_TAUT: f64 = 1e-3;
 /// Damping at which no useful step is left.
@@ -39,9 +39,16 @@ impl Method for GaussNewton {
     }
 
     fn solve(&self, question: &mut Question, start: &Posture, budget: &Budget) -> Answer {
+        let mut damping = FIRST_DAMPING;
+        self.resume(question, start, budget, &mut damping)
+    }
+}
+
+impl GaussNewton {
+    /// The same in parts: `damping` is kept from one part to the next, [`FIRST_DAMPING`] for the first.
+    pub fn resume(&self, question: &mut Question, start: &Posture, budget: &Budget, damping: &mut f64) -> Answer {
         let mut best = start.clone();
         let mut answer = Answer::at(&best);
-        let mut damping = FIRST_DAMPING;
         if question.actuation.winches.is_empty() {
             answer.converged = true;
             return answer;
@@ -52,8 +59,8 @@ impl Method for GaussNewton {
             let Some(local) = Linearisation::new(question, &best, budget.stop) else { break };
             let floor = self.relative_decrease * best.objective;
             let mut improved = false;
-            while damping < LAST_DAMPING && !(budget.stop)() {
-                let Some((step, promised)) = local.step(damping, budget.stop) else { break };
+            while *damping < LAST_DAMPING && !(budget.stop)() {
+                let Some((step, promised)) = local.step(*damping, budget.stop) else { break };
                 if promised <= floor {
                     // Strong damping or many clipped activations make a promise small anywhere. Stationary is where no single
                     // activation promises anything either.
@@ -61,7 +68,7 @@ impl Method for GaussNewton {
                         answer.converged = true;
                         break;
                     }
-                    damping = (damping * 8.0).max(1e-8);
+                    *damping = (*damping * 8.0).max(1e-8);
                     continue;
                 }
                 let mut beta: Vec<f64> = local.base.iter().zip(step.iter()).map(|(b, d)| b + d).collect();
@@ -71,12 +78,12 @@ impl Method for GaussNewton {
                 answer.factorizations += factorizations;
                 let gain = best.objective - trial.objective;
                 if trial.in_equilibrium() && gain > 1e-4 * promised {
-                    damping = (damping * if gain > 0.7 * promised { 0.1 } else { 0.5 }).max(1e-12);
+                    *damping = (*damping * if gain > 0.7 * promised { 0.1 } else { 0.5 }).max(1e-12);
                     best = trial;
                     improved = true;
                     break;
                 }
-                damping = (damping * 8.0).max(1e-8);
+                *damping = (*damping * 8.0).max(1e-8);
             }
             if !improved {
                 break;

@@ -1,25 +1,18 @@
 //! The default: chooses and combines the methods.
 //!
-//! Fibres (every winch one element): the all-at-once method in tension space where the objective is the tension-regularised one;
-//! else, and for many winches of any kind, Newton's method in contraction space from several starts ([`super::fibers`]).
-//! Few winches: Gauss-Newton in contraction space, from several starts, since few cables leave real local minima.
+//! Fibres (every winch one element) in a drag: the all-at-once method in tension space, whose objective is the drag's.
+//! Else, where there are many, and for many winches of any kind: Newton's method in contraction space from several starts
+//! ([`super::fibers`]). Few winches leave real local minima: a look at the states that winding reaches ([`winding`]), and
+//! Newton's method at the end.
 
-use super::contraction::GaussNewton;
 use super::newton::Newton;
 use super::tension::AllAtOnce;
-use super::{Actuation, Answer, Budget, Method, Posture, Question};
+use super::{Answer, Budget, Method, Posture, Question, fibers, winding};
 
-/// Beyond this many free winches the dense Gauss-Newton step (cost ~ winches^3) is not worth its time.
-const MANY: usize = 12;
-/// Iterations and relative decrease from each of several starts; the best is then followed to the end.
-const EXPLORING_ITERATIONS: usize = 40;
-const EXPLORING_DECREASE: f64 = 1e-5;
-/// Up to this many winches are also recruited one by one.
-const SEQUENTIAL_LIMIT: usize = 12;
-/// Steps in which a new winch is wound over its range.
-const SEQUENTIAL_STEPS: usize = 8;
-/// Up to this many free winches, starts are combined winch by winch.
-const COMBINED_STARTS: usize = 4;
+/// Up to this many free winches of one element each are treated as winches.
+const FEW: usize = 4;
+/// Up to this many winches of several elements their wound states can be looked at.
+const FEW_WINCHES: usize = 12;
 
 /// Solves from rest: the activation start given (clamped), several others, the best answer.
 pub fn solve(question: &mut Question, beta_start: &[f64], budget: &Budget) -> Answer {
@@ -40,136 +33,21 @@ impl Method for Default {
     }
 
     fn solve(&self, question: &mut Question, start: &Posture, budget: &Budget) -> Answer {
-        let own_objective = question.objective.tension_weight == 0.0;
         let count = question.actuation.winches.len();
-        let mut best = Answer::at(start);
-        let fibers = question.actuation.is_fibers_only();
-        if own_objective && (fibers && count > COMBINED_STARTS || count > MANY) {
-            return super::fibers::solve(question, start, budget);
+        let single = question.actuation.is_fibers_only();
+        let own_objective = question.objective.tension_weight == 0.0;
+        let few = count <= if single { FEW } else { FEW_WINCHES };
+        if !few && own_objective {
+            return fibers::solve(question, start, budget);
         }
-        if fibers && count > COMBINED_STARTS {
+        if !few && single {
             return AllAtOnce::default().solve(question, start, budget);
         }
-        let explore = GaussNewton { relative_decrease: EXPLORING_DECREASE };
-        let exploring = Budget { iterations: budget.iterations.min(EXPLORING_ITERATIONS), stop: budget.stop };
-        for beta in starts(question, start) {
-            if (budget.stop)() {
-                break;
-            }
-            let (posture, factorizations) = question.settle(&beta, &start.x, budget.stop);
-            best.factorizations += factorizations;
-            if posture.in_equilibrium() {
-                best.absorb(explore.solve(question, &posture, &exploring));
-            }
-        }
-        if count > 1 && count <= SEQUENTIAL_LIMIT {
-            best.absorb(one_by_one(question, start, &explore, &exploring));
-        }
-        let from = best.posture.clone();
-        best.absorb(GaussNewton::default().solve(question, &from, budget));
-        if own_objective {
+        let mut best = winding::least(question, start, budget);
+        if own_objective && !(budget.stop)() {
             let from = best.posture.clone();
             best.absorb(Newton::default().solve(question, &from, budget));
         }
-        let contractions = question.actuation.contractions(&best.posture.beta);
-        question.model.contractile.set_contractions(&contractions);
         best
     }
-}
-
-/// Recruits the winches one after another: each is wound over its range, then adjusted together with those before it, while
-/// those after it wait. Large bends that one winch must begin are found this way.
-fn one_by_one(question: &mut Question, start: &Posture, method: &GaussNewton, budget: &Budget) -> Answer {
-    let all = question.actuation;
-    // Waiting winches pay out as far as they may: a cable that is not yet in use must not hold the body back.
-    let mut beta: Vec<f64> =
-        all.winches.iter().zip(&start.beta).map(|(w, b)| if w.lower.is_finite() { w.lower } else { *b }).collect();
-    let (posture, factorizations) = question.settle(&beta, &start.x, budget.stop);
-    let mut best = Answer { factorizations, ..Answer::at(&posture) };
-    for count in 1..=all.winches.len() {
-        let some = Actuation { winches: all.winches[..count].to_vec(), fixed: all.contractions(&beta) };
-        let mut inner = Question { model: &mut *question.model, actuation: &some, objective: question.objective };
-        let winch = &all.winches[count - 1];
-        let upper = if winch.upper.is_finite() { winch.upper } else { reach(&inner, count - 1) };
-        let from = Posture { beta: beta[..count].to_vec(), ..best.posture.clone() };
-        best.posture.beta = from.beta.clone();
-        let (mut posture, factorizations) = inner.settle(&from.beta, &from.x, budget.stop);
-        best.factorizations += factorizations;
-        // Wind the new winch slowly and go on from where the body came closest.
-        let mut closest = posture.clone();
-        let slack = posture.beta[count - 1].max(0.0_f64.max(winch.lower));
-        for step in 1..=SEQUENTIAL_STEPS {
-            if (budget.stop)() {
-                break;
-            }
-            let mut tried = from.beta.clone();
-            tried[count - 1] = slack + (upper - slack) * step as f64 / SEQUENTIAL_STEPS as f64;
-            some.clamp(&mut tried);
-            let (next, factorizations) = inner.settle(&tried, &posture.x, budget.stop);
-            best.factorizations += factorizations;
-            posture = next;
-            if posture.in_equilibrium() && posture.objective < closest.objective {
-                closest = posture.clone();
-            }
-        }
-        best.absorb(method.solve(&mut inner, &closest, budget));
-        beta[..count].copy_from_slice(&best.posture.beta);
-    }
-    best.posture.beta = beta;
-    best
-}
-
-/// A take-in for a winch without bound: half the shortest of its elements.
-fn reach(question: &Question, winch: usize) -> f64 {
-    let elements = &question.model.contractile.elements;
-    let members = &question.actuation.winches[winch].members;
-    0.5 * members.iter().map(|&(e, r)| elements[e].alpha0 / r).fold(f64::INFINITY, f64::min)
-}
-
-/// Starting activations: the given ones, all winches just taut, and parts of the range (all combinations for few winches).
-fn starts(question: &Question, start: &Posture) -> Vec<Vec<f64>> {
-    let elements = &question.model.contractile.elements;
-    let taut: Vec<f64> = question
-        .actuation
-        .winches
-        .iter()
-        .map(|w| {
-            w.members
-                .iter()
-                .map(|&(e, r)| (elements[e].alpha0 - elements[e].length(&start.x) + elements[e].epsilon) / r)
-                .fold(f64::NEG_INFINITY, f64::max)
-        })
-        .collect();
-    let upper: Vec<f64> = question
-        .actuation
-        .winches
-        .iter()
-        .zip(&taut)
-        .map(|(w, t)| {
-            if w.upper.is_finite() {
-                w.upper
-            } else {
-                let shortest = w.members.iter().map(|&(e, r)| elements[e].alpha0 / r).fold(f64::INFINITY, f64::min);
-                t.max(0.5 * shortest)
-            }
-        })
-        .collect();
-    let part = |j: usize, s: f64| taut[j] + s * (upper[j] - taut[j]).max(0.0);
-    let mut out = vec![start.beta.clone(), taut.clone()];
-    let count = taut.len();
-    if count <= COMBINED_STARTS {
-        let levels = [0.0, 0.35, 0.7];
-        for code in 1..levels.len().pow(count as u32) {
-            out.push((0..count).map(|j| part(j, levels[code / levels.len().pow(j as u32) % levels.len()])).collect());
-        }
-    } else {
-        for s in [0.15, 0.4, 0.7] {
-            out.push((0..count).map(|j| part(j, s)).collect());
-        }
-    }
-    for beta in &mut out {
-        question.actuation.clamp(beta);
-    }
-    out.dedup();
-    out
 }

@@ -28,6 +28,7 @@ mod quadratic;
 pub mod sensitivity;
 pub mod tension;
 pub mod tracker;
+pub mod winding;
 
 pub use actuation::{Actuation, Winch};
 pub use default_method::solve;
@@ -112,9 +113,20 @@ pub trait Method {
 impl Question<'_> {
     /// The equilibrium at activations `beta`, statics started from `from`. The best state reached, where statics fails.
     pub fn settle(&mut self, beta: &[f64], from: &[f64], stop: &dyn Fn() -> bool) -> (Posture, usize) {
+        self.settle_to(beta, from, &StaticsSettings::default(), stop)
+    }
+
+    /// The same, as far as `settings` ask for.
+    pub fn settle_to(
+        &mut self,
+        beta: &[f64],
+        from: &[f64],
+        settings: &StaticsSettings,
+        stop: &dyn Fn() -> bool,
+    ) -> (Posture, usize) {
         let contractions = self.actuation.contractions(beta);
         self.model.contractile.set_contractions(&contractions);
-        let (state, unsettled) = match statics::solve(self.model, from, &StaticsSettings::default(), stop) {
+        let (state, unsettled) = match statics::solve(self.model, from, settings, stop) {
             Ok(state) => (state, None),
             Err(error) => (error.best, Some(error.cause)),
         };

@@ -6,9 +6,13 @@
 //! A frame has no memory of bad states. Once the targets rest, a second run starts from the rest shape, in the frames that the
 //! first one no longer needs; unless it ends far worse, its pose is taken. So the pose in which a drag comes to rest is the
 //! one that the targets alone lead to.
+//!
+//! Winches of several elements follow the hand by Gauss-Newton; once the targets rest, the wound states are looked at as a whole
+//! ([`super::winding`]), so many factorisations a frame, and the best that winding from rest reaches is taken.
 
 use super::contraction::GaussNewton;
 use super::tension::{RETURNS, Run, Workspace, snapped};
+use super::winding::{Care, Search};
 use super::{Budget, Method, Posture, Question, Winch};
 use crate::physics::statics::Reuse;
 use crate::physics::{Cause, Law, StaticsSettings, statics};
@@ -89,6 +93,8 @@ pub struct Tracker {
     fixed: Vec<f64>,
     /// Whether the winches' method had converged.
     wound: bool,
+    /// Looks for the best wound state while the targets rest.
+    search: Option<Search>,
     fibers: Option<Fibers>,
     statics: statics::Workspace,
     contractions: Vec<f64>,
@@ -208,6 +214,7 @@ impl Tracker {
             goals: question.objective.targets.iter().map(|t| t.goal).collect(),
             fixed: question.actuation.fixed.clone(),
             wound: false,
+            search: None,
             fibers,
             statics: statics::Workspace::new(start.x.len()),
             contractions: vec![0.0; elements],
@@ -328,18 +335,60 @@ impl Tracker {
         question.model.contractile.set_contractions(&self.contractions);
         self.posture.objective = question.objective_at(&self.posture.x, &self.contractions);
         let iterations = if moved || !self.wound { budget } else { 0 };
-        let answer = GaussNewton::default().solve(question, &self.posture, &Budget { iterations, stop });
-        self.wound = answer.converged || iterations == 0;
+        let mut answer = GaussNewton::default().solve(question, &self.posture, &Budget { iterations, stop });
+        // It has ended, too, where no step leads on.
+        self.wound = answer.converged || iterations == 0 || answer.iterations < iterations && !stop();
         self.posture = answer.posture;
+        if moved {
+            self.search = None;
+        } else if iterations == 0 {
+            answer.factorizations += self.look_around(question, budget, stop);
+        }
         let phases = Phases { line_search: clock.elapsed().as_secs_f64(), ..Phases::default() };
         Frame {
             iterations: answer.iterations,
             factorizations: answer.factorizations,
-            converged: self.wound,
+            converged: self.wound && self.search.as_ref().is_some_and(Search::is_done),
             residual: self.posture.residual,
             force_scale: question.model.force_scale_into(&self.posture.x, &mut self.trial),
             phases,
         }
+    }
+}
+
+impl Tracker {
+    /// A frame's part of the search for the best wound state; at its end that is shown. Returns the factorisations spent.
+    fn look_around(&mut self, question: &mut Question, budget: usize, stop: &dyn Fn() -> bool) -> usize {
+        let mut spent = 0;
+        // A body that can turn freely ends in another position of the same pose each time: there is nothing to prove.
+        let proved = question.model.free_pieces() == 0;
+        let mut search = match self.search.take() {
+            Some(search) => search,
+            None => {
+                let mut zero = vec![0.0; self.posture.beta.len()];
+                question.actuation.clamp(&mut zero);
+                let rest = question.model.rest.clone();
+                let (rest, count) = question.settle(&zero, &rest, stop);
+                if stop() {
+                    return count;
+                }
+                spent += count;
+                let mut search = Search::new(question, &rest, Care { proved, ..Care::THOROUGH });
+                search.offer(&self.posture, true);
+                search
+            }
+        };
+        if !search.is_done() {
+            spent += search.advance(question, budget.saturating_sub(spent), stop);
+            let best = search.best();
+            if search.is_done() && (proved || best.objective < self.posture.objective) {
+                self.posture.clone_from(best);
+            }
+            question.actuation.contractions_into(&self.posture.beta, &mut self.contractions);
+            question.model.contractile.set_contractions(&self.contractions);
+        }
+        self.search = Some(search);
+        spent
     }
 }
 

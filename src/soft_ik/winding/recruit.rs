@@ -1,0 +1,159 @@
+//! More winches: Newton's method from several starts.
+
+use super::rays::reach;
+use crate::soft_ik::contraction::GaussNewton;
+use crate::soft_ik::newton::Newton;
+use crate::soft_ik::{Actuation, Answer, Budget, Method, Posture, Question};
+
+/// Iterations and relative decrease from each of several starts; the best is then followed to the end.
+const EXPLORING_ITERATIONS: usize = 40;
+const EXPLORING_DECREASE: f64 = 1e-5;
+const NEWTON_DECREASE: f64 = 1e-3;
+/// Up to this many winches are also recruited one by one.
+const SEQUENTIAL_LIMIT: usize = 12;
+/// Steps in which a new winch is wound over its range.
+const SEQUENTIAL_STEPS: usize = 8;
+/// Up to this many free winches, starts are combined winch by winch.
+const COMBINED_STARTS: usize = 4;
+/// Starts are no longer tried once so many in a row have ended in the value that is the best.
+const REPEATS: usize = 3;
+/// Two values are the same where they differ by less than this part.
+const SAME_VALUE: f64 = 1e-4;
+
+/// The best of several starts, and of recruiting the winches one by one.
+pub fn from_several(question: &mut Question, start: &Posture, budget: &Budget) -> Answer {
+    let mut best = Answer::at(start);
+    let count = question.actuation.winches.len();
+    let method = exploring(question);
+    let exploring = Budget { iterations: budget.iterations.min(EXPLORING_ITERATIONS), stop: budget.stop };
+    let mut repeats = 0;
+    for beta in starts(question, start) {
+        if (budget.stop)() || repeats >= REPEATS {
+            break;
+        }
+        let (posture, factorizations) = question.settle(&beta, &start.x, budget.stop);
+        best.factorizations += factorizations;
+        if posture.in_equilibrium() {
+            let before = best.posture.objective;
+            let answer = method.solve(question, &posture, &exploring);
+            let same = (answer.posture.objective - before).abs() <= SAME_VALUE * before;
+            repeats = if same { repeats + 1 } else { 0 };
+            best.starts += 1;
+            best.absorb(answer);
+        }
+    }
+    if count > 1 && count <= SEQUENTIAL_LIMIT {
+        best.starts += 1;
+        best.absorb(one_by_one(question, start, method.as_ref(), &exploring));
+    }
+    let from = best.posture.clone();
+    let last: Box<dyn Method> =
+        if has_newton(question) { Box::new(Newton::default()) } else { Box::new(GaussNewton::default()) };
+    best.absorb(last.solve(question, &from, budget));
+    let contractions = question.actuation.contractions(&best.posture.beta);
+    question.model.contractile.set_contractions(&contractions);
+    best
+}
+
+/// Newton's method, quick on winches, knows no weight on tensions.
+fn has_newton(question: &Question) -> bool {
+    question.objective.tension_weight == 0.0
+}
+
+fn exploring(question: &Question) -> Box<dyn Method> {
+    if has_newton(question) {
+        Box::new(Newton { relative_decrease: NEWTON_DECREASE })
+    } else {
+        Box::new(GaussNewton { relative_decrease: EXPLORING_DECREASE })
+    }
+}
+
+/// Recruits the winches one after another: each is wound over its range, then adjusted together with those before it, while
+/// those after it wait. Large bends that one winch must begin are found this way.
+fn one_by_one(question: &mut Question, start: &Posture, method: &dyn Method, budget: &Budget) -> Answer {
+    let all = question.actuation;
+    // Waiting winches pay out as far as they may: a cable that is not yet in use must not hold the body back.
+    let mut beta: Vec<f64> =
+        all.winches.iter().zip(&start.beta).map(|(w, b)| if w.lower.is_finite() { w.lower } else { *b }).collect();
+    let (posture, factorizations) = question.settle(&beta, &start.x, budget.stop);
+    let mut best = Answer { factorizations, ..Answer::at(&posture) };
+    for count in 1..=all.winches.len() {
+        let some = Actuation { winches: all.winches[..count].to_vec(), fixed: all.contractions(&beta) };
+        let mut inner = Question { model: &mut *question.model, actuation: &some, objective: question.objective };
+        let winch = &all.winches[count - 1];
+        let upper = if winch.upper.is_finite() { winch.upper } else { reach(&inner, count - 1) };
+        let from = Posture { beta: beta[..count].to_vec(), ..best.posture.clone() };
+        best.posture.beta = from.beta.clone();
+        let (mut posture, factorizations) = inner.settle(&from.beta, &from.x, budget.stop);
+        best.factorizations += factorizations;
+        // Wind the new winch slowly and go on from where the body came closest.
+        let mut closest = posture.clone();
+        let slack = posture.beta[count - 1].max(0.0_f64.max(winch.lower));
+        for step in 1..=SEQUENTIAL_STEPS {
+            if (budget.stop)() {
+                break;
+            }
+            let mut tried = from.beta.clone();
+            tried[count - 1] = slack + (upper - slack) * step as f64 / SEQUENTIAL_STEPS as f64;
+            some.clamp(&mut tried);
+            let (next, factorizations) = inner.settle(&tried, &posture.x, budget.stop);
+            best.factorizations += factorizations;
+            posture = next;
+            if posture.in_equilibrium() && posture.objective < closest.objective {
+                closest = posture.clone();
+            }
+        }
+        best.absorb(method.solve(&mut inner, &closest, budget));
+        beta[..count].copy_from_slice(&best.posture.beta);
+    }
+    best.posture.beta = beta;
+    best
+}
+
+/// Starting activations: the given ones, all winches just taut, and parts of the range (all combinations for few winches).
+fn starts(question: &Question, start: &Posture) -> Vec<Vec<f64>> {
+    let elements = &question.model.contractile.elements;
+    let taut: Vec<f64> = question
+        .actuation
+        .winches
+        .iter()
+        .map(|w| {
+            w.members
+                .iter()
+                .map(|&(e, r)| (elements[e].alpha0 - elements[e].length(&start.x) + elements[e].epsilon) / r)
+                .fold(f64::NEG_INFINITY, f64::max)
+        })
+        .collect();
+    let upper: Vec<f64> = question
+        .actuation
+        .winches
+        .iter()
+        .zip(&taut)
+        .map(|(w, t)| {
+            if w.upper.is_finite() {
+                w.upper
+            } else {
+                let shortest = w.members.iter().map(|&(e, r)| elements[e].alpha0 / r).fold(f64::INFINITY, f64::min);
+                t.max(0.5 * shortest)
+            }
+        })
+        .collect();
+    let part = |j: usize, s: f64| taut[j] + s * (upper[j] - taut[j]).max(0.0);
+    let mut out = vec![start.beta.clone(), taut.clone()];
+    let count = taut.len();
+    if count <= COMBINED_STARTS {
+        let levels = [0.0, 0.35, 0.7];
+        for code in 1..levels.len().pow(count as u32) {
+            out.push((0..count).map(|j| part(j, levels[code / levels.len().pow(j as u32) % levels.len()])).collect());
+        }
+    } else {
+        for s in [0.15, 0.4, 0.7] {
+            out.push((0..count).map(|j| part(j, s)).collect());
+        }
+    }
+    for beta in &mut out {
+        question.actuation.clamp(beta);
+    }
+    out.dedup();
+    out
+}
