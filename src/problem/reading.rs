@@ -180,7 +180,7 @@ fn check_shape<T: serde::de::DeserializeOwned>(
         Some(Value::Array(items)) => {
             for (i, item) in items.iter().enumerate() {
                 if let Err(e) = serde_json::from_value::<T>(item.clone()) {
-                    return Err(content(&format!("{key}[{i}]"), format!("expected {expected}: {e}")));
+                    return Err(content(format_args!("{key}[{i}]"), format!("expected {expected}: {e}")));
                 }
             }
             Ok(())
