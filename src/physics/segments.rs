@@ -244,13 +244,14 @@ impl Work for Hessian<'_, '_> {
             let pulled = self.segments.pull::<FUSED>(chunk.clone(), self.elements, self.laws, self.x);
             let Some(pulled) = pulled else { continue };
             let mut block = [[0.0; CHUNK]; 3];
+            let [along, mixed, across] = &mut block;
             for l in 0..count {
                 let (ux, uy, tangent) = (pulled.ux[l], pulled.uy[l], pulled.tangents[l]);
                 let bend = pulled.tensions[l] / pulled.lengths[l];
                 let (xx, yy) = (ux * ux, uy * uy);
-                block[0][l] = fma(tangent, xx, bend * (yy + pulled.ww[l]));
-                block[1][l] = (tangent - bend) * ux * uy;
-                block[2][l] = fma(tangent, yy, bend * (xx + pulled.ww[l]));
+                along[l] = fma(tangent, xx, bend * (yy + pulled.ww[l]));
+                mixed[l] = (tangent - bend) * ux * uy;
+                across[l] = fma(tangent, yy, bend * (xx + pulled.ww[l]));
             }
             for (l, &k) in self.segments.elements[chunk].iter().enumerate().take(count) {
                 let [xx, xy, yy] = [block[0][l], block[1][l], block[2][l]];

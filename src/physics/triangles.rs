@@ -31,6 +31,9 @@ struct Deformed {
     j: Lanes,
 }
 
+/// Adds the forces of one triangle to the gradient, and to the scales where there are any.
+type Alone<'a> = dyn FnMut(usize, &mut [f64], Option<&mut Scales>) + 'a;
+
 impl Triangles {
     pub fn new(triangles: &[[usize; 3]], gradients: &[[Vector2<f64>; 3]], weights: &[f64]) -> Self {
         Self {
@@ -77,7 +80,7 @@ impl Triangles {
         x: &[f64],
         gradient: &mut [f64],
         scales: Option<(&mut Scales, f64)>,
-        alone: &mut dyn FnMut(usize, &mut [f64], Option<&mut Scales>),
+        alone: &mut Alone,
     ) {
         wide::run(Gradient { triangles: self, material, x, gradient, scales, alone });
     }
@@ -122,7 +125,7 @@ struct Gradient<'a, 's> {
     gradient: &'a mut [f64],
     /// With the strain that counts as a force at work.
     scales: Option<(&'a mut Scales<'s>, f64)>,
-    alone: &'a mut dyn FnMut(usize, &mut [f64], Option<&mut Scales>),
+    alone: &'a mut Alone<'a>,
 }
 
 impl Work for Gradient<'_, '_> {
