@@ -4,7 +4,7 @@ use super::error::{CommandError, check_cancel};
 use crate::design::file::is_design;
 use crate::files::folder::{self, FolderError, MANIFEST, Manifest};
 use crate::files::{self, printable, shown};
-use std::io::Write;
+use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
@@ -117,9 +117,19 @@ pub fn json(value: &impl serde::Serialize) -> Result<String, CommandError> {
     Ok(escaped.collect())
 }
 
-/// Reads an input file as text.
+/// Reads an input file as text, or what a pipe brings.
 pub fn read_text(path: &Path) -> Result<String, CommandError> {
-    std::fs::read_to_string(path).map_err(|e| CommandError::input(path, e))
+    /// Largest text, bytes: a problem of a million triangles takes a third of it.
+    const MOST: u64 = 256 << 20;
+    let refuse = |reason: String| CommandError::input(path, reason);
+    let mut text = String::new();
+    let file = std::fs::File::open(path).map_err(|e| refuse(e.to_string()))?;
+    if file.metadata().is_ok_and(|found| found.len() > MOST) {
+        return Err(refuse(format!("it is larger than {} MiB", MOST >> 20)));
+    }
+    // A pipe has no length: one byte more than allowed tells.
+    file.take(MOST + 1).read_to_string(&mut text).map_err(|e| refuse(e.to_string()))?;
+    if text.len() as u64 > MOST { Err(refuse(format!("it is larger than {} MiB", MOST >> 20))) } else { Ok(text) }
 }
 
 #[cfg(test)]

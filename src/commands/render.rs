@@ -32,7 +32,7 @@ pub struct Render {
     #[arg(long, value_name = "P", conflicts_with = "time")]
     pub pose: Option<String>,
     /// Show the animation at this time in s
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", value_parser = parse_time, allow_hyphen_values = true)]
     pub time: Option<f64>,
     /// Width and height in pixels, each 16 to 8192
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = parse_size)]
@@ -105,6 +105,12 @@ pub fn picture(
     let left = scene::scene(design, idealized, &left);
     let right = scene::scene(design, realizable, &right);
     raster::png(&left, &right, size, background).map_err(|e| CommandError::Failed(e.to_string()))
+}
+
+/// Reads a time, s.
+fn parse_time(text: &str) -> Result<f64, String> {
+    let time = text.parse::<f64>().ok().filter(|time| time.is_finite());
+    time.ok_or_else(|| format!("expected a time in s, found `{text}`"))
 }
 
 /// Reads `WxH`.

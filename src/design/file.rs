@@ -202,7 +202,18 @@ fn field<T: Serialize>(out: &mut String, name: &str, value: &T, depth: usize) ->
 
 fn syntax(error: SpannedError) -> TextError {
     let Position { line, col: column } = error.span.start;
-    TextError::Syntax { line, column, message: printable(&error.code.to_string()) }
+    TextError::Syntax { line, column, message: excerpt(&error.code.to_string()) }
+}
+
+/// A message that may quote the file, which may be anything: its beginning, with nothing that a terminal would obey.
+fn excerpt(message: &str) -> String {
+    /// Characters: a line or two.
+    const MOST: usize = 200;
+    let mut shown: String = message.chars().take(MOST).collect();
+    if shown.len() < message.len() {
+        shown.push_str("...");
+    }
+    printable(&shown)
 }
 
 fn not_text(bytes: &[u8], good: usize) -> TextError {

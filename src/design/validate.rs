@@ -233,6 +233,9 @@ pub(super) fn keyframe(at: &str, design: &Design, keyframe: &Keyframe) -> Check 
     for (i, &a) in activations.iter().enumerate() {
         ranges::ACTIVATION.check_scaled(&format!("{at}.activations_mm[{i}]"), a, size)?;
     }
+    if let Some(name) = &keyframe.pose {
+        shown_name(&format!("{at}.pose"), name, true)?;
+    }
     match &keyframe.pose {
         Some(name) if !design.poses.iter().any(|p| p.name == *name) => {
             fail(format!("{at}.pose"), Problem::UnknownPose(name.clone()))

@@ -464,7 +464,8 @@ fn read_outline(path: &Path, choice: &ImportChoice) -> Result<New, String> {
         layers: choice.layers.split(',').map(str::trim).filter(|name| !name.is_empty()).map(str::to_owned).collect(),
         ..Import::default()
     };
-    let bytes = outline::read_file(path).map_err(|e| e.to_string())?;
+    // A pipe would keep the thread waiting for ever.
+    let bytes = files::read(path, outline::MAX_FILE_BYTES as u64).map_err(|e| format!("it cannot be opened: {e}"))?;
     let mut imported = outline::import(&bytes, &import).map_err(in_the_window)?;
     let png = match choice.texture {
         true => Some(outline::texture(&bytes, &import, &imported).map_err(|e| e.to_string())?),

@@ -34,6 +34,13 @@ pub struct Safety {
     pub(super) due: Option<Duration>,
 }
 
+impl Safety {
+    /// Of a document whose file held that when it was read.
+    pub(super) fn seen(seen: Option<Stamp>) -> Self {
+        Self { seen, ..Self::default() }
+    }
+}
+
 impl Session {
     /// From now on work is kept in a state folder; what was left there is offered.
     pub fn keep_in(&mut self, store: Store) {

@@ -214,7 +214,7 @@ impl Session {
             shapes: Shapes::default(),
             messages: Messages::default(),
             files: Files::default(),
-            safety: Safety { seen, ..Safety::default() },
+            safety: Safety::seen(seen),
             jobs: Jobs::new(wake),
             services,
             worker: Worker::spawn(Box::new(move || on_outcome())),
