@@ -364,8 +364,9 @@ impl Session {
     fn import(&mut self, path: PathBuf, choice: ImportChoice) {
         self.files.dialog = None;
         self.files.working = Some("Meshing the outline");
+        let within = self.safety.folder().map(Path::to_path_buf);
         self.jobs.start("Import", move || {
-            let design = read_outline(&path, &choice);
+            let design = read_outline(&path, &choice, within.as_deref());
             Report::Imported(design.map(Box::new).map_err(|why| Box::new(Refused { path, choice, why })))
         });
     }
@@ -456,7 +457,7 @@ fn in_the_window(error: OutlineError) -> String {
     error.to_string().replace("--pieces largest", "“Largest piece only”").replace("--height", "“Height”")
 }
 
-fn read_outline(path: &Path, choice: &ImportChoice) -> Result<New, String> {
+fn read_outline(path: &Path, choice: &ImportChoice, within: Option<&Path>) -> Result<New, String> {
     let import = Import {
         height_mm: Some(choice.height_mm),
         pieces: if choice.largest_piece { Pieces::Largest } else { Pieces::Refuse },
@@ -479,7 +480,7 @@ fn read_outline(path: &Path, choice: &ImportChoice) -> Result<New, String> {
     }
     let name = path.file_stem().map_or_else(|| "plushie".to_owned(), |s| s.to_string_lossy().into_owned());
     let mut design = Design { drawing: imported.drawing, ..Design::new(name, imported.outline, meshed.mesh) };
-    let texture = png.map(|png| Kept::new(&mut design, &png)).transpose();
+    let texture = png.map(|png| Kept::new(&mut design, &png, within)).transpose();
     let texture = texture.map_err(|e| format!("the texture cannot be kept: {e}"))?;
     Ok(New { design, changes: imported.changes, texture })
 }

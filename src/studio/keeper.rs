@@ -87,6 +87,10 @@ impl Keeper {
         Ok(Self { folder, _lock: lock, kept: None, changed: None, writing: None })
     }
 
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
     /// Once a frame: writes what has changed when it is time, and clears away what is saved (`None`). `wake` is called when a write has
     /// ended.
     pub fn follow(&mut self, work: Option<Work>, wake: impl FnOnce() + Send + 'static) -> Kept {

@@ -1,12 +1,13 @@
 //! The picture of an imported plushie, kept as its texture.
 //!
 //! Until the document is saved there is no folder for the picture to stand in beside it: it waits in a temporary one, which goes when
-//! another document is opened or the window is closed. Saving puts a copy beside the file, as `plushwright new --texture` does.
+//! another document is opened or the window is closed. It is below the folder in which the window keeps its work, where it has one, so
+//! that it is there still when that is recovered. Saving puts a copy beside the file, as `plushwright new --texture` does.
 
 use crate::design::Design;
 use crate::files;
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
 /// What the texture is called while it waits.
@@ -20,8 +21,10 @@ impl Kept {
     ///
     /// # Errors
     /// What the system says of a temporary file that cannot be written.
-    pub fn new(design: &mut Design, png: &[u8]) -> io::Result<Self> {
-        let folder = tempfile::Builder::new().prefix("plushwright-").tempdir()?;
+    pub fn new(design: &mut Design, png: &[u8], within: Option<&Path>) -> io::Result<Self> {
+        let mut builder = tempfile::Builder::new();
+        builder.prefix("plushwright-");
+        let folder = within.map_or_else(|| builder.tempdir(), |within| builder.tempdir_in(within))?;
         files::write(&folder.path().join(NAME), png)?;
         design.texture = Some(NAME.to_owned());
         Ok(Self(folder))
@@ -43,7 +46,7 @@ mod tests {
     #[test]
     fn the_picture_is_copied_beside_the_file_and_no_other_one_replaced() {
         let mut design = blank::design();
-        let kept = Kept::new(&mut design, b"picture").unwrap();
+        let kept = Kept::new(&mut design, b"picture", None).unwrap();
         assert!(texture::find(&design, &kept.origin()).unwrap().unwrap().is_file());
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("pig.plush");

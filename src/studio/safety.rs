@@ -39,6 +39,11 @@ impl Safety {
     pub(super) fn seen(seen: Option<Stamp>) -> Self {
         Self { seen, ..Self::default() }
     }
+
+    /// Where the window keeps its work.
+    pub(super) fn folder(&self) -> Option<&Path> {
+        self.keeper.as_ref().map(Keeper::folder)
+    }
 }
 
 impl Session {
