@@ -8,6 +8,7 @@
 //! | room | holds |
 //! | --- | --- |
 //! | [`defaults`] | every default figure of the tool, with unit, source or reason |
+//! | [`files`] | the one way to write files and folders; what they hold before and after |
 //! | [`outline`] | a silhouette: reading, clean-up, polygons |
 //! | [`mesh`] | outline to triangle mesh, points of the body, quality |
 //! | [`physics`] | what a plushie is made of: energies, materials, contractile elements, pins, statics |
@@ -49,6 +50,7 @@ pub mod design;
 pub mod discovery;
 pub mod engine;
 pub mod fabrication;
+pub mod files;
 pub mod mesh;
 pub mod outline;
 pub mod physics;

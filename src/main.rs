@@ -1,6 +1,7 @@
 //! `plushwright`: opens the studio, or runs one headless command and exits.
 
 use plushwright::commands::{self, Cli, CommandError};
+use plushwright::files;
 use std::io::Write;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -27,6 +28,7 @@ fn run(cli: &Cli) -> Result<(), CommandError> {
     match &cli.command {
         Some(command) => {
             catch_interrupts()?;
+            files::survive_size_limits();
             commands::run(command, &mut std::io::stdout(), &CANCEL)
         }
         None => {
@@ -39,10 +41,11 @@ fn run(cli: &Cli) -> Result<(), CommandError> {
     }
 }
 
-/// The first interrupt asks the solvers to stop, so that nothing is left half written; the second one does not wait.
+/// The first interrupt, or request to end, asks the solvers to stop, so that nothing is left half written; the second one does not wait.
 fn catch_interrupts() -> Result<(), CommandError> {
     ctrlc::set_handler(|| {
         if CANCEL.swap(true, Ordering::SeqCst) {
+            files::before_exit();
             std::process::exit(i32::from(CommandError::Cancelled.code()));
         }
     })
@@ -53,6 +56,7 @@ fn catch_interrupts() -> Result<(), CommandError> {
 fn open_studio(cli: &Cli) -> Result<(), CommandError> {
     use plushwright::studio::{self, StudioError};
     let design = cli.design.as_deref().map(commands::document::load).transpose()?;
+    files::survive_size_limits();
     studio::run(design, cli.design.clone()).map_err(|error| match error {
         StudioError::Failed(_) => CommandError::Failed(error.to_string()),
         _ => CommandError::Environment(error.to_string()),

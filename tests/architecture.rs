@@ -136,6 +136,31 @@ fn only_the_studio_names_the_window() {
     }
 }
 
+#[test]
+fn only_the_room_of_files_writes() {
+    const WRITES: [&str; 9] = [
+        "fs::write",
+        "fs::rename",
+        "fs::copy",
+        "fs::hard_link",
+        "File::create",
+        "File::create_new",
+        "remove_dir_all",
+        "persist",
+        "tempfile_in",
+    ];
+    // The window's own folder of state: locks in it, and what is not wanted any more.
+    const STATE: [&str; 1] = ["studio/keeper.rs"];
+    let others = |source: &Source| source.room() != "files" && !STATE.contains(&source.path.as_str());
+    for source in sources().iter().filter(|source| others(source)) {
+        // Tests stand last, and make what they need.
+        let code = source.code.split("#[cfg(test)]").next().unwrap_or_default();
+        for name in WRITES {
+            assert!(!mentions(code, name), "src/{} has {name}: only `files` writes", source.path);
+        }
+    }
+}
+
 /// A file that grows beyond this many lines may hold two ideas. Worth a look, not a failure.
 const LONG: usize = 400;
 

@@ -353,7 +353,7 @@ fn studies_print_tables_and_leave_csv_and_plots() {
     let here = folder.path();
     let text = succeed(here, &["bench", "linear", "--fibers", "177", "--seed", "3", "--out", "linear"]);
     assert!(text.contains("seed 3") && text.contains("supernodal") && text.contains("fastest is"), "{text}");
-    assert_eq!(names(&here.join("linear")), ["linear.csv", "linear.svg", "report.txt"]);
+    assert_eq!(names(&here.join("linear")), ["linear.csv", "linear.svg", "manifest.json", "report.txt"]);
     let csv = fs::read_to_string(here.join("linear/linear.csv")).unwrap();
     assert!(csv.starts_with("shape,fibres,") && csv.lines().count() > 8, "{csv}");
 

@@ -309,7 +309,7 @@ fn the_controller_program_is_valid_commands_for_one_node_a_winch() {
 fn winch_names_cannot_break_a_table() {
     let mut design = rigged();
     let tendon = Tendon { routing: vec![3, 4], ratio: 1.0, slack_mm: 0.0 };
-    design.networks = ["left", "left", " a,b\"c\nd;#é ", "", "-1+cmd", "left (2)"]
+    design.networks = ["left", "left", " a,b\"c|d;#é ", "", "-1+cmd", "left (2)"]
         .map(|name| Network { name: name.into(), tendons: vec![tendon.clone()] })
         .to_vec();
     design.keyframes.clear();

@@ -907,7 +907,7 @@ fn the_texture_is_read_aside_shown_and_hidden() {
     assert!(Arc::ptr_eq(&texture, session(&window).texture().unwrap()));
     window.run();
     assert_eq!(window.output().viewport_output.values().next().unwrap().repaint_delay, Duration::MAX);
-    // Saved elsewhere, and there again, it names the same file.
+    // Saved elsewhere, and there again, a copy goes with it.
     std::fs::create_dir(folder.path().join("sub")).unwrap();
     let moved = folder.path().join("sub/bar.plush");
     press(&mut window, Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
@@ -915,9 +915,11 @@ fn the_texture_is_read_aside_shown_and_hidden() {
     press(&mut window, Modifiers::NONE, Key::Enter);
     for _ in 0..2 {
         let saved = plushwright::design::file::read(&moved).unwrap();
-        assert_eq!(saved.texture.as_deref(), Some("../bar.png"));
+        assert_eq!(saved.texture.as_deref(), Some("bar.texture.png"));
         press(&mut window, Modifiers::COMMAND, Key::S);
     }
+    let bytes = |name: &str| std::fs::read(folder.path().join(name)).unwrap();
+    assert_eq!(bytes("sub/bar.texture.png"), bytes("bar.png"));
     assert!(Arc::ptr_eq(&texture, session(&window).texture().unwrap()));
     // A picture that is gone is said to be, and the plushie is shown without it.
     std::fs::remove_file(folder.path().join("bar.png")).unwrap();

@@ -181,11 +181,14 @@ fn another_resolution_keeps_the_texture_also_in_another_folder() {
     quadrants([120, 120], [10, 10], [110, 110], [0; 4]).save(folder.path("a.png")).unwrap();
     folder.texture("a.png", &["--fibers", "100"]);
     std::fs::create_dir(folder.path("sub")).unwrap();
-    for (output, texture) in [("b.plush", "a.texture.png"), ("sub/b.plush", "../a.texture.png")] {
+    for (output, texture) in [("b.plush", "a.texture.png"), ("sub/b.plush", "b.texture.png")] {
         let done = folder.run(&["remesh", "a.plush", "-o", output, "--fibers", "200"]);
         assert!(done.status.success(), "{done:?}");
         assert_eq!(stated(&folder.path(output)).as_deref(), Some(texture));
     }
+    // A texture is beside its design: in another folder there is a copy.
+    let bytes = |name: &str| std::fs::read(folder.path(name)).unwrap();
+    assert_eq!(bytes("sub/b.texture.png"), bytes("a.texture.png"));
 }
 
 const RED: [u8; 3] = [210, 20, 30];

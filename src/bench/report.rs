@@ -1,10 +1,14 @@
 //! The result of a study: tables of figures, remarks and plots, as aligned text, JSON and CSV.
 
 use super::plot::Plot;
+use crate::files::printable;
 use serde_json::{Map, Value, json};
 
 /// Digits shown in the text table; JSON and CSV have them all.
 const SHOWN_DIGITS: i32 = 3;
+
+/// Most characters that a column is padded to.
+const WIDEST: usize = 200;
 
 /// What a study found.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -77,8 +81,7 @@ impl Cell {
 
     fn exact(&self) -> String {
         match self {
-            Self::Text(text) if text.contains([',', '"', '\n']) => format!("\"{}\"", text.replace('"', "\"\"")),
-            Self::Text(text) => text.clone(),
+            Self::Text(text) => quoted(text),
             Self::Number(value) if value.is_finite() => format!("{value}"),
             Self::AtLeast(value) => format!(">{value}"),
             Self::Number(_) | Self::Missing => String::new(),
@@ -99,6 +102,15 @@ impl Cell {
     fn is_text(&self) -> bool {
         matches!(self, Self::Text(_))
     }
+}
+
+/// A text as a cell of a CSV file: one that a spreadsheet would take for a formula gets a mark before it, control characters are
+/// written out. Names of files may be anybody's.
+fn quoted(text: &str) -> String {
+    let text = printable(text);
+    let is_formula = text.trim_start().starts_with(['=', '+', '-', '@']) && text != "-";
+    let text = if is_formula { format!("'{text}") } else { text };
+    if text.contains([',', '"', ';']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text }
 }
 
 /// A number with [`SHOWN_DIGITS`] digits: plain between 0.001 and a million, else with an exponent.
@@ -134,7 +146,7 @@ impl Table {
         let shown: Vec<Vec<String>> = self.rows.iter().map(|row| row.iter().map(Cell::shown).collect()).collect();
         let width = |k: usize| {
             let cells = shown.iter().map(|row| row[k].chars().count());
-            cells.chain([self.headings[k].chars().count()]).max().unwrap_or(0)
+            cells.chain([self.headings[k].chars().count()]).max().unwrap_or(0).min(WIDEST)
         };
         let left = |k: usize| self.rows.iter().all(|row| row[k].is_text());
         let line = |cells: &[String]| {
@@ -203,6 +215,10 @@ mod tests {
         );
         assert_eq!(table.csv(), "shape,fibres,\"ms, median\"\npig,414,1.25\n\"a,b\",10000,>300\ne,5,\n");
         let report = Report { title: "T".into(), tables: vec![table], ..Default::default() };
+        assert_eq!(
+            ["=1+1", "@x", "-1", "-", "a\n=b", "\t=c"].map(quoted),
+            ["'=1+1", "'@x", "'-1", "-", "a\\u{a}=b", "\\u{9}=c"]
+        );
         assert_eq!(report.json()["tables"]["t"]["rows"][1]["ms, median"]["at_least"], 300.0);
     }
 }

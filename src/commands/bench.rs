@@ -1,8 +1,8 @@
 //! `bench`: whole studies of the solvers, as tables, CSV and plots.
 
-use super::error::{CommandError, check_cancel};
+use super::error::CommandError;
 use super::new::Reading;
-use super::output::{Staged, say, say_json};
+use super::output::{check_folder, say_json, say_lines, write_folder};
 use super::solve::Effort;
 use crate::bench::drags::{Path as DragPath, SWEEP_FRAMES};
 use crate::bench::{
@@ -26,6 +26,9 @@ pub struct Bench {
     study: Study,
 }
 
+/// Format of the manifest in a folder of results.
+const FORMAT: &str = "plushwright-bench/1";
+
 /// Options of every study.
 #[derive(Debug, Args)]
 struct Common {
@@ -38,7 +41,7 @@ struct Common {
     /// Print JSON
     #[arg(long)]
     json: bool,
-    /// Folder for CSV tables and SVG plots; replaced where it exists
+    /// Folder for CSV tables and SVG plots; an earlier result there is replaced, any other folder refused
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }
@@ -300,11 +303,15 @@ impl Bench {
         let common = self.study.common();
         if let Study::Properties { first, show: true, .. } = &self.study {
             let text = properties::problem_text(common.seed, *first);
-            return say(out, &text.ok_or_else(|| CommandError::Failed("the problem cannot be written".into()))?);
+            return say_lines(out, &text.ok_or_else(|| CommandError::Failed("the problem cannot be written".into()))?);
         }
         if let Study::Extremes { short, only, scenes: Some(folder), .. } = &self.study {
             let files = extremes::Extremes { short: *short, only: only.clone() }.files();
-            return write_files(&files, folder, cancel);
+            let files: Vec<_> = files.into_iter().map(|(name, text)| (name, text.into_bytes())).collect();
+            return write_folder(folder, FORMAT, &files, cancel);
+        }
+        if let Some(folder) = &common.out {
+            check_folder(folder, FORMAT)?;
         }
         let progress = Progress::default();
         let stop = || cancel.load(Ordering::SeqCst);
@@ -318,7 +325,7 @@ impl Bench {
         if common.json {
             say_json(out, &report.json())?
         } else {
-            say(out, &report.text())?
+            say_lines(out, &report.text())?
         }
         failed.map_or(Ok(()), |what| Err(CommandError::Failed(what)))
     }
@@ -334,29 +341,15 @@ fn quality_of(effort: Effort) -> Quality {
 
 /// Tables and plots in a folder that appears whole or not at all.
 fn write(report: &Report, path: &Path, cancel: &AtomicBool) -> Result<(), CommandError> {
-    check_cancel(cancel)?;
-    let staged = Staged::beside(path)?;
-    let put = |name: String, text: String| {
-        std::fs::write(staged.folder().join(name), text).map_err(|e| CommandError::write(path, e))
-    };
+    let mut files = Vec::new();
     for table in &report.tables {
-        put(format!("{}.csv", table.name), table.csv())?;
+        files.push((format!("{}.csv", table.name), table.csv().into_bytes()));
     }
     for plot in &report.plots {
-        put(format!("{}.svg", plot.name), plot.svg().map_err(|e| failure(e, cancel))?)?;
+        files.push((format!("{}.svg", plot.name), plot.svg().map_err(|e| failure(e, cancel))?.into_bytes()));
     }
-    put("report.txt".into(), report.text() + "\n")?;
-    staged.commit(cancel)
-}
-
-/// Texts in a folder that appears whole or not at all.
-fn write_files(files: &[(String, String)], path: &Path, cancel: &AtomicBool) -> Result<(), CommandError> {
-    check_cancel(cancel)?;
-    let staged = Staged::beside(path)?;
-    for (name, text) in files {
-        std::fs::write(staged.folder().join(name), text).map_err(|e| CommandError::write(path, e))?;
-    }
-    staged.commit(cancel)
+    files.push(("report.txt".into(), (report.text() + "\n").into_bytes()));
+    write_folder(path, FORMAT, &files, cancel)
 }
 
 fn failure(error: BenchError, cancel: &AtomicBool) -> CommandError {

@@ -1,14 +1,16 @@
 //! `demo`: one plushie from bare outline to blueprint, headless, with a picture of every step.
 
 use super::error::CommandError;
-use super::output::{Staged, json, say};
+use super::output::{check_folder, json, say, write_folder};
 use super::place::Move;
 use super::render::picture;
-use super::{document, export, key, new, pose, rig, table};
+use super::{key, new, pose, rig, table};
 use crate::design::animation::{activations_at, duration_s};
-use crate::design::{Design, Target};
+use crate::design::{Design, Target, file};
 use crate::engine::rig::{RigOptions, TendonChoice};
 use crate::engine::{Question, Shape};
+use crate::fabrication;
+use crate::files::shown;
 use crate::mesh::Mesh;
 use crate::outline::{self, Import, Point};
 use crate::picture::palette::{Palette, Theme};
@@ -16,7 +18,7 @@ use crate::picture::{Item, Scene, raster};
 use clap::Args;
 use serde::Serialize;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
@@ -26,7 +28,7 @@ use std::time::Instant;
 #[derive(Debug, Args)]
 #[command(after_help = "Example: plushwright demo --out demo")]
 pub struct Demo {
-    /// Folder to write; one made by an earlier `demo` is replaced
+    /// Folder to write; one made by an earlier `demo` is replaced, any other folder refused
     #[arg(long, value_name = "DIR", default_value = "demo")]
     pub out: PathBuf,
 }
@@ -41,21 +43,15 @@ const POSES: [(&str, [Move; 2]); 1] =
 /// Pictures of the animation.
 const FRAMES: usize = 5;
 const SIZE: (u32, u32) = (1280, 720);
-/// The file by which a folder is known to be an earlier result that may be replaced.
-const MARK: &str = "figures.json";
+/// Format of the manifest by which a folder is known to be an earlier result that may be replaced.
+const FORMAT: &str = "plushwright-demo/1";
 
 impl Demo {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
-        if self.out.exists() && !self.out.join(MARK).is_file() {
-            return Err(CommandError::Usage(format!(
-                "{} exists and is not the result of an earlier demo; choose another --out",
-                self.out.display()
-            )));
-        }
-        let staged = Staged::beside(&self.out)?;
-        Tour { folder: staged.folder(), out, cancel, clock: Instant::now(), pictures: Vec::new() }.make()?;
-        staged.commit(cancel)?;
-        say(out, &format!("Pictures, design, blueprint and figures are in {}", self.out.display()))
+        check_folder(&self.out, FORMAT)?;
+        let tour = Tour { files: Vec::new(), out, cancel, clock: Instant::now(), pictures: Vec::new() };
+        write_folder(&self.out, FORMAT, &tour.make()?, cancel)?;
+        say(out, &format!("Pictures, design, blueprint and figures are in {}", shown(&self.out)))
     }
 }
 
@@ -69,7 +65,8 @@ struct Report<'a> {
 }
 
 struct Tour<'a> {
-    folder: &'a Path,
+    /// Path below the folder, content.
+    files: Vec<(String, Vec<u8>)>,
     out: &'a mut dyn Write,
     cancel: &'a AtomicBool,
     clock: Instant,
@@ -77,7 +74,7 @@ struct Tour<'a> {
 }
 
 impl Tour<'_> {
-    fn make(mut self) -> Result<(), CommandError> {
+    fn make(mut self) -> Result<Vec<(String, Vec<u8>)>, CommandError> {
         let pig = outline::import(OUTLINE, &Import::default()).map_err(|e| CommandError::Failed(e.to_string()))?;
         let (mut design, _) = new::design(pig, Some(FIBERS), "pig").map_err(CommandError::Failed)?;
         self.outline(&design)?;
@@ -91,13 +88,15 @@ impl Tour<'_> {
             self.pose(&design, name, "rigged")?;
         }
         self.animation(&design)?;
-        let file = self.folder.join("pig.plush");
-        document::save(&file, &design, self.cancel)?;
+        let text = file::to_text(&design).map_err(|e| CommandError::Failed(e.to_string()))?;
+        self.files.push(("pig.plush".into(), text.into_bytes()));
         let figures = table::figures(&design, self.cancel)?;
-        let manifest = export::export(&design, &file, &self.folder.join("blueprint"), self.cancel)?;
-        let files = manifest.files.len() + 1;
-        say(self.out, &format!("{:5.1} s  blueprint  {files} files", self.clock.elapsed().as_secs_f64()))?;
-        self.report(&figures)
+        let (files, _) = fabrication::blueprint(&design).map_err(|e| CommandError::Failed(e.to_string()))?;
+        let count = files.len();
+        self.files.extend(files.into_iter().map(|file| (format!("blueprint/{}", file.name), file.bytes)));
+        say(self.out, &format!("{:5.1} s  blueprint  {count} files", self.clock.elapsed().as_secs_f64()))?;
+        self.report(&figures)?;
+        Ok(self.files)
     }
 
     fn outline(&mut self, design: &Design) -> Result<(), CommandError> {
@@ -156,12 +155,11 @@ impl Tour<'_> {
     fn report(&mut self, figures: &table::Figures) -> Result<(), CommandError> {
         let mut text = Vec::new();
         table::print(figures, &mut text)?;
-        let path = self.folder.join("figures.txt");
-        std::fs::write(&path, &text).map_err(|e| CommandError::write(&path, e))?;
         self.out.write_all(&text).map_err(CommandError::Print)?;
+        self.files.push(("figures.txt".into(), text));
         let report = Report { figures, seconds: self.clock.elapsed().as_secs_f64(), pictures: &self.pictures };
-        let path = self.folder.join(MARK);
-        std::fs::write(&path, json(&report)? + "\n").map_err(|e| CommandError::write(&path, e))
+        self.files.push(("figures.json".into(), (json(&report)? + "\n").into_bytes()));
+        Ok(())
     }
 
     /// A picture of both plushies, solved for a question.
@@ -179,8 +177,7 @@ impl Tour<'_> {
     fn save(&mut self, title: &str, bytes: &[u8], text: &str) -> Result<(), CommandError> {
         let words: Vec<String> = title.split([' ', ',']).filter(|w| !w.is_empty()).map(str::to_lowercase).collect();
         let name = format!("{:02}-{}.png", self.pictures.len() + 1, words.join("-"));
-        let path = self.folder.join(&name);
-        std::fs::write(&path, bytes).map_err(|e| CommandError::write(&path, e))?;
+        self.files.push((name.clone(), bytes.to_vec()));
         say(self.out, &format!("{:5.1} s  {name}  {text}", self.clock.elapsed().as_secs_f64()))?;
         self.pictures.push(name);
         Ok(())

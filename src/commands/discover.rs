@@ -1,7 +1,7 @@
 //! `discover`: network discovery on a given activation graph, as JSON.
 
 use super::error::CommandError;
-use super::output::{json, read_text, say, write_file};
+use super::output::{Output, json, read_text, say_lines};
 use crate::problem::network::{self, NetworkError};
 use clap::Args;
 use std::io::Write;
@@ -21,6 +21,8 @@ pub struct Discover {
 
 impl Discover {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
+        let inputs = || [self.network.clone()];
+        let output = self.output.as_deref().map(|path| Output::new(path, inputs())).transpose()?;
         let text = read_text(&self.network)?;
         let (answer, failure) = match network::answer(&text) {
             Ok(answer) => (answer, None),
@@ -35,12 +37,12 @@ impl Discover {
             }
         };
         let mut text = json(&answer)?;
-        match &self.output {
-            Some(path) => {
+        match output {
+            Some(output) => {
                 text.push('\n');
-                write_file(path, text.as_bytes(), cancel)?;
+                output.write(text.as_bytes(), cancel)?;
             }
-            None => say(out, &text)?,
+            None => say_lines(out, &text)?,
         }
         failure.map_or(Ok(()), Err)
     }

@@ -2,7 +2,7 @@
 
 use super::document;
 use super::error::CommandError;
-use super::output::{say, write_file};
+use super::output::{Output, say_lines};
 use crate::outline::Drawing;
 use clap::Args;
 use std::io::Write;
@@ -24,12 +24,14 @@ pub struct DrawingCommand {
 
 impl DrawingCommand {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
+        let inputs = || [self.design.clone()];
+        let output = self.output.as_deref().map(|path| Output::new(path, inputs())).transpose()?;
         let design = document::load(&self.design)?;
         let drawing = design.drawing.unwrap_or_else(|| Drawing::of(&design.outline));
         let text = drawing.to_text().map_err(|e| CommandError::Failed(e.to_string()))?;
-        match &self.output {
-            Some(path) => write_file(path, text.as_bytes(), cancel),
-            None => say(out, text.trim_end()),
+        match output {
+            Some(output) => output.write(text.as_bytes(), cancel),
+            None => say_lines(out, text.trim_end()),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! How a command ends: one typed error, its exit code, and its one line.
 
+use crate::files::{printable, shown};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -11,7 +12,7 @@ pub enum CommandError {
     #[error("{0}")]
     Failed(String),
     /// An output could not be written.
-    #[error("cannot write {}: {source}", path.display())]
+    #[error("cannot write {}: {source}", shown(path))]
     Write { path: PathBuf, source: io::Error },
     /// Standard output could not be written.
     #[error("cannot print: {0}")]
@@ -20,7 +21,7 @@ pub enum CommandError {
     #[error("{0}")]
     Usage(String),
     /// An input file is missing, unreadable or contradictory.
-    #[error("{}: {reason}", path.display())]
+    #[error("{}: {reason}", shown(path))]
     Input { path: PathBuf, reason: String },
     /// A question has no converged answer; the best state reached is written.
     #[error("not converged: {0}")]
@@ -44,7 +45,7 @@ impl CommandError {
         }
     }
 
-    /// The message as one line, whatever the errors below it contain.
+    /// The message as one line, whatever the errors below it contain, and nothing in it that a terminal would obey.
     pub fn line(&self) -> String {
         one_line(&self.to_string())
     }
@@ -98,7 +99,7 @@ impl From<clap::Error> for ParseStop {
 }
 
 fn one_line(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
+    printable(&text.split_whitespace().collect::<Vec<_>>().join(" "))
 }
 
 #[cfg(test)]

@@ -48,7 +48,7 @@ pub fn export(design: &Design, source: &Path, folder: &Path, cancel: &AtomicBool
     check_cancel(cancel)?;
     fabrication::export(design, folder).map_err(|error| match error {
         ExportError::Write { path, source } => CommandError::write(&path, source),
-        ExportError::NotOurs { .. } => CommandError::Usage(error.to_string()),
+        ExportError::NotOurs { .. } | ExportError::Changed { .. } => CommandError::Usage(error.to_string()),
         error => CommandError::input(source, error),
     })
 }

@@ -5,6 +5,7 @@ use super::error::{CommandError, check_cancel};
 use super::output::say;
 use crate::design::{Design, Easing, Keyframe, Target, edit};
 use crate::engine::{Effort, Quality, Question, Request, Shape, Solver};
+use crate::files::shown;
 use clap::{Args, ValueEnum};
 use std::io::Write;
 use std::path::PathBuf;
@@ -29,9 +30,8 @@ pub struct Key {
     /// How the animation moves on to the next keyframe
     #[arg(long, value_enum, default_value_t = Ease::Smooth)]
     pub ease: Ease,
-    /// Design file to write; may be the one read
-    #[arg(short, long, value_name = "DESIGN")]
-    pub output: PathBuf,
+    #[command(flatten)]
+    pub target: document::Target,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -46,7 +46,7 @@ pub enum Ease {
 
 impl Key {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
-        let mut design = document::load(&self.design)?;
+        let (mut design, edit) = self.target.open(&self.design, cancel)?;
         if design.networks.is_empty() {
             return Err(CommandError::input(
                 &self.design,
@@ -68,8 +68,8 @@ impl Key {
             Ease::Hold => Easing::Hold,
         };
         put(&mut design, self.time, activations, pose, easing)?;
-        document::save_as(&self.design, &self.output, &design, cancel)?;
-        say(out, &format!("{}: {} at {} s, winches at {text} mm", self.output.display(), self.pose, self.time))?;
+        edit.save(&design, cancel)?;
+        say(out, &format!("{}: {} at {} s, winches at {text} mm", shown(&self.target.output), self.pose, self.time))?;
         balanced(unbalanced)
     }
 }

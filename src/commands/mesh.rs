@@ -1,7 +1,7 @@
 //! `mesh`: how good the mesh of a design is, as figures and as a picture.
 
 use super::error::CommandError;
-use super::output::{say, say_json, write_file};
+use super::output::{Output, say, say_json};
 use super::{document, render};
 use crate::design::MeshFigures;
 use crate::mesh::quality::HISTOGRAM_STEP_DEG;
@@ -37,14 +37,16 @@ pub struct MeshCommand {
 
 impl MeshCommand {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
+        let inputs = || [self.design.clone()];
+        let output = self.output.as_deref().map(|path| Output::new(path, inputs())).transpose()?;
         let design = document::load(&self.design)?;
         let figures = MeshFigures::of(&design);
-        if let Some(path) = &self.output {
+        if let Some(output) = output {
             let [left, right] = quality::scenes(&design.mesh, Theme::Light);
             let background = Palette::of(Theme::Light).background;
             let bytes =
                 raster::png(&left, &right, self.size, background).map_err(|e| CommandError::Failed(e.to_string()))?;
-            write_file(path, &bytes, cancel)?;
+            output.write(&bytes, cancel)?;
         }
         if self.json { say_json(out, &figures) } else { print(&figures, out) }
     }

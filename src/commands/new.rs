@@ -1,10 +1,12 @@
 //! `new`: an outline becomes a meshed design.
 
 use super::document;
-use super::error::CommandError;
-use super::output::{say, say_json, write_file_and};
+use super::error::{CommandError, check_cancel};
+use super::output::{refuse_input, say, say_json};
 use crate::defaults;
-use crate::design::Design;
+use crate::design::file;
+use crate::design::{Design, MAX_NAME_CHARS};
+use crate::files::{self, is_hidden, shown};
 use crate::mesh::{self, Mesh, MeshError, Request};
 use crate::outline::{self, Background, Changes, Holes, Import, Imported, OutlineError, Pieces};
 use clap::{Args, ValueEnum};
@@ -23,6 +25,9 @@ pub struct New {
     /// Design file to write (*.plush)
     #[arg(short, long, value_name = "DESIGN")]
     pub output: PathBuf,
+    /// Replace a design that holds more than an outline, or a file that is no design
+    #[arg(long)]
+    pub force: bool,
     /// Muscle fibres (mesh edges) [default: 414, or the fewest that the outline allows if that is more]
     #[arg(long, value_name = "N")]
     pub fibers: Option<usize>,
@@ -156,6 +161,9 @@ struct Summary<'a> {
 
 impl New {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
+        refuse_input(&self.output, &self.outline)?;
+        files::check(&self.output).map_err(|e| CommandError::write(&self.output, e))?;
+        document::refuse_finished(&self.output, self.force)?;
         let import = self.reading.import();
         let refuse = |reason: String| CommandError::input(&self.outline, reason);
         let unread = |error: OutlineError| refuse(error.to_string());
@@ -166,33 +174,37 @@ impl New {
             false => None,
         };
         let (mut design, changes) = design(imported, self.fibers, &stem(&self.output)).map_err(refuse)?;
-        match texture {
-            None => document::save(&self.output, &design, cancel)?,
-            Some((name, png)) => {
-                let path = self.output.with_file_name(&name);
-                design.texture = Some(name);
-                write_file_and(&path, &png, cancel, || document::save(&self.output, &design, cancel))?;
-            }
-        }
+        // It may have come up in the meantime.
+        document::refuse_finished(&self.output, self.force)?;
+        let beside = texture.map(|(name, png)| {
+            let path = self.output.with_file_name(&name);
+            design.texture = Some(name);
+            (path, png)
+        });
+        check_cancel(cancel)?;
+        file::write_with(&self.output, &design, beside).map_err(document::unwritten)?;
         self.report(out, &design, &changes)
     }
 
     /// What the texture beside the design is called.
     fn texture_name(&self) -> Result<String, CommandError> {
         let path = self.output.with_extension("texture.png");
-        let same = |a: &Path, b: &Path| matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b);
-        if same(&path, &self.outline) {
-            return Err(CommandError::Usage(format!("the texture would replace {}", self.outline.display())));
+        if files::same(&path, &self.outline) {
+            return Err(CommandError::Usage(format!("the texture would replace {}", shown(&self.outline))));
+        }
+        if !self.force && !is_picture_or_none(&path) {
+            let path = shown(&path);
+            return Err(CommandError::Usage(format!("{path} exists and is no picture; --force replaces it")));
         }
         let name = path.file_name().and_then(|name| name.to_str());
         name.map(str::to_owned)
-            .ok_or_else(|| CommandError::Usage(format!("{} is no file name that a design can state", path.display())))
+            .ok_or_else(|| CommandError::Usage(format!("{} is no file name that a design can state", shown(&path))))
     }
 
     fn report(&self, out: &mut dyn Write, design: &Design, changes: &Changes) -> Result<(), CommandError> {
         let (low, high) = design.outline.bounding_box();
         let summary = Summary {
-            design: self.output.display().to_string(),
+            design: shown(&self.output),
             fibers: design.fiber_routings().len(),
             nodes: design.mesh.nodes.len(),
             triangles: design.mesh.triangles.len(),
@@ -241,8 +253,25 @@ pub fn design(imported: Imported, fibers: Option<usize>, name: &str) -> Result<(
     Ok((Design { drawing, ..Design::new(name, outline, meshed.mesh) }, changes))
 }
 
+/// A name for the design: that of its file, as far as a name can say it.
 fn stem(path: &Path) -> String {
-    path.file_stem().map_or_else(|| "plushie".to_owned(), |s| s.to_string_lossy().into_owned())
+    let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+    let name: String = stem.chars().map(|c| if is_hidden(c) { ' ' } else { c }).take(MAX_NAME_CHARS).collect();
+    if name.trim().is_empty() { "plushie".to_owned() } else { name }
+}
+
+/// Whether a file may be replaced by a picture without asking: there is none, or it is a PNG, or empty.
+fn is_picture_or_none(path: &Path) -> bool {
+    use std::io::Read;
+    let mut head = Vec::new();
+    match std::fs::metadata(path) {
+        Ok(found) if found.is_file() => {
+            let read = std::fs::File::open(path).and_then(|file| file.take(4).read_to_end(&mut head));
+            read.is_ok() && (head.is_empty() || head == b"\x89PNG")
+        }
+        // What else stands there is told when it is written.
+        _ => true,
+    }
 }
 
 fn parse_height(text: &str) -> Result<f64, String> {

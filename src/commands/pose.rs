@@ -7,6 +7,7 @@ use super::place::{Move, body_point, parse_move, parse_point};
 use crate::defaults;
 use crate::design::edit::{self, EditError};
 use crate::design::{Design, Pin, Pose as DesignPose, Target};
+use crate::files::shown;
 use crate::mesh::{BodyPoint, Mesh};
 use crate::outline::Point;
 use clap::Args;
@@ -34,22 +35,21 @@ pub struct Pose {
     /// Pull the point X,Y of the body at rest to X2,Y2 (mm; repeatable)
     #[arg(long = "target", value_name = "X,Y=X2,Y2", value_parser = parse_move, allow_hyphen_values = true)]
     pub targets: Vec<Move>,
-    /// Design file to write; may be the one read
-    #[arg(short, long, value_name = "DESIGN")]
-    pub output: PathBuf,
+    #[command(flatten)]
+    pub target: document::Target,
 }
 
 impl Pose {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
-        let mut design = document::load(&self.design)?;
+        let (mut design, edit) = self.target.open(&self.design, cancel)?;
         add(&mut design, &self.name, &self.pins, &self.targets)?;
-        document::save_as(&self.design, &self.output, &design, cancel)?;
+        edit.save(&design, cancel)?;
         let targets = design.poses.iter().find(|p| p.name == self.name).map_or(0, |p| p.targets.len());
         say(
             out,
             &format!(
                 "{}: pose {} has {targets} targets; {} pins, {} poses",
-                self.output.display(),
+                shown(&self.target.output),
                 self.name,
                 design.pins.len(),
                 design.poses.len()

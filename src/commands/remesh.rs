@@ -6,6 +6,7 @@ use super::output::{say, say_json};
 use crate::design::edit::set_tracks;
 use crate::design::history::History;
 use crate::design::remesh::{Report, remesh};
+use crate::files::shown;
 use crate::mesh::{Request, Size};
 use crate::outline::Point;
 use clap::Args;
@@ -26,9 +27,8 @@ const NAMED: usize = 5;
 pub struct Remesh {
     /// Design file to read
     pub design: PathBuf,
-    /// Design file to write; may be the one read
-    #[arg(short, long, value_name = "DESIGN")]
-    pub output: PathBuf,
+    #[command(flatten)]
+    pub target: document::Target,
     /// Muscle fibres (mesh edges) to aim for
     #[arg(long, value_name = "N")]
     pub fibers: Option<usize>,
@@ -59,7 +59,8 @@ pub struct Track(pub Vec<Point>);
 
 impl Remesh {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
-        let mut history = History::new(document::load(&self.design)?);
+        let (design, edit) = self.target.open(&self.design, cancel)?;
+        let mut history = History::new(design);
         let size = match (self.fibers, self.edge) {
             (Some(fibers), _) => Size::Fibers(fibers),
             (None, Some(length)) => Size::EdgeMm(length),
@@ -79,8 +80,8 @@ impl Remesh {
                 remesh(design, &request, usize::from(self.finer))
             })
             .map_err(|e| CommandError::input(&self.design, e))?;
-        document::save_as(&self.design, &self.output, history.current(), cancel)?;
-        if self.json { say_json(out, &report) } else { print(&self.output, &report, out) }
+        edit.save(history.current(), cancel)?;
+        if self.json { say_json(out, &report) } else { print(&self.target.output, &report, out) }
     }
 }
 
@@ -91,7 +92,7 @@ pub fn print(output: &Path, report: &Report, out: &mut dyn Write) -> Result<(), 
         out,
         &format!(
             "{}: fibers {}, nodes {}, triangles {}",
-            output.display(),
+            shown(output),
             from_to(report.fibers),
             from_to(report.nodes),
             from_to(report.triangles)

@@ -1,11 +1,13 @@
 //! `render`: a picture of both plushies.
 
 use super::error::CommandError;
-use super::output::{say, write_file};
+use super::output::{Output, say};
 use super::{document, key};
 use crate::design::animation::activations_at;
+use crate::design::texture::find;
 use crate::design::{Design, Target, file};
 use crate::engine::{Question, Shape};
+use crate::files::shown;
 use crate::picture::palette::Palette;
 use crate::picture::scene::{self, Options};
 use crate::picture::{Texture, raster};
@@ -30,7 +32,7 @@ pub struct Render {
     #[arg(long, value_name = "P", conflicts_with = "time")]
     pub pose: Option<String>,
     /// Show the animation at this time in s
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", value_parser = parse_time, allow_hyphen_values = true)]
     pub time: Option<f64>,
     /// Width and height in pixels, each 16 to 8192
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = parse_size)]
@@ -43,6 +45,8 @@ pub struct Render {
 impl Render {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
         let design = document::load(&self.design)?;
+        let inputs = [Some(self.design.clone()), file::texture_path(&design, &self.design)];
+        let output = Output::new(&self.output, inputs.into_iter().flatten())?;
         let question = match (&self.pose, self.time) {
             (Some(pose), _) => Question::Targets(key::targets(&design, pose)?),
             (None, Some(time)) => {
@@ -65,22 +69,25 @@ impl Render {
         let shapes = key::solve(&design, question, [true, true], cancel)?;
         let texture = if self.no_texture { None } else { texture(&design, &self.design, out)? };
         let bytes = picture(&design, &shapes, &targets, texture.as_ref(), self.size)?;
-        write_file(&self.output, &bytes, cancel)?;
-        say(out, &format!("{}: {} x {} pixels", self.output.display(), self.size.0, self.size.1))?;
+        output.write(&bytes, cancel)?;
+        say(out, &format!("{}: {} x {} pixels", shown(&self.output), self.size.0, self.size.1))?;
         key::balanced(key::unbalanced(&place, &shapes))
     }
 }
 
 /// The texture of a design; one that cannot be read is not drawn, and that is said.
 fn texture(design: &Design, from: &Path, out: &mut dyn Write) -> Result<Option<Arc<Texture>>, CommandError> {
-    let Some(path) = file::texture_path(design, from) else { return Ok(None) };
-    match Texture::read(&path) {
-        Ok(texture) => Ok(Some(Arc::new(texture))),
-        Err(error) => {
-            say(out, &format!("note: drawn without its texture {}: {error}", path.display()))?;
-            Ok(None)
-        }
-    }
+    let Some(named) = file::texture_path(design, from) else { return Ok(None) };
+    let why = match find(design, from) {
+        Ok(None) => return Ok(None),
+        Ok(Some(path)) => match Texture::read(&path) {
+            Ok(texture) => return Ok(Some(Arc::new(texture))),
+            Err(error) => error.to_string(),
+        },
+        Err(error) => error.to_string(),
+    };
+    say(out, &format!("note: drawn without its texture {}: {why}", named.display()))?;
+    Ok(None)
 }
 
 /// Both plushies side by side as PNG.
@@ -98,6 +105,12 @@ pub fn picture(
     let left = scene::scene(design, idealized, &left);
     let right = scene::scene(design, realizable, &right);
     raster::png(&left, &right, size, background).map_err(|e| CommandError::Failed(e.to_string()))
+}
+
+/// Reads a time, s.
+fn parse_time(text: &str) -> Result<f64, String> {
+    let time = text.parse::<f64>().ok().filter(|time| time.is_finite());
+    time.ok_or_else(|| format!("expected a time in s, found `{text}`"))
 }
 
 /// Reads `WxH`.

@@ -3,7 +3,7 @@
 use super::document;
 use super::error::CommandError;
 use super::new::Reading;
-use super::output::{say, say_json};
+use super::output::{refuse_input, say, say_json};
 use super::remesh;
 use crate::design::edit::EditError;
 use crate::design::history::History;
@@ -28,9 +28,8 @@ pub struct Reshape {
     pub design: PathBuf,
     /// Outline to read: any that `new` reads
     pub outline: PathBuf,
-    /// Design file to write; may be the one read
-    #[arg(short, long, value_name = "DESIGN")]
-    pub output: PathBuf,
+    #[command(flatten)]
+    pub target: document::Target,
     /// Muscle fibres (mesh edges) to aim for [default: as many as the design has]
     #[arg(long, value_name = "N")]
     pub fibers: Option<usize>,
@@ -54,7 +53,9 @@ struct Summary<'a> {
 
 impl Reshape {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
-        let mut history = History::new(document::load(&self.design)?);
+        refuse_input(&self.target.output, &self.outline)?;
+        let (design, edit) = self.target.open(&self.design, cancel)?;
+        let mut history = History::new(design);
         let import = self.reading.import();
         let refuse = |reason: String| CommandError::input(&self.outline, reason);
         let mut imported = outline::import_file(&self.outline, &import).map_err(|e| refuse(e.to_string()))?;
@@ -69,11 +70,11 @@ impl Reshape {
         let report = history
             .edit("Reshape", |design| Ok::<_, EditError>(reshape(design, body)))
             .map_err(|e| CommandError::input(&self.design, e))?;
-        document::save_as(&self.design, &self.output, history.current(), cancel)?;
+        edit.save(history.current(), cancel)?;
         if self.json {
             return say_json(out, &Summary { clean_up: &changes, report: &report });
         }
-        remesh::print(&self.output, &report, out)?;
+        remesh::print(&self.target.output, &report, out)?;
         changes.lines().into_iter().try_for_each(|line| say(out, &format!("note: {line}")))
     }
 }

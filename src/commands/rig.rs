@@ -6,6 +6,7 @@ use super::{document, key};
 use crate::defaults;
 use crate::design::{Design, Easing};
 use crate::engine::rig::{RigError, RigOptions, TendonChoice, rig};
+use crate::files::shown;
 use clap::Args;
 use std::io::Write;
 use std::path::PathBuf;
@@ -19,9 +20,8 @@ use std::sync::atomic::AtomicBool;
 pub struct Rig {
     /// Design file to read
     pub design: PathBuf,
-    /// Design file to write; may be the one read
-    #[arg(short, long, value_name = "DESIGN")]
-    pub output: PathBuf,
+    #[command(flatten)]
+    pub target: document::Target,
     /// Most winches the design may have in the end
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..=64))]
     pub max_winches: u16,
@@ -44,7 +44,7 @@ pub struct Rig {
 
 impl Rig {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
-        let design = document::load(&self.design)?;
+        let (design, edit) = self.target.open(&self.design, cancel)?;
         let options = RigOptions {
             max_winches: usize::from(self.max_winches),
             tendons: self.tendons.clone(),
@@ -69,9 +69,9 @@ impl Rig {
             other => other,
         })?;
         printed?;
-        document::save_as(&self.design, &self.output, &rigged, cancel)?;
+        edit.save(&rigged, cancel)?;
         let tendons: usize = rigged.networks.iter().map(|n| n.tendons.len()).sum();
-        say(out, &format!("{}: {} winches, {tendons} tendons", self.output.display(), rigged.networks.len()))
+        say(out, &format!("{}: {} winches, {tendons} tendons", shown(&self.target.output), rigged.networks.len()))
     }
 }
 

@@ -1,7 +1,7 @@
 //! `solve`: one numerical question, as JSON.
 
 use super::error::{CommandError, check_cancel};
-use super::output::{json, read_text, say, write_file};
+use super::output::{Output, json, read_text, say_lines};
 use crate::problem::{self, Document, Options, Problem, Quality};
 use crate::soft_ik;
 use clap::builder::PossibleValuesParser;
@@ -82,6 +82,8 @@ impl Stopwatch {
 
 impl Solve {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
+        let inputs = || [self.problem.clone()];
+        let output = self.output.as_deref().map(|path| Output::new(path, inputs())).transpose()?;
         let mut clock = Stopwatch::start();
         let text = read_text(&self.problem)?;
         let (problem, unknown) = problem::read(&text).map_err(|e| CommandError::input(&self.problem, e))?;
@@ -92,12 +94,12 @@ impl Solve {
         let answered = self.answer(problem, cancel)?;
         let solving = clock.lap();
         let mut text = json(&answered)?;
-        match &self.output {
-            Some(path) => {
+        match output {
+            Some(output) => {
                 text.push('\n');
-                write_file(path, text.as_bytes(), cancel)?;
+                output.write(text.as_bytes(), cancel)?;
             }
-            None => say(out, &text)?,
+            None => say_lines(out, &text)?,
         }
         if self.times {
             let writing = clock.lap();

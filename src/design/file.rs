@@ -4,27 +4,31 @@
 //! a file back gives the same bits. The version is read before anything else, so that a file from the future is refused
 //! as such and not for the first word this program does not know.
 
-use super::{Design, DesignError};
+use super::{Design, DesignError, texture};
+use crate::files::{self, Stamp, printable, shown};
 use ron::error::{Position, SpannedError};
 use ron::ser::PrettyConfig;
 use serde::{Deserialize, Serialize};
-use std::fs;
-use std::io::{self, Write};
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// Version of the file format that this program writes, and the newest it reads.
 pub const FORMAT_VERSION: u32 = 1;
+/// Largest design file that is read, bytes. The largest mesh that is made (200 000 fibres) takes a quarter of it.
+pub const MAX_BYTES: u64 = 32 << 20;
 
 /// Why a design file could not be read or written.
 #[derive(Debug, Error)]
 pub enum FileError {
-    #[error("cannot read {}: {source}", path.display())]
+    #[error("cannot read {}: {source}", shown(path))]
     Read { path: PathBuf, source: io::Error },
-    #[error("cannot write {}: {source}", path.display())]
+    #[error("cannot write {}: {source}", shown(path))]
     Write { path: PathBuf, source: io::Error },
-    #[error("{}: {error}", path.display())]
+    #[error("{}: {error}", shown(path))]
     Content { path: PathBuf, error: TextError },
+    #[error("{} was changed by another program since it was read; it is left as it is", shown(path))]
+    Changed { path: PathBuf },
 }
 
 /// Why a text is not a design.
@@ -46,10 +50,15 @@ pub enum TextError {
 
 /// Reads and validates a design file.
 pub fn read(path: &Path) -> Result<Design, FileError> {
-    let bytes = fs::read(path).map_err(|source| FileError::Read { path: path.into(), source })?;
+    read_stamped(path).map(|(design, _)| design)
+}
+
+/// [`read`], with what tells whether the file is still the one that was read.
+pub fn read_stamped(path: &Path) -> Result<(Design, Stamp), FileError> {
+    let bytes = files::read(path, MAX_BYTES).map_err(|source| FileError::Read { path: path.into(), source })?;
     let content = |error| FileError::Content { path: path.into(), error };
     let text = std::str::from_utf8(&bytes).map_err(|e| content(not_text(&bytes, e.valid_up_to())))?;
-    parse(text).map_err(content)
+    Ok((parse(text).map_err(content)?, Stamp::of(&bytes)))
 }
 
 /// Parses and validates the text of a design file.
@@ -132,76 +141,53 @@ pub fn to_text(design: &Design) -> Result<String, ron::Error> {
 
 /// Validates a design and writes it: the file holds either the old content or the new, never a part of it.
 pub fn write(path: &Path, design: &Design) -> Result<(), FileError> {
+    save(design, None, path, None).map(drop)
+}
+
+/// Writes a design that was read from `from`: what it finds beside that goes with it (see [`texture::carried`]). Where the file was
+/// `seen` it must still be that one, or gone.
+///
+/// # Errors
+/// [`FileError::Changed`], where it is not; a design that is unsound; what the system says. Nothing is written then.
+pub fn save(design: &Design, from: Option<&Path>, to: &Path, seen: Option<&Stamp>) -> Result<Stamp, FileError> {
+    let failed = |source| FileError::Write { path: to.into(), source };
+    let carried = texture::carried(design, from.unwrap_or(to), to).map_err(failed)?;
+    if let Some(seen) = seen
+        && Stamp::at(to).map_err(failed)?.is_some_and(|now| now != *seen)
+    {
+        return Err(FileError::Changed { path: to.into() });
+    }
+    write_with(to, carried.design.as_ref().unwrap_or(design), carried.texture)
+}
+
+/// [`write`] together with another file, both or neither.
+pub fn write_with(path: &Path, design: &Design, beside: Option<(PathBuf, Vec<u8>)>) -> Result<Stamp, FileError> {
     let content = |error: TextError| FileError::Content { path: path.into(), error };
     design.validate().map_err(|e| content(e.into()))?;
     let text = to_text(design).map_err(|e| content(TextError::Unwritable(e.to_string())))?;
-    replace(path, text.as_bytes()).map_err(|source| FileError::Write { path: path.into(), source })
+    let beside = beside.as_ref().map(|(path, bytes)| (path.as_path(), bytes.as_slice()));
+    let files: Vec<(&Path, &[u8])> = beside.into_iter().chain([(path, text.as_bytes())]).collect();
+    files::write_together(&files)
+        .map_err(|(number, source)| FileError::Write { path: files[number].0.into(), source })?;
+    Ok(Stamp::of(text.as_bytes()))
 }
 
-/// A design read from `from` as it is to be written to `to`, where that differs: what it finds relative to its own folder stays
-/// the same file.
-pub fn seen_from(design: &Design, from: &Path, to: &Path) -> Option<Design> {
-    let texture = moved(design.texture.as_deref()?, from, to)?;
-    Some(Design { texture: Some(texture), ..design.clone() })
+/// Whether a file is a design, or means to be one: a newer or a broken one too.
+pub fn is_design(path: &Path) -> bool {
+    /// Enough for what an editor or a person may put before the version, bytes.
+    const HEAD: u64 = 512;
+    let mut head = Vec::new();
+    let read = std::fs::metadata(path).is_ok_and(|found| found.is_file() && found.len() > 0)
+        && std::fs::File::open(path).is_ok_and(|file| file.take(HEAD).read_to_end(&mut head).is_ok());
+    let text = String::from_utf8_lossy(&head);
+    let text = text.trim_start_matches('\u{feff}').trim_start();
+    let named = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("plush"));
+    read && (named || (text.starts_with('(') && text.contains("version:")))
 }
 
-/// A path relative to the folder of `from` as seen from the folder of `to`; none where it stays as it is.
-fn moved(path: &str, from: &Path, to: &Path) -> Option<String> {
-    let [from, to] = [from, to].map(|file| parent(file).canonicalize().ok());
-    let (from, to) = (from?, to?);
-    if from == to || Path::new(path).is_absolute() {
-        return None;
-    }
-    let common = from.components().zip(to.components()).take_while(|(a, b)| a == b).count();
-    if common == 0 {
-        // Another drive.
-        return from.join(path).to_str().map(str::to_owned);
-    }
-    let up = to.components().skip(common).map(|_| Some(".."));
-    let down = from.components().skip(common).map(|part| part.as_os_str().to_str());
-    let parts: Option<Vec<&str>> = up.chain(down).chain([Some(path)]).collect();
-    Some(parts?.join("/"))
-}
-
-/// Replaces a file in one step: a new file beside it, flushed to the disk, takes its place and its permissions.
-fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    // A link stays a link: what it points to is replaced.
-    let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
-    let folder = parent(&path);
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".plushwright-").suffix(".tmp");
-    // A temporary file is private by default; a document gets what the user's umask says.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut file = builder.tempfile_in(folder)?;
-    if let Ok(old) = fs::metadata(&path) {
-        if old.permissions().readonly() {
-            return Err(io::Error::new(io::ErrorKind::PermissionDenied, "the file is read-only"));
-        }
-        file.as_file().set_permissions(old.permissions())?;
-    }
-    file.write_all(bytes)?;
-    file.as_file().sync_all()?;
-    file.persist(&path).map_err(|e| e.error)?;
-    // The new name itself is on the disk once the folder is. Not every system can do that; the content is safe anyway.
-    #[cfg(unix)]
-    if let Ok(folder) = fs::File::open(folder) {
-        let _ = folder.sync_all();
-    }
-    Ok(())
-}
-
-/// Where a design that was read from `file` finds its texture.
+/// Where a design that was read from `file` says that its texture is. [`texture::find`] looks whether it may be read.
 pub fn texture_path(design: &Design, file: &Path) -> Option<PathBuf> {
     design.texture.as_deref().map(|texture| file.with_file_name(texture))
-}
-
-/// The folder of a file.
-pub fn parent(path: &Path) -> &Path {
-    match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    }
 }
 
 /// Writes one field; what is nested deeper than `depth` levels in it stays on one line.
@@ -216,7 +202,18 @@ fn field<T: Serialize>(out: &mut String, name: &str, value: &T, depth: usize) ->
 
 fn syntax(error: SpannedError) -> TextError {
     let Position { line, col: column } = error.span.start;
-    TextError::Syntax { line, column, message: error.code.to_string() }
+    TextError::Syntax { line, column, message: excerpt(&error.code.to_string()) }
+}
+
+/// A message that may quote the file, which may be anything: its beginning, with nothing that a terminal would obey.
+fn excerpt(message: &str) -> String {
+    /// Characters: a line or two.
+    const MOST: usize = 200;
+    let mut shown: String = message.chars().take(MOST).collect();
+    if shown.len() < message.len() {
+        shown.push_str("...");
+    }
+    printable(&shown)
 }
 
 fn not_text(bytes: &[u8], good: usize) -> TextError {
@@ -224,25 +221,4 @@ fn not_text(bytes: &[u8], good: usize) -> TextError {
     let line = 1 + before.iter().filter(|&&b| b == b'\n').count();
     let column = 1 + before.iter().rev().take_while(|&&b| b != b'\n').count();
     TextError::Syntax { line, column, message: "not UTF-8 text".into() }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_relative_path_leads_to_the_same_file_from_another_folder() {
-        let folder = tempfile::tempdir().unwrap();
-        let at = |path: &str| folder.path().join(path);
-        for path in ["a/b", "c"] {
-            std::fs::create_dir_all(at(path)).unwrap();
-        }
-        let seen = |from: &str, to: &str| moved("x.png", &at(from), &at(to));
-        assert_eq!(seen("a/p.plush", "a/q.plush"), None);
-        assert_eq!(seen("a/p.plush", "a/../a/b/../q.plush"), None);
-        assert_eq!(seen("a/p.plush", "c/q.plush").as_deref(), Some("../a/x.png"));
-        assert_eq!(seen("p.plush", "a/b/q.plush").as_deref(), Some("../../x.png"));
-        assert_eq!(seen("a/b/p.plush", "q.plush").as_deref(), Some("a/b/x.png"));
-        assert_eq!(moved("/x.png", &at("a/p.plush"), &at("c/q.plush")), None);
-    }
 }

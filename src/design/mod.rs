@@ -11,11 +11,13 @@ mod figures;
 pub mod file;
 pub mod history;
 mod problem;
+pub mod ranges;
 pub mod remesh;
 pub mod reshape;
 mod settings;
 #[cfg(test)]
 pub(crate) mod testing;
+pub mod texture;
 mod validate;
 
 pub use edit::EditError;
@@ -26,6 +28,7 @@ pub use problem::{DesignError, Problem};
 pub use settings::{
     ControllerSettings, FabricationSettings, FiberSet, FiberSettings, Gravity, Material, TendonSettings,
 };
+pub use validate::MAX_NAME_CHARS;
 
 use crate::defaults;
 use crate::mesh::{BodyPoint, Mesh};
@@ -187,6 +190,17 @@ impl Design {
             gravity: None,
             stiffness_map: None,
         }
+    }
+
+    /// Whether nobody has worked on it yet: all there is follows from its outline.
+    pub fn is_bare(&self) -> bool {
+        let Self { pins, poses, networks, keyframes, gravity, stiffness_map, material, fibers, tendons, .. } = self;
+        let lists = pins.is_empty() && poses.is_empty() && networks.is_empty() && keyframes.is_empty();
+        let physics = *material == Material::default() && *fibers == FiberSettings::default();
+        let made =
+            self.fabrication == FabricationSettings::default() && self.controller == ControllerSettings::default();
+        let others = gravity.is_none() && stiffness_map.is_none() && *tendons == TendonSettings::default();
+        lists && physics && made && others
     }
 
     /// The routings of the muscle fibres, in the order in which fibre contractions are reported everywhere.

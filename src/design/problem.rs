@@ -20,13 +20,21 @@ pub enum Problem {
     OutOfRange { index: usize, len: usize, what: &'static str },
     #[error("{0} is not a finite number")]
     NotFinite(f64),
-    #[error("{0} is not greater than zero")]
+    #[error("{} is not greater than zero", short(*.0))]
     NotPositive(f64),
-    #[error("{0} is negative")]
+    #[error("{} is negative", short(*.0))]
     Negative(f64),
-    #[error("{0} is greater than {1}")]
+    #[error("{} is greater than {}", short(*.0), short(*.1))]
     TooLarge(f64, f64),
-    #[error("the weights sum to {0}, not to 1")]
+    #[error("{} is out of range: {} to {}{}", short(*value), short(*low), short(*high), spaced(unit))]
+    OutOfBounds { value: f64, low: f64, high: f64, unit: &'static str },
+    #[error("{} times mu is more than {} times", short(*factor), short(*most))]
+    TooStiff { factor: f64, most: f64 },
+    #[error("has {found} {what}, at most {most} are read")]
+    TooMany { found: usize, most: usize, what: &'static str },
+    #[error("has a character that cannot be shown (U+{0:04X})")]
+    Hidden(u32),
+    #[error("the weights sum to {}, not to 1", short(*.0))]
     WeightSum(f64),
     #[error("has {found} {what}, needs at least {least}")]
     TooFew { found: usize, least: usize, what: &'static str },
@@ -44,7 +52,7 @@ pub enum Problem {
     RepeatedNode(usize),
     #[error("starts at node {found}, the network's winch is at node {winch}")]
     OtherWinch { found: usize, winch: usize },
-    #[error("{time} s does not come after {before} s")]
+    #[error("{} s does not come after {} s", short(*time), short(*before))]
     NotAscending { time: f64, before: f64 },
     #[error("is empty")]
     Empty,
@@ -61,23 +69,17 @@ pub enum Problem {
 /// Outcome of a check.
 pub(super) type Check = Result<(), DesignError>;
 
+/// A number with its digits, or with an exponent where it would be long.
+fn short(value: f64) -> String {
+    if value != 0.0 && !(1e-3..1e7).contains(&value.abs()) { format!("{value:e}") } else { format!("{value}") }
+}
+
+fn spaced(unit: &str) -> String {
+    if unit.is_empty() { String::new() } else { format!(" {unit}") }
+}
+
 pub(super) fn finite(at: &str, v: f64) -> Check {
     require(v.is_finite(), at, || Problem::NotFinite(v))
-}
-
-pub(super) fn positive(at: &str, v: f64) -> Check {
-    finite(at, v)?;
-    require(v > 0.0, at, || Problem::NotPositive(v))
-}
-
-pub(super) fn not_negative(at: &str, v: f64) -> Check {
-    finite(at, v)?;
-    require(v >= 0.0, at, || Problem::Negative(v))
-}
-
-pub(super) fn fraction(at: &str, v: f64) -> Check {
-    not_negative(at, v)?;
-    require(v <= 1.0, at, || Problem::TooLarge(v, 1.0))
 }
 
 pub(super) fn at_least(at: &str, found: usize, least: usize, what: &'static str) -> Check {

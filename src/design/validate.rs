@@ -1,16 +1,23 @@
-//! What makes a document sound: every index in range, every figure finite and of the right sign, names unambiguous.
+//! What makes a document sound: every index in range, every figure in its range ([`ranges`]), names unambiguous and fit to be
+//! shown, no more of anything than can be worked on.
 //!
 //! The rest of the program relies on it and does not check again. An error names the place as a path into the file
 //! (`pins[1].at.triangle`), 0-based, and what is wrong there.
 
-use super::problem::{
-    Check, DesignError, Problem, at_least, fail, finite, fraction, not_negative, positive, require, same_length,
-};
+use super::problem::{Check, DesignError, Problem, at_least, fail, finite, require, same_length};
+use super::ranges::{self, Range, at_most};
 use super::{Design, FORMAT_VERSION, FiberSet, Keyframe, Material, Network, Pin, Pose, Target, Tendon};
+use crate::files::is_hidden;
 use crate::mesh::{BodyPoint, Mesh};
 use crate::outline::{Point, polygon::signed_area};
 use std::collections::HashSet;
 
+/// Longest name of a design, pose or network, characters: what a file name has room for.
+pub const MAX_NAME_CHARS: usize = 255;
+/// Longest path of a texture, characters: that of the systems.
+const MAX_PATH_CHARS: usize = 4096;
+/// What activations are measured by on bodies larger than it, mm.
+const METRE_MM: f64 = 1000.0;
 /// How far the weights of a body point may sum from 1, dimensionless: a file written by hand with six decimals passes.
 pub const WEIGHT_SUM_TOLERANCE: f64 = 1e-6;
 /// How far below zero a weight of a body point may be, dimensionless: room for rounding where a point lies on an edge.
@@ -30,10 +37,13 @@ impl Design {
     /// Everything but outline and mesh, which hardly any edit touches. Linear in the document's size.
     pub(super) fn validate_beside_body(&self) -> Result<(), DesignError> {
         settings(self)?;
+        shown_name("name", &self.name, false)?;
+        at_most("pins", self.pins.len(), ranges::MAX_PINS, "pins")?;
         for (i, p) in self.pins.iter().enumerate() {
             pin(&format!("pins[{i}]"), &self.mesh, p)?;
         }
         poses(&self.mesh, &self.poses)?;
+        at_most("networks", self.networks.len(), ranges::MAX_NETWORKS, "networks")?;
         for (i, n) in self.networks.iter().enumerate() {
             network(&format!("networks[{i}]"), &self.mesh, n)?;
         }
@@ -42,6 +52,8 @@ impl Design {
 }
 
 fn outline(design: &Design) -> Check {
+    let points = design.outline.polygons().map(<[Point]>::len).sum();
+    at_most("outline", points, ranges::MAX_OUTLINE_POINTS, "points")?;
     let area = polygon("outline.outer", &design.outline.outer)?;
     require(area > 0.0, "outline.outer", || Problem::OuterPolygon(area))?;
     for (i, hole) in design.outline.holes.iter().enumerate() {
@@ -56,7 +68,7 @@ fn outline(design: &Design) -> Check {
 fn polygon(at: &str, points: &[Point]) -> Result<f64, DesignError> {
     at_least(at, points.len(), 3, "points")?;
     for (i, p) in points.iter().enumerate() {
-        point(&format!("{at}[{i}]"), p)?;
+        coordinates(&format!("{at}[{i}]"), p, &ranges::COORDINATE)?;
     }
     Ok(signed_area(points))
 }
@@ -65,8 +77,10 @@ fn mesh(mesh: &Mesh) -> Check {
     at_least("mesh.nodes", mesh.nodes.len(), 3, "nodes")?;
     at_least("mesh.triangles", mesh.triangles.len(), 1, "triangles")?;
     for (i, p) in mesh.nodes.iter().enumerate() {
-        point(&format!("mesh.nodes[{i}]"), p)?;
+        coordinates(&format!("mesh.nodes[{i}]"), p, &ranges::COORDINATE)?;
     }
+    ranges::BODY.check("mesh.nodes", mesh.body_length())?;
+    at_most("mesh.triangles", mesh.triangles.len(), ranges::MAX_TRIANGLES, "triangles")?;
     for (i, corners) in mesh.triangles.iter().enumerate() {
         let at = format!("mesh.triangles[{i}]");
         for &n in corners {
@@ -82,67 +96,69 @@ fn mesh(mesh: &Mesh) -> Check {
 
 /// Everything about a design's settings; used by the edits as well.
 pub(super) fn settings(design: &Design) -> Check {
-    match design.material {
-        Material::NeoHookean { mu, kappa } => {
-            positive("material.mu", mu)?;
-            not_negative("material.kappa", kappa)?;
-        }
-        Material::StVenantKirchhoff { mu, lambda } => {
-            positive("material.mu", mu)?;
-            not_negative("material.lambda", lambda)?;
-        }
-    }
+    let (mu, other, name) = match design.material {
+        Material::NeoHookean { mu, kappa } => (mu, kappa, "material.kappa"),
+        Material::StVenantKirchhoff { mu, lambda } => (mu, lambda, "material.lambda"),
+    };
+    ranges::MU.check("material.mu", mu)?;
+    ranges::KAPPA.check(name, other)?;
+    let (factor, most) = (other / mu, ranges::STIFFENING.high);
+    require(factor <= most, name, || Problem::TooStiff { factor, most })?;
     let fibers = &design.fibers;
     if let FiberSet::Routings(routings) = &fibers.set {
         for (i, r) in routings.iter().enumerate() {
             routing(&format!("fibers.set[{i}]"), &design.mesh, r)?;
         }
     }
-    positive("fibers.stiffness", fibers.stiffness)?;
-    positive("fibers.epsilon_fraction", fibers.epsilon_fraction)?;
-    fraction("fibers.max_contraction", fibers.max_contraction)?;
-    positive("tendons.stiffness", design.tendons.stiffness)?;
-    positive("tendons.epsilon_mm", design.tendons.epsilon_mm)?;
-    fraction("tendons.max_contraction", design.tendons.max_contraction)?;
-
-    let made = &design.fabrication;
-    not_negative("fabrication.seam_allowance_mm", made.seam_allowance_mm)?;
-    positive("fabrication.tendon_hole_mm", made.tendon_hole_mm)?;
-    not_negative("fabrication.turning_gap_mm", made.turning_gap_mm)?;
-    positive("fabrication.spool_radius_mm", made.spool_radius_mm)?;
-    let motor = &design.controller;
-    positive("controller.encoder_lines", f64::from(motor.encoder_lines))?;
-    positive("controller.gear_ratio", motor.gear_ratio)?;
-    positive("controller.track_rate_hz", motor.track_rate_hz)?;
-    positive("controller.speed_rpm", f64::from(motor.speed_rpm))?;
-    positive("controller.acceleration", f64::from(motor.acceleration))?;
-
+    ranges::FIBER_STIFFNESS.check("fibers.stiffness", fibers.stiffness)?;
+    ranges::FIBER_EPSILON.check("fibers.epsilon_fraction", fibers.epsilon_fraction)?;
+    ranges::FIBER_CONTRACTION.check("fibers.max_contraction", fibers.max_contraction)?;
+    ranges::TENDON_STIFFNESS.check("tendons.stiffness", design.tendons.stiffness)?;
+    ranges::TENDON_EPSILON.check("tendons.epsilon_mm", design.tendons.epsilon_mm)?;
+    ranges::TENDON_CONTRACTION.check("tendons.max_contraction", design.tendons.max_contraction)?;
+    made(design)?;
     if let Some(gravity) = &design.gravity {
-        point("gravity.acceleration", &gravity.acceleration)?;
-        not_negative("gravity.surface_density", gravity.surface_density)?;
+        coordinates("gravity.acceleration", &gravity.acceleration, &ranges::ACCELERATION)?;
+        ranges::SURFACE_DENSITY.check("gravity.surface_density", gravity.surface_density)?;
     }
     if let Some(map) = &design.stiffness_map {
         same_length("stiffness_map", map.len(), design.mesh.triangles.len(), "triangles")?;
         for (i, &factor) in map.iter().enumerate() {
-            positive(&format!("stiffness_map[{i}]"), factor)?;
+            ranges::STIFFNESS_FACTOR.check(&format!("stiffness_map[{i}]"), factor)?;
         }
     }
     if let Some(drawing) = &design.drawing {
         drawing.check().or_else(|(at, why)| fail(format!("drawing.{at}"), Problem::Drawing(why)))?;
     }
     if let Some([low, high]) = &design.texture_box {
-        point("texture_box[0]", low)?;
-        point("texture_box[1]", high)?;
-        (0..2).try_for_each(|axis| positive("texture_box", high[axis] - low[axis]))?;
+        coordinates("texture_box[0]", low, &ranges::POSITION)?;
+        coordinates("texture_box[1]", high, &ranges::POSITION)?;
+        (0..2).try_for_each(|axis| ranges::TEXTURE_SIZE.check("texture_box", high[axis] - low[axis]))?;
     }
     match &design.texture {
-        Some(path) if path.is_empty() => fail("texture", Problem::Empty),
-        _ => Ok(()),
+        Some(path) => shown_text("texture", path, MAX_PATH_CHARS, true),
+        None => Ok(()),
     }
+}
+
+/// What is made: felt, spools, motors.
+fn made(design: &Design) -> Check {
+    let made = &design.fabrication;
+    ranges::SEAM_ALLOWANCE.check("fabrication.seam_allowance_mm", made.seam_allowance_mm)?;
+    ranges::TENDON_HOLE.check("fabrication.tendon_hole_mm", made.tendon_hole_mm)?;
+    ranges::TURNING_GAP.check("fabrication.turning_gap_mm", made.turning_gap_mm)?;
+    ranges::SPOOL_RADIUS.check("fabrication.spool_radius_mm", made.spool_radius_mm)?;
+    let motor = &design.controller;
+    ranges::ENCODER_LINES.check("controller.encoder_lines", f64::from(motor.encoder_lines))?;
+    ranges::GEAR_RATIO.check("controller.gear_ratio", motor.gear_ratio)?;
+    ranges::TRACK_RATE.check("controller.track_rate_hz", motor.track_rate_hz)?;
+    ranges::SPEED.check("controller.speed_rpm", f64::from(motor.speed_rpm))?;
+    ranges::MOTOR_ACCELERATION.check("controller.acceleration", f64::from(motor.acceleration))
 }
 
 fn poses(mesh: &Mesh, poses: &[Pose]) -> Check {
     let mut names = HashSet::new();
+    at_most("poses", poses.len(), ranges::MAX_POSES, "poses")?;
     for (i, p) in poses.iter().enumerate() {
         let at = format!("poses[{i}]");
         pose(&at, mesh, p)?;
@@ -156,6 +172,7 @@ fn poses(mesh: &Mesh, poses: &[Pose]) -> Check {
 
 fn keyframes(design: &Design) -> Check {
     let mut before: Option<f64> = None;
+    at_most("keyframes", design.keyframes.len(), ranges::MAX_KEYFRAMES, "keyframes")?;
     for (i, k) in design.keyframes.iter().enumerate() {
         let at = format!("keyframes[{i}]");
         keyframe(&at, design, k)?;
@@ -170,13 +187,14 @@ fn keyframes(design: &Design) -> Check {
 pub(super) fn pin(at: &str, mesh: &Mesh, pin: &Pin) -> Check {
     body_point(&format!("{at}.at"), mesh, &pin.at)?;
     if let Some(position) = &pin.position {
-        point(&format!("{at}.position"), position)?;
+        coordinates(&format!("{at}.position"), position, &ranges::POSITION)?;
     }
-    positive(&format!("{at}.stiffness"), pin.stiffness)
+    ranges::PIN_STIFFNESS.check(&format!("{at}.stiffness"), pin.stiffness)
 }
 
 pub(super) fn pose(at: &str, mesh: &Mesh, pose: &Pose) -> Check {
-    require(!pose.name.trim().is_empty(), &format!("{at}.name"), || Problem::Empty)?;
+    shown_name(&format!("{at}.name"), &pose.name, true)?;
+    at_most(&format!("{at}.targets"), pose.targets.len(), ranges::MAX_TARGETS, "targets")?;
     for (i, t) in pose.targets.iter().enumerate() {
         target(&format!("{at}.targets[{i}]"), mesh, t)?;
     }
@@ -185,31 +203,38 @@ pub(super) fn pose(at: &str, mesh: &Mesh, pose: &Pose) -> Check {
 
 pub(super) fn target(at: &str, mesh: &Mesh, target: &Target) -> Check {
     body_point(&format!("{at}.at"), mesh, &target.at)?;
-    point(&format!("{at}.to"), &target.to)?;
-    not_negative(&format!("{at}.weight"), target.weight)
+    coordinates(&format!("{at}.to"), &target.to, &ranges::POSITION)?;
+    ranges::WEIGHT.check(&format!("{at}.weight"), target.weight)
 }
 
 /// Network names may repeat or be empty: nothing refers to them, and exports make their own labels.
 pub(super) fn network(at: &str, mesh: &Mesh, network: &Network) -> Check {
+    shown_name(&format!("{at}.name"), &network.name, false)?;
     at_least(&format!("{at}.tendons"), network.tendons.len(), 1, "tendons")?;
+    at_most(&format!("{at}.tendons"), network.tendons.len(), ranges::MAX_TENDONS, "tendons")?;
     let mut winch = None;
     for (i, Tendon { routing: nodes, ratio, slack_mm }) in network.tendons.iter().enumerate() {
         let at = format!("{at}.tendons[{i}]");
         routing(&format!("{at}.routing"), mesh, nodes)?;
         let (found, winch) = (nodes[0], *winch.get_or_insert(nodes[0]));
         require(found == winch, &format!("{at}.routing"), || Problem::OtherWinch { found, winch })?;
-        positive(&format!("{at}.ratio"), *ratio)?;
-        not_negative(&format!("{at}.slack_mm"), *slack_mm)?;
+        ranges::RATIO.check(&format!("{at}.ratio"), *ratio)?;
+        ranges::SLACK.check(&format!("{at}.slack_mm"), *slack_mm)?;
     }
     Ok(())
 }
 
 pub(super) fn keyframe(at: &str, design: &Design, keyframe: &Keyframe) -> Check {
-    not_negative(&format!("{at}.time_s"), keyframe.time_s)?;
+    ranges::TIME.check(&format!("{at}.time_s"), keyframe.time_s)?;
     let activations = &keyframe.activations_mm;
     same_length(&format!("{at}.activations_mm"), activations.len(), design.networks.len(), "networks")?;
+    // A body of many metres has cables of many metres.
+    let size = (design.body_length_mm() / METRE_MM).max(1.0);
     for (i, &a) in activations.iter().enumerate() {
-        finite(&format!("{at}.activations_mm[{i}]"), a)?;
+        ranges::ACTIVATION.check_scaled(&format!("{at}.activations_mm[{i}]"), a, size)?;
+    }
+    if let Some(name) = &keyframe.pose {
+        shown_name(&format!("{at}.pose"), name, true)?;
     }
     match &keyframe.pose {
         Some(name) if !design.poses.iter().any(|p| p.name == *name) => {
@@ -221,6 +246,7 @@ pub(super) fn keyframe(at: &str, design: &Design, keyframe: &Keyframe) -> Check 
 
 fn routing(at: &str, mesh: &Mesh, nodes: &[usize]) -> Check {
     at_least(at, nodes.len(), 2, "nodes")?;
+    at_most(at, nodes.len(), ranges::MAX_ROUTING, "nodes")?;
     for (i, &n) in nodes.iter().enumerate() {
         node(&format!("{at}[{i}]"), mesh, n)?;
     }
@@ -251,7 +277,22 @@ fn node(at: &str, mesh: &Mesh, index: usize) -> Check {
     require(index < len, at, || Problem::OutOfRange { index, len, what: "nodes" })
 }
 
-fn point(at: &str, p: &Point) -> Check {
-    finite(at, p[0])?;
-    finite(at, p[1])
+fn coordinates(at: &str, p: &Point, range: &Range) -> Check {
+    p.iter().try_for_each(|&v| range.check(at, v))
+}
+
+/// A name that people see: of a bounded length, and without characters that a terminal or a table obeys instead of showing them.
+fn shown_name(at: &str, name: &str, needed: bool) -> Check {
+    shown_text(at, name, MAX_NAME_CHARS, needed)
+}
+
+fn shown_text(at: &str, text: &str, most: usize, needed: bool) -> Check {
+    require(!needed || !text.trim().is_empty(), at, || Problem::Empty)?;
+    // Bytes first: they are counted already.
+    let found = if text.len() <= most { 0 } else { text.chars().count() };
+    at_most(at, found, most, "characters")?;
+    match text.chars().find(|&c| is_hidden(c)) {
+        Some(c) => fail(at, Problem::Hidden(u32::from(c))),
+        None => Ok(()),
+    }
 }

@@ -20,19 +20,22 @@ pub mod seam;
 pub mod svg;
 pub mod tracks;
 
-mod folder;
 mod readme;
 
 use crate::design::{Design, DesignError};
+use crate::files::folder::{self, FolderError};
+use crate::files::shown;
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Name of the list of files, by which a folder is known as an earlier export.
-pub const MANIFEST: &str = "manifest.json";
+pub use crate::files::folder::{Listed as ManifestFile, MANIFEST};
+pub use crate::files::sha256;
+
 const MANIFEST_FORMAT: &str = "plushwright-blueprint/1";
+/// What the format of an earlier export begins with, whatever its version.
+const ANY_VERSION: &str = "plushwright-blueprint/";
 
 /// What an export consists of.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -44,14 +47,6 @@ pub struct Manifest {
     pub files: Vec<ManifestFile>,
     /// What the user should know about this blueprint (a motor too slow, a gap too small, ...).
     pub remarks: Vec<String>,
-}
-
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ManifestFile {
-    pub name: String,
-    pub bytes: u64,
-    /// Lower-case hexadecimal.
-    pub sha256: String,
 }
 
 /// One file of a blueprint, in memory.
@@ -69,12 +64,12 @@ pub enum ExportError {
     #[error(transparent)]
     Invalid(#[from] DesignError),
     #[error(
-        "the animation has {steps:.0} steps, more than {:.0}: shorten it or lower controller.track_rate_hz",
+        "the animation has {steps:.3e} steps, more than {:.0}: shorten it or lower controller.track_rate_hz",
         tracks::MAX_STEPS
     )]
     TooLong { steps: f64 },
     #[error(
-        "winch {winch:?} would have to go to {counts:.0} counts, beyond the controller's {:.0}",
+        "winch {winch:?} would have to go to {counts:.3e} counts, beyond the controller's {:.0}",
         tracks::MAX_COUNTS
     )]
     TooFar { winch: String, counts: f64 },
@@ -85,9 +80,11 @@ pub enum ExportError {
         controller::MAX_RESOLUTION
     )]
     EncoderTooFine { lines: u32 },
-    #[error("{} exists and is not an earlier export ({found:?} is in it): choose another folder", path.display())]
+    #[error("{} exists and is not an earlier export ({found:?} is in it): choose another folder", shown(path))]
     NotOurs { path: PathBuf, found: String },
-    #[error("cannot write {}: {source}", path.display())]
+    #[error("{} exists and {name:?} in it was changed by hand: choose another folder", shown(path))]
+    Changed { path: PathBuf, name: String },
+    #[error("cannot write {}: {source}", shown(path))]
     Write { path: PathBuf, source: io::Error },
 }
 
@@ -101,13 +98,26 @@ impl ExportError {
 /// Writes the blueprint of a design as a folder, which appears whole or not at all. An earlier export there is
 /// replaced; a folder that holds anything else is refused.
 pub fn export(design: &Design, dir: &Path) -> Result<Manifest, ExportError> {
+    folder::check(dir, ANY_VERSION)?;
     let (files, manifest) = blueprint(design)?;
-    folder::write(dir, &files)?;
+    let files: Vec<(&str, &[u8])> = files.iter().map(|file| (file.name, file.bytes.as_slice())).collect();
+    folder::write(dir, ANY_VERSION, &files)?;
     Ok(manifest)
+}
+
+impl From<FolderError> for ExportError {
+    fn from(error: FolderError) -> Self {
+        match error {
+            FolderError::NotOurs { path, found } => Self::NotOurs { path, found },
+            FolderError::Changed { path, name } => Self::Changed { path, name },
+            FolderError::Write { path, source } => Self::Write { path, source },
+        }
+    }
 }
 
 /// Makes all files of the blueprint, the manifest last. The same design gives the same bytes.
 pub fn blueprint(design: &Design) -> Result<(Vec<File>, Manifest), ExportError> {
+    tracks::check(design)?;
     design.validate()?;
     if design.networks.is_empty() {
         return Err(ExportError::NoNetworks);
@@ -126,20 +136,14 @@ pub fn blueprint(design: &Design) -> Result<(Vec<File>, Manifest), ExportError> 
     ]
     .map(|(name, text)| File { name, bytes: text.into_bytes() })
     .into();
-    let entry = |f: &File| ManifestFile { name: f.name.into(), bytes: f.bytes.len() as u64, sha256: sha256(&f.bytes) };
     let manifest = Manifest {
         format: MANIFEST_FORMAT.into(),
         design: design.name.clone(),
-        files: files.iter().map(entry).collect(),
+        files: files.iter().map(|file| ManifestFile::of(file.name, &file.bytes)).collect(),
         remarks,
     };
     let json = serde_json::to_string_pretty(&manifest)
         .map_err(|e| ExportError::Write { path: MANIFEST.into(), source: e.into() })?;
     files.push(File { name: MANIFEST, bytes: (json + "\n").into_bytes() });
     Ok((files, manifest))
-}
-
-/// SHA-256 in lower-case hexadecimal.
-pub fn sha256(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }

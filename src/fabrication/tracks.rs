@@ -2,7 +2,7 @@
 
 use super::ExportError;
 use super::routing::winch_labels;
-use crate::design::{Design, animation};
+use crate::design::{Design, Keyframe, animation};
 use std::f64::consts::PI;
 
 /// Most steps of a track: over five hours at the default rate. A guard against a file of many gigabytes.
@@ -28,12 +28,29 @@ pub fn counts_per_mm(design: &Design) -> f64 {
     4.0 * lines * design.controller.gear_ratio / (2.0 * PI * design.fabrication.spool_radius_mm)
 }
 
-/// The whole animation at the track rate; a single step of zeros without keyframes.
-pub fn track(design: &Design) -> Result<Track, ExportError> {
+/// Whether the animation is beyond what a track can hold, told by its keyframes alone: of a design that is not known to be sound too.
+///
+/// # Errors
+/// Too many steps, or a position beyond the controllers'.
+pub fn check(design: &Design) -> Result<(), ExportError> {
     let steps = animation::track_steps(design);
     if steps.is_nan() || steps > MAX_STEPS {
         return Err(ExportError::TooLong { steps });
     }
+    let (scale, winches) = (counts_per_mm(design), winch_labels(design));
+    let lengths = |k: &'_ Keyframe| winches.iter().cloned().zip(k.activations_mm.clone()).collect::<Vec<_>>();
+    for (winch, length) in design.keyframes.iter().flat_map(lengths) {
+        let counts = (scale * length).round();
+        if counts.is_nan() || counts.abs() > MAX_COUNTS {
+            return Err(ExportError::TooFar { winch, counts });
+        }
+    }
+    Ok(())
+}
+
+/// The whole animation at the track rate; a single step of zeros without keyframes.
+pub fn track(design: &Design) -> Result<Track, ExportError> {
+    check(design)?;
     let winches = winch_labels(design);
     let scale = counts_per_mm(design);
     let times_s = animation::track_times(design);

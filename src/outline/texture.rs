@@ -1,8 +1,9 @@
 //! The picture of a plushie: what its file shows within the silhouette's box.
 
 use super::{Format, Import, Imported, OutlineError, Point, import, picture, svg};
+use crate::files;
 use image::{ImageFormat, RgbaImage};
-use std::io::Cursor;
+use std::io::{self, Cursor};
 use std::path::Path;
 
 /// Longest side of a texture, pixels: 0.15 mm on 300 mm.
@@ -33,10 +34,11 @@ pub fn texture(bytes: &[u8], import: &Import, imported: &Imported) -> Result<Vec
 /// # Errors
 /// What the system says of the file, or what is wrong with the picture.
 pub fn read_texture(path: &Path) -> Result<RgbaImage, OutlineError> {
-    let bytes = import::read_file(path)?;
-    if bytes.len() > import::MAX_FILE_BYTES {
-        return Err(OutlineError::TooLarge);
-    }
+    let unread = |error: io::Error| match error.kind() {
+        io::ErrorKind::FileTooLarge => OutlineError::TooLarge,
+        _ => OutlineError::Unopened(error.to_string()),
+    };
+    let bytes = files::read(path, import::MAX_FILE_BYTES as u64).map_err(unread)?;
     let picture = picture::decoded(&bytes)?;
     let size = [picture.width(), picture.height()];
     let fitted = fitted(size.map(f64::from), f64::from(MAX_TEXTURE_PX));

@@ -109,6 +109,16 @@ pub enum FileAction {
     /// Answers about unsaved changes.
     SaveAndGoOn,
     DiscardAndGoOn,
+    /// A file was dropped on the window.
+    Dropped(PathBuf),
+    /// What was imported, where the document has been changed in the meantime.
+    OpenImported,
+    /// Saves there, whatever is there.
+    ReplacePath(PathBuf),
+    /// Answers about work that another window left behind.
+    Recover,
+    DiscardWork,
+    RecoverLater,
     /// Opens the desktop's own dialog for the dialog that is shown.
     Browse,
     Quit,

@@ -1,11 +1,12 @@
 //! The window: state, and one update a frame.
 
-use super::action::Action;
+use super::action::{Action, FileAction};
 use super::files::desktop_has_dialogs;
 use super::pacing::Pacing;
 use super::panels::{self, Tab};
 use super::session::{Services, Session};
-use super::{paper, shortcuts, style, viewport};
+use super::store::Store;
+use super::{paper, safety, shortcuts, style, viewport};
 use crate::design::Design;
 use crate::picture::palette::{Palette, Theme};
 use eframe::egui::{self, CentralPanel, Frame, Margin, Panel, ViewportCommand};
@@ -52,6 +53,13 @@ impl Studio {
         self
     }
 
+    /// Keeps work, settings and recent files in a folder, and offers what was left there.
+    pub fn with_store(mut self, ctx: &egui::Context, store: Store) -> Self {
+        self.session.keep_in(store);
+        style::set_theme(ctx, self.session.look.theme);
+        self
+    }
+
     pub fn session(&self) -> &Session {
         &self.session
     }
@@ -67,6 +75,9 @@ impl Studio {
         let mut actions = Vec::new();
         shortcuts::collect(&ctx, &self.session, &mut self.panels, typing, &mut actions);
         self.layout(ui, &mut actions);
+        if ctx.input(|i| i.viewport().close_requested()) && !self.session.files.quit {
+            actions.push(Action::File(FileAction::Quit));
+        }
         self.paper.finish_before(&self.session, &mut actions);
         let changed = !actions.is_empty();
         for action in actions {
@@ -75,10 +86,14 @@ impl Studio {
             }
             self.session.apply(action);
         }
+        if changed && hands_off {
+            self.session.remember();
+        }
         if changed {
             // So that the solver is asked, and the outcome of the actions seen, without waiting for the pointer.
             ctx.request_repaint();
         }
+        self.keep(&ctx);
         self.keep_awake(&ctx);
         self.set_title(&ctx);
         self.guard_closing(&ctx);
@@ -127,6 +142,9 @@ impl Studio {
         if self.session.playback.playing {
             ctx.request_repaint();
         }
+        if let Some(after) = self.session.safety.due {
+            ctx.request_repaint_after(after);
+        }
         if let Some(seconds) = self.session.messages.next_change_s() {
             ctx.request_repaint_after(Duration::from_secs_f64(seconds.max(0.0)));
         }
@@ -141,16 +159,26 @@ impl Studio {
         }
     }
 
-    /// Closing with unsaved changes asks first.
+    /// Keeps what is not saved; where the system ends the program, at once.
+    fn keep(&mut self, ctx: &egui::Context) {
+        if let Some(size) = ctx.input(|i| i.viewport().inner_rect) {
+            self.session.sized([size.width(), size.height()]);
+        }
+        let drawing = self.paper.unfinished(&self.session);
+        if safety::is_ending() && !self.session.files.quit {
+            self.session.end(drawing);
+        } else if !self.session.files.quit {
+            self.session.keep(drawing);
+        }
+    }
+
+    /// Closing with unsaved changes asks first: [`FileAction::Quit`] was among the actions.
     fn guard_closing(&mut self, ctx: &egui::Context) {
-        if ctx.input(|i| i.viewport().close_requested()) && !self.session.files.quit {
-            self.session.apply(Action::File(super::action::FileAction::Quit));
-            if !self.session.files.quit {
-                ctx.send_viewport_cmd(ViewportCommand::CancelClose);
-                ctx.request_repaint();
-            }
-        } else if self.session.files.quit {
+        if self.session.files.quit {
             ctx.send_viewport_cmd(ViewportCommand::Close);
+        } else if ctx.input(|i| i.viewport().close_requested()) {
+            ctx.send_viewport_cmd(ViewportCommand::CancelClose);
+            ctx.request_repaint();
         }
     }
 }

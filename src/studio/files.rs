@@ -10,10 +10,12 @@ use super::meshing::Resolution;
 use super::session::Session;
 use super::sketching::{self, Pencil, Sketch};
 use crate::defaults;
-use crate::design::{Design, bundled, file};
+use crate::design::{Design, FileError, bundled, file};
+use crate::files;
 use crate::mesh::{self, Request};
 use crate::outline::{self, Holes, Import, OutlineError, Pieces};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// What a path is wanted for.
@@ -31,6 +33,21 @@ pub enum Dialog {
     /// There are unsaved changes; what was wanted is done afterwards.
     Unsaved(Box<FileAction>),
     Path(PathDialog),
+    /// Something is in the place that would be saved to.
+    Replace(PathBuf, Why),
+    /// Work that another window left behind is offered.
+    Recover,
+}
+
+/// Why it is asked whether a file may be replaced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Why {
+    /// It is another plushie.
+    Exists,
+    /// It is no plushie.
+    Foreign,
+    /// It was changed since it was read.
+    Changed,
 }
 
 /// Asks for a path in the window.
@@ -65,6 +82,10 @@ pub struct Files {
     pub working: Option<&'static str>,
     /// Waits for saving to succeed.
     after_save: Option<FileAction>,
+    /// The document whose changes may be dropped, as was answered.
+    pub(super) granted: Option<Arc<Design>>,
+    /// Waits for an answer about the document that it would replace.
+    imported: Option<Box<New>>,
     /// The path that the desktop's dialog was opened for.
     picking: Option<Purpose>,
     /// Whether the desktop has dialogs.
@@ -125,10 +146,14 @@ impl Session {
                 | FileAction::OpenPath(_)
                 | FileAction::OpenExample(_)
                 | FileAction::ImportPath { .. }
+                | FileAction::OpenImported
                 | FileAction::Quit
         );
-        // The path dialog was opened past the question, so its answer does not raise it again.
-        if replaces && self.files.dialog.is_none() && self.history.is_modified() {
+        // An answer is about the document as it was then. Whatever dialog is open, the end of all work is asked about.
+        let granted = action != FileAction::Quit
+            && self.files.granted.as_ref().is_some_and(|granted| Arc::ptr_eq(granted, self.design()));
+        if replaces && !granted && self.history.is_modified() {
+            self.files.after_save = None;
             self.files.dialog = Some(Dialog::Unsaved(Box::new(action)));
             return;
         }
@@ -152,17 +177,30 @@ impl Session {
             }
             FileAction::Export => self.show_path_dialog(Purpose::Export),
             FileAction::Save => match self.path.clone() {
-                Some(path) => self.save(path),
+                Some(path) => self.save(path, false),
                 None => self.ask_path(Purpose::SaveAs),
             },
             FileAction::OpenPath(path) => self.open_path(path),
             FileAction::OpenExample(index) => self.open_example(index),
             FileAction::ImportPath { path, choice } => self.import(path, choice),
-            FileAction::SavePath(path) => self.save(path),
+            FileAction::Dropped(path) if self.files.dialog.is_some() => {
+                let path = files::shown(&path);
+                self.messages.warning(format!("{path} was not opened: answer the dialog first."));
+            }
+            FileAction::Dropped(path) => self.file(FileAction::OpenPath(path)),
+            FileAction::OpenImported => self.open_imported(),
+            FileAction::SavePath(path) => self.save(path, false),
+            FileAction::ReplacePath(path) => self.save(path, true),
+            FileAction::Recover => self.recover(),
+            FileAction::DiscardWork => self.discard_work(),
+            FileAction::RecoverLater => self.recover_later(),
             FileAction::ExportPath(folder) => self.export(folder),
+            FileAction::CloseDialog if self.files.dialog == Some(Dialog::Recover) => self.recover_later(),
             FileAction::CloseDialog => {
                 self.files.dialog = None;
                 self.files.after_save = None;
+                self.files.granted = None;
+                self.files.imported = None;
             }
             FileAction::EditDialog(dialog) => self.files.dialog = Some(Dialog::Path(dialog)),
             FileAction::SaveAndGoOn => {
@@ -173,6 +211,7 @@ impl Session {
             }
             FileAction::DiscardAndGoOn => {
                 if let Some(Dialog::Unsaved(next)) = self.files.dialog.take() {
+                    self.files.granted = Some(self.design().clone());
                     self.file_unguarded(*next);
                 }
             }
@@ -181,7 +220,7 @@ impl Session {
                     self.pick(dialog.purpose);
                 }
             }
-            FileAction::Quit => self.files.quit = true,
+            FileAction::Quit => self.quit(),
         }
     }
 
@@ -195,8 +234,12 @@ impl Session {
                         let path = path.to_string_lossy().into_owned();
                         self.files.dialog = Some(Dialog::Path(PathDialog { path, trouble: None, ..dialog }));
                     }
-                    (Some(path), _) if purpose == Purpose::Open => self.open_path(path),
-                    (Some(path), _) => self.save(path),
+                    (Some(path), _) if purpose == Purpose::Open => self.file(FileAction::Dropped(path)),
+                    // The desktop has asked about a plushie that would be replaced.
+                    (Some(path), _) => {
+                        let asked = path.extension().is_some() && file::is_design(&path);
+                        self.save(path, asked);
+                    }
                     // Nobody cancels that fast: there was no dialog.
                     (None, _) if at_once => {
                         self.files.native_dialogs = false;
@@ -213,15 +256,8 @@ impl Session {
                 self.files.working = None;
                 match result {
                     Ok(imported) => {
-                        let New { design, changes, texture } = *imported;
-                        self.open(design, None);
-                        self.origin = texture.as_ref().map(Kept::origin);
-                        self.kept = texture;
-                        for line in changes.lines() {
-                            self.messages.info(line);
-                        }
-                        // It is nowhere but here.
-                        self.history.mark_unsaved();
+                        self.files.imported = Some(imported);
+                        self.file(FileAction::OpenImported);
                     }
                     Err(refused) => self.ask_again(*refused),
                 }
@@ -229,7 +265,7 @@ impl Session {
             Report::Exported { folder, result } => {
                 self.files.working = None;
                 match result {
-                    Ok(()) => self.messages.info(format!("The blueprint is in {}", folder.display())),
+                    Ok(()) => self.messages.info(format!("The blueprint is in {}", files::shown(&folder))),
                     Err(why) => self.messages.error(format!("The export failed: {why}")),
                 }
             }
@@ -292,10 +328,12 @@ impl Session {
             }
             return;
         }
-        match file::read(&path) {
-            Ok(design) => {
+        match file::read_stamped(&path) {
+            Ok((design, seen)) => {
                 self.files.dialog = None;
-                self.open(design, Some(path));
+                self.open(design, Some(path.clone()));
+                self.safety.seen = Some(seen);
+                self.opened(&path);
             }
             Err(error) => self.messages.error(error.to_string()),
         }
@@ -309,11 +347,26 @@ impl Session {
         }
     }
 
+    fn open_imported(&mut self) {
+        let Some(imported) = self.files.imported.take() else { return };
+        let New { design, changes, texture } = *imported;
+        self.files.dialog = None;
+        self.open(design, None);
+        self.origin = texture.as_ref().map(Kept::origin);
+        self.kept = texture;
+        for line in changes.lines() {
+            self.messages.info(line);
+        }
+        // It is nowhere but here.
+        self.history.mark_unsaved();
+    }
+
     fn import(&mut self, path: PathBuf, choice: ImportChoice) {
         self.files.dialog = None;
         self.files.working = Some("Meshing the outline");
+        let within = self.safety.folder().map(Path::to_path_buf);
         self.jobs.start("Import", move || {
-            let design = read_outline(&path, &choice);
+            let design = read_outline(&path, &choice, within.as_deref());
             Report::Imported(design.map(Box::new).map_err(|why| Box::new(Refused { path, choice, why })))
         });
     }
@@ -322,7 +375,7 @@ impl Session {
     fn ask_again(&mut self, refused: Refused) {
         let Refused { path, choice, why } = refused;
         if self.files.dialog.is_some() {
-            self.messages.error(format!("{}: {why}", path.display()));
+            self.messages.error(format!("{}: {why}", files::shown(&path)));
             return;
         }
         self.files.dialog = Some(Dialog::Path(PathDialog {
@@ -333,27 +386,38 @@ impl Session {
         }));
     }
 
-    fn save(&mut self, path: PathBuf) {
+    /// Saves the document. What is not the document's own file, or is not what was read any more, is asked about, unless the answer was
+    /// to `replace` it.
+    fn save(&mut self, path: PathBuf, replace: bool) {
         let path = if path.extension().is_none() { path.with_extension("plush") } else { path };
-        let design = match (&self.kept, &self.origin) {
-            (Some(kept), _) => match kept.beside(self.design(), &path) {
-                Ok(design) => Some(design),
-                Err(error) => return self.messages.error(format!("The texture cannot be saved: {error}")),
-            },
-            (None, Some(from)) => file::seen_from(self.design(), from, &path),
-            (None, None) => None,
-        };
-        match file::write(&path, design.as_ref().unwrap_or(self.design())) {
-            Ok(()) => {
+        let own = self.path.as_deref().is_some_and(|own| own == path || files::same(own, &path));
+        let there = std::fs::metadata(&path).is_ok_and(|found| found.is_file() && found.len() > 0);
+        if there && !own && !replace {
+            let why = if file::is_design(&path) { Why::Exists } else { Why::Foreign };
+            self.files.dialog = Some(Dialog::Replace(path, why));
+            return;
+        }
+        let seen = self.safety.seen.filter(|_| own && !replace);
+        let saved = Self::hold(&path).map_err(|source| FileError::Write { path: path.clone(), source });
+        let saved = saved.and_then(|_held| file::save(self.design(), self.origin.as_deref(), &path, seen.as_ref()));
+        match saved {
+            Ok(seen) => {
                 self.history.mark_saved();
-                self.messages.info(format!("Saved {}", path.display()));
+                self.messages.info(format!("Saved {}", files::shown(&path)));
+                self.opened(&path);
+                self.safety.seen = Some(seen);
                 self.path = Some(path);
                 self.files.dialog = None;
                 if let Some(next) = self.files.after_save.take() {
                     self.file_unguarded(next);
                 }
             }
-            Err(error) => self.messages.error(error.to_string()),
+            Err(FileError::Changed { path }) => self.files.dialog = Some(Dialog::Replace(path, Why::Changed)),
+            Err(error) => {
+                // What was to follow a success does not follow another one.
+                self.files.after_save = None;
+                self.messages.error(error.to_string());
+            }
         }
     }
 
@@ -393,7 +457,7 @@ fn in_the_window(error: OutlineError) -> String {
     error.to_string().replace("--pieces largest", "“Largest piece only”").replace("--height", "“Height”")
 }
 
-fn read_outline(path: &Path, choice: &ImportChoice) -> Result<New, String> {
+fn read_outline(path: &Path, choice: &ImportChoice, within: Option<&Path>) -> Result<New, String> {
     let import = Import {
         height_mm: Some(choice.height_mm),
         pieces: if choice.largest_piece { Pieces::Largest } else { Pieces::Refuse },
@@ -401,7 +465,8 @@ fn read_outline(path: &Path, choice: &ImportChoice) -> Result<New, String> {
         layers: choice.layers.split(',').map(str::trim).filter(|name| !name.is_empty()).map(str::to_owned).collect(),
         ..Import::default()
     };
-    let bytes = outline::read_file(path).map_err(|e| e.to_string())?;
+    // A pipe would keep the thread waiting for ever.
+    let bytes = files::read(path, outline::MAX_FILE_BYTES as u64).map_err(|e| format!("it cannot be opened: {e}"))?;
     let mut imported = outline::import(&bytes, &import).map_err(in_the_window)?;
     let png = match choice.texture {
         true => Some(outline::texture(&bytes, &import, &imported).map_err(|e| e.to_string())?),
@@ -415,7 +480,7 @@ fn read_outline(path: &Path, choice: &ImportChoice) -> Result<New, String> {
     }
     let name = path.file_stem().map_or_else(|| "plushie".to_owned(), |s| s.to_string_lossy().into_owned());
     let mut design = Design { drawing: imported.drawing, ..Design::new(name, imported.outline, meshed.mesh) };
-    let texture = png.map(|png| Kept::new(&mut design, &png)).transpose();
+    let texture = png.map(|png| Kept::new(&mut design, &png, within)).transpose();
     let texture = texture.map_err(|e| format!("the texture cannot be kept: {e}"))?;
     Ok(New { design, changes: imported.changes, texture })
 }

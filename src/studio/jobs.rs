@@ -97,6 +97,11 @@ impl Jobs {
         });
     }
 
+    /// What wakes the window up.
+    pub fn wake(&self) -> Wake {
+        self.wake.clone()
+    }
+
     pub fn next(&self) -> Option<Report> {
         self.receive.try_recv().ok()
     }

@@ -18,6 +18,7 @@ mod dragging;
 pub mod files;
 pub mod icons;
 pub mod jobs;
+pub mod keeper;
 pub mod keeping;
 pub mod meshing;
 pub mod messages;
@@ -26,9 +27,11 @@ pub mod panels;
 pub mod paper;
 mod playing;
 mod reading;
+pub mod safety;
 pub mod session;
 mod shortcuts;
 pub mod sketching;
+pub mod store;
 pub mod style;
 mod texturing;
 pub mod viewport;
@@ -41,10 +44,22 @@ use session::Services;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+use store::Store;
 use thiserror::Error;
 
 /// What a bare Debian machine needs to open a window and draw in it.
 const PACKAGES: &str = "libegl1 libxkbcommon-x11-0 libxcursor1 libxi6 libx11-xcb1 mesa-vulkan-drivers";
+
+/// Sizes of the window, logical pixels: the first one, the least, and the most that a broken memory may ask for.
+const SIZE: [f32; 2] = [1280.0, 800.0];
+const LEAST_SIZE: [f32; 2] = [860.0, 560.0];
+const MOST_SIZE: f32 = 8192.0;
+/// Exit code of a window that did not close in time when it was asked to.
+const ENDED: i32 = 130;
+/// How long a window may take to keep its work when the system ends the program. What it has kept so far stays in any case.
+const PATIENCE: Duration = Duration::from_secs(4);
 
 /// Why the window could not be opened.
 #[derive(Debug, Error)]
@@ -68,12 +83,15 @@ pub fn run(design: Option<Design>, path: Option<PathBuf>) -> Result<(), StudioEr
         return Err(StudioError::NoDisplay);
     }
     let design = design.unwrap_or_else(first_design);
+    let store = Store::of_platform();
+    let size = store.as_ref().and_then(|store| store.settings().window).unwrap_or(SIZE);
+    let size = [0, 1].map(|k| if size[k].is_finite() { size[k].clamp(LEAST_SIZE[k], MOST_SIZE) } else { SIZE[k] });
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_title(format!("Plushwright - {}", design.name))
             .with_app_id("plushwright")
-            .with_inner_size([1280.0, 800.0])
-            .with_min_inner_size([860.0, 560.0]),
+            .with_inner_size(size)
+            .with_min_inner_size(LEAST_SIZE),
         persist_window: false,
         dithering: false,
         ..Default::default()
@@ -83,9 +101,14 @@ pub fn run(design: Option<Design>, path: Option<PathBuf>) -> Result<(), StudioEr
             Some(egui::Theme::Dark) => Theme::Dark,
             _ => Theme::Light,
         };
-        let studio = Studio::new(&context.egui_ctx, design, path, services());
         style::set_theme(&context.egui_ctx, theme);
-        Ok(Box::new(studio.with_window(context.wgpu_render_state.as_ref(), theme)))
+        let studio = Studio::new(&context.egui_ctx, design, path, services());
+        let mut studio = studio.with_window(context.wgpu_render_state.as_ref(), theme);
+        if let Some(store) = store {
+            studio = studio.with_store(&context.egui_ctx, store);
+        }
+        end_when_asked(context.egui_ctx.clone());
+        Ok(Box::new(studio))
     });
     // winit panics where an X library is missing; what it says then is the user's only clue.
     match catch_unwind(AssertUnwindSafe(|| eframe::run_native("plushwright", options, create))) {
@@ -106,6 +129,19 @@ pub fn services() -> Services {
             crate::fabrication::export(design, folder).map(|_| ()).map_err(|error| error.to_string())
         }),
     }
+}
+
+/// An interrupt, a request to end or the end of the terminal lets the window keep its work and close.
+fn end_when_asked(ctx: egui::Context) {
+    let asked = move || {
+        safety::ENDING.store(true, Ordering::SeqCst);
+        ctx.request_repaint();
+        std::thread::sleep(PATIENCE);
+        crate::files::before_exit();
+        std::process::exit(ENDED);
+    };
+    // Without it such an end is like a kill: what was kept is offered at the next start.
+    let _ = ctrlc::set_handler(asked);
 }
 
 /// On other systems there always is one.

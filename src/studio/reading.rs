@@ -51,6 +51,11 @@ impl Session {
         self.files.working.is_some()
     }
 
+    /// Whether the window is about to close.
+    pub fn is_closing(&self) -> bool {
+        self.files.quit
+    }
+
     /// Targets of the current pose; none at rest and while the animation is shown.
     pub fn targets(&self) -> &[Target] {
         match (self.mode, self.pose.and_then(|pose| self.design().poses.get(pose))) {

@@ -7,6 +7,7 @@ use super::jobs::{Jobs, Report, Wake};
 use super::keeping::Kept;
 use super::meshing::Meshing;
 use super::messages::Messages;
+use super::safety::Safety;
 use super::sketching::{Sketch, Sketching};
 use super::texturing::Texturing;
 use super::viewport::Plushie;
@@ -16,6 +17,7 @@ use crate::design::{Design, Target, edit};
 use crate::discovery::Parameters;
 use crate::engine::worker::Worker;
 use crate::engine::{Proposal, Quality, Request, Shape};
+use crate::files::Stamp;
 use crate::outline::Point;
 use crate::picture::palette::Theme;
 use crate::picture::scene::Stage;
@@ -159,6 +161,7 @@ pub struct Session {
     pub(super) shapes: Shapes,
     pub(super) messages: Messages,
     pub(super) files: Files,
+    pub(super) safety: Safety,
     pub(super) jobs: Jobs,
     pub(super) services: Services,
     pub(super) worker: Worker,
@@ -176,6 +179,7 @@ pub struct Session {
 impl Session {
     pub fn new(design: Design, path: Option<PathBuf>, wake: Wake, services: Services) -> Self {
         let on_outcome = wake.clone();
+        let seen = path.as_deref().and_then(|path| Stamp::at(path).ok().flatten());
         Self {
             pose: first_pose(&design),
             history: History::new(design.clone()),
@@ -210,6 +214,7 @@ impl Session {
             shapes: Shapes::default(),
             messages: Messages::default(),
             files: Files::default(),
+            safety: Safety::seen(seen),
             jobs: Jobs::new(wake),
             services,
             worker: Worker::spawn(Box::new(move || on_outcome())),
@@ -234,6 +239,8 @@ impl Session {
         self.path = path;
         self.kept = None;
         self.texturing = Texturing::default();
+        self.files.granted = None;
+        self.unclaimed();
         self.selection = Selection::Nothing;
         self.mode = Mode::Pose;
         self.playback.time_s = 0.0;

@@ -11,7 +11,7 @@ use eframe::egui::{Context, Key, KeyboardShortcut, Modifiers, Popup};
 
 pub fn collect(ctx: &Context, session: &Session, panels: &mut panels::State, typing: bool, actions: &mut Vec<Action>) {
     for file in ctx.input(|i| i.raw.dropped_files.clone()) {
-        actions.push(Action::File(FileAction::OpenPath(file.path().to_path_buf())));
+        actions.push(Action::File(FileAction::Dropped(file.path().to_path_buf())));
     }
     if session.files.dialog.is_some() {
         return;

@@ -2,7 +2,8 @@
 
 use super::jobs::Report;
 use super::session::Session;
-use crate::design::file;
+use crate::design::{file, texture};
+use crate::files::shown;
 use crate::picture::Texture;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -53,8 +54,10 @@ impl Session {
         }
         self.texturing = Texturing { path: path.clone(), found: Found::Nothing };
         if let Some(path) = path {
+            let design = self.design().clone();
             self.jobs.start("The texture", move || {
-                let texture = Texture::read(&path).map(Arc::new).map_err(|error| error.to_string());
+                let may = texture::find(&design, &from).map_err(|error| error.to_string());
+                let texture = may.and_then(|_| Texture::read(&path).map(Arc::new).map_err(|error| error.to_string()));
                 Report::Textured { path, texture }
             });
         }
@@ -67,7 +70,7 @@ impl Session {
         self.texturing.found = match texture {
             Ok(texture) => Found::Picture(texture),
             Err(why) => {
-                self.messages.warning(format!("The texture {} cannot be shown: {why}", path.display()));
+                self.messages.warning(format!("The texture {} cannot be shown: {why}", shown(&path)));
                 Found::Trouble
             }
         };

@@ -1,8 +1,9 @@
 //! Dialogs over the window: unsaved changes, and paths where the desktop has no dialogs of its own.
 
 use super::{Actions, primary};
+use crate::files::shown;
 use crate::studio::action::{Action, FileAction};
-use crate::studio::files::{Dialog, PathDialog, Purpose};
+use crate::studio::files::{Dialog, PathDialog, Purpose, Why};
 use crate::studio::session::Session;
 use eframe::egui::{Align, Context, DragValue, Id, Key, Layout, Modal, RichText, TextEdit, Ui};
 use std::path::Path;
@@ -14,6 +15,8 @@ pub fn show(ctx: &Context, session: &Session, actions: &mut Actions) {
         match dialog {
             Dialog::Unsaved(_) => unsaved(ui, session, actions),
             Dialog::Path(dialog) => path(ui, session, dialog, actions),
+            Dialog::Replace(path, why) => replace(ui, path, *why, actions),
+            Dialog::Recover => recover(ui, session, actions),
         }
     });
     if modal.should_close() {
@@ -36,6 +39,71 @@ fn unsaved(ui: &mut Ui, session: &Session, actions: &mut Actions) {
             actions.push(Action::File(FileAction::CloseDialog));
         }
     });
+}
+
+fn replace(ui: &mut Ui, path: &Path, why: Why, actions: &mut Actions) {
+    let name = shown(path.file_name().map_or(path, Path::new));
+    let (heading, text) = match why {
+        Why::Exists => {
+            (format!("Replace “{name}”?"), "Another plushie has that name. What is in its file is lost then.")
+        }
+        Why::Foreign => (format!("Replace “{name}”?"), "That file is no plushie. What is in it is lost then."),
+        Why::Changed => (
+            format!("“{name}” was changed by another program"),
+            "It is not what was opened here any more. Replacing it loses those changes; saving under another name keeps both.",
+        ),
+    };
+    ui.heading(heading);
+    ui.label(text);
+    ui.add_space(10.0);
+    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        if primary(ui, true, "Save under another name", 180.0).clicked() {
+            actions.push(Action::File(FileAction::SaveAs));
+        }
+        if ui.button("Replace it").clicked() {
+            actions.push(Action::File(FileAction::ReplacePath(path.to_owned())));
+        }
+        if ui.button("Cancel").clicked() {
+            actions.push(Action::File(FileAction::CloseDialog));
+        }
+    });
+}
+
+fn recover(ui: &mut Ui, session: &Session, actions: &mut Actions) {
+    let Some(work) = session.offered() else { return };
+    ui.heading(format!("Recover “{}”?", work.design.name));
+    let ago = work
+        .at
+        .elapsed()
+        .map_or_else(|_| String::new(), |ago| format!(" It was changed {} ago.", spoken(ago.as_secs())));
+    let from = work.facts.path.as_deref().map_or_else(
+        || "It has no file yet.".to_owned(),
+        |path| format!("It belongs to {}, which is as it was.", shown(path)),
+    );
+    ui.label(format!("Plushwright ended before this plushie was saved.{ago} {from}"));
+    ui.add_space(10.0);
+    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        if primary(ui, true, "Recover", 100.0).clicked() {
+            actions.push(Action::File(FileAction::Recover));
+        }
+        if ui.button("Discard it").clicked() {
+            actions.push(Action::File(FileAction::DiscardWork));
+        }
+        if ui.button("Not now").clicked() {
+            actions.push(Action::File(FileAction::RecoverLater));
+        }
+    });
+}
+
+/// How long something took, in the largest unit that fits.
+fn spoken(seconds: u64) -> String {
+    let (count, unit) = match seconds {
+        0..=119 => (seconds, "second"),
+        120..=7199 => (seconds / 60, "minute"),
+        7200..=172_799 => (seconds / 3600, "hour"),
+        _ => (seconds / 86_400, "day"),
+    };
+    format!("{count} {unit}{}", if count == 1 { "" } else { "s" })
 }
 
 fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, actions: &mut Actions) {
@@ -70,9 +138,7 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, actions: &mut Actio
         Purpose::Export => {
             "Pattern, routings, winch tracks and controller program. The folder appears whole or not at all."
         }
-        Purpose::SaveAs if path.is_file() && session.path.as_deref() != Some(path) => {
-            "This file exists and will be replaced."
-        }
+        Purpose::SaveAs if path.is_file() && session.path.as_deref() != Some(path) => "This file exists.",
         Purpose::Open | Purpose::Import if is_wrong => "There is no such file.",
         Purpose::Import => "The filled shapes of the drawing are joined to one silhouette.",
         _ => "",

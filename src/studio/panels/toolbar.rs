@@ -2,6 +2,7 @@
 
 use super::{Actions, quality};
 use crate::design::bundled;
+use crate::files;
 use crate::picture::palette::Theme;
 use crate::studio::action::{Action, FileAction};
 use crate::studio::icons::{self, Icon};
@@ -9,12 +10,13 @@ use crate::studio::session::{Look, Session, Tool};
 use crate::studio::sketching::Sketch;
 use crate::studio::viewport::Plushie;
 use eframe::egui::{Align, Button, Layout, RichText, Ui, menu};
+use std::path::Path;
 
 pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     ui.horizontal_centered(|ui| {
         ui.spacing_mut().item_spacing.x = 3.0;
         ui.add_space(4.0);
-        file_menu(ui, actions);
+        file_menu(ui, session, actions);
         examples_menu(ui, actions);
         let save = ui.button("Save").on_hover_text("Save the plushie (Ctrl+S)");
         if save.clicked() {
@@ -50,7 +52,7 @@ fn gap(ui: &mut Ui) {
     ui.add_space(4.0);
 }
 
-fn file_menu(ui: &mut Ui, actions: &mut Actions) {
+fn file_menu(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     let entries = [
         ("New from outline…", "Ctrl+N", FileAction::Import),
         ("New drawing", "Ctrl+Shift+O", FileAction::NewDrawing),
@@ -65,6 +67,17 @@ fn file_menu(ui: &mut Ui, actions: &mut Actions) {
         for (name, shortcut, action) in entries {
             if ui.add(Button::new(name).shortcut_text(RichText::new(shortcut).weak())).clicked() {
                 actions.push(Action::File(action));
+            }
+        }
+        if session.recent().is_empty() {
+            return;
+        }
+        ui.separator();
+        ui.label(RichText::new("Recent").weak());
+        for path in session.recent() {
+            let name = files::shown(path.file_name().map_or(path, Path::new));
+            if ui.button(name).on_hover_text(files::shown(path)).clicked() {
+                actions.push(Action::File(FileAction::OpenPath(path.clone())));
             }
         }
     });

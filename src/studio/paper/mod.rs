@@ -4,7 +4,8 @@ mod hand;
 mod paint;
 mod surface;
 
-use super::action::Action;
+use super::action::{Action, FileAction};
+use super::change::Change;
 use super::panels::Actions;
 use super::session::Session;
 use super::sketching::Sketch;
@@ -34,6 +35,9 @@ impl State {
         }
         let ends = |action: &Action| match action {
             Action::Sketch(Sketch::Open(false) | Sketch::MakeBody) => true,
+            // What was drawn is part of what is saved, or asked about.
+            Action::File(FileAction::EditDialog(_) | FileAction::CloseDialog | FileAction::Browse) => false,
+            Action::File(_) => true,
             Action::Sketch(Sketch::Take(pencil)) => *pencil != session.sketching().pencil,
             _ => false,
         };
@@ -42,6 +46,18 @@ impl State {
             let finished = hand::put_down(session, std::mem::take(&mut self.hand), 1.0);
             actions.splice(first..first, finished);
         }
+    }
+
+    /// The drawing with what is only being drawn, if anything is.
+    pub fn unfinished(&self, session: &Session) -> Option<Drawing> {
+        if !session.sketching().open || matches!(self.hand, hand::Hand::Nothing | hand::Hand::Pans) {
+            return None;
+        }
+        let put_down = hand::put_down(session, self.hand.clone(), 1.0);
+        put_down.into_iter().find_map(|action| match action {
+            Action::Change(Change::Draw { drawing, .. }) => Some(drawing),
+            _ => None,
+        })
     }
 
     /// What is drawn, worked out anew only where it has changed.

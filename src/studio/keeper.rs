@@ -1,0 +1,278 @@
+//! Work that is not saved, written to the state folder every few seconds of change, so that the next window can offer it after a crash, a
+//! kill or the end of a session.
+//!
+//! Every window has a folder of its own there and holds a lock in it, which the system takes back when its process ends, however it
+//! ends: a folder that nobody holds is abandoned work.
+
+use super::store::Store;
+use crate::design::file;
+use crate::design::{Design, texture};
+use crate::files::{self, Stamp};
+use crate::outline::Drawing;
+use serde::{Deserialize, Serialize};
+use std::fs::{self, File};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant, SystemTime};
+
+/// After this long a change is on the disk. A person loses a gesture or two.
+const EVERY: Duration = Duration::from_secs(2);
+const DESIGN: &str = "work.plush";
+const FACTS: &str = "facts.ron";
+const LOCK: &str = "lock";
+
+/// Keeps the work of one window.
+pub struct Keeper {
+    folder: PathBuf,
+    /// Held as long as the window lives.
+    _lock: File,
+    kept: Option<Work>,
+    changed: Option<Instant>,
+    writing: Option<JoinHandle<Result<(), String>>>,
+}
+
+/// What is to be kept: a document that is not saved as it is.
+#[derive(Clone, Debug)]
+pub struct Work {
+    pub design: Arc<Design>,
+    /// With what is only being drawn yet.
+    pub drawing: Option<Drawing>,
+    pub facts: Facts,
+}
+
+/// Where a document belongs.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Facts {
+    /// The file that it is saved to.
+    pub path: Option<PathBuf>,
+    /// The file that it was read from: what it names is found from there.
+    pub origin: Option<PathBuf>,
+    /// The texture that it names.
+    pub texture: Option<String>,
+    /// What that file held when it was read.
+    pub seen: Option<Stamp>,
+}
+
+/// Work that a window left behind.
+pub struct Abandoned {
+    pub design: Design,
+    pub facts: Facts,
+    /// When it was kept last.
+    pub at: SystemTime,
+    folder: PathBuf,
+    lock: File,
+}
+
+/// What [`Keeper::follow`] came to.
+pub enum Kept {
+    /// All is kept, or there is nothing to keep.
+    All,
+    /// The next look is due after this long.
+    Due(Duration),
+    /// It could not be written.
+    Failed(String),
+}
+
+impl Keeper {
+    /// A folder for a new window.
+    ///
+    /// # Errors
+    /// What the system says of a folder that cannot be written to.
+    pub fn new(store: &Store) -> io::Result<Self> {
+        let folder = tempfile::Builder::new().prefix("window-").tempdir_in(store.folder("work")?)?.keep();
+        let lock = File::create(folder.join(LOCK))?;
+        lock.try_lock().map_err(io::Error::other)?;
+        Ok(Self { folder, _lock: lock, kept: None, changed: None, writing: None })
+    }
+
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Once a frame: writes what has changed when it is time, and clears away what is saved (`None`). `wake` is called when a write has
+    /// ended.
+    pub fn follow(&mut self, work: Option<Work>, wake: impl FnOnce() + Send + 'static) -> Kept {
+        if self.writing.as_ref().is_some_and(|writing| !writing.is_finished()) {
+            return Kept::All;
+        }
+        if let Some(Err(why)) = self.join() {
+            self.kept = None;
+            self.changed = Some(Instant::now());
+            return Kept::Failed(why);
+        }
+        let Some(work) = work else {
+            self.changed = None;
+            if self.kept.take().is_some() {
+                self.clear();
+            }
+            return Kept::All;
+        };
+        if self.kept.as_ref().is_some_and(|kept| kept.is(&work)) {
+            self.changed = None;
+            return Kept::All;
+        }
+        let waited = self.changed.get_or_insert_with(Instant::now).elapsed();
+        if waited < EVERY {
+            return Kept::Due(EVERY - waited);
+        }
+        self.changed = None;
+        self.kept = Some(work.clone());
+        let folder = self.folder.clone();
+        self.writing = Some(std::thread::spawn(move || {
+            let done = write(&folder, &work).map_err(|error| error.to_string());
+            wake();
+            done
+        }));
+        Kept::All
+    }
+
+    /// Writes what there is, now.
+    ///
+    /// # Errors
+    /// Why it could not be written.
+    pub fn keep_now(&mut self, work: &Work) -> Result<(), String> {
+        self.join();
+        write(&self.folder, work).map_err(|error| error.to_string())
+    }
+
+    /// The window is closed, and all is saved or not wanted.
+    pub fn end(mut self) {
+        self.join();
+        let _ = fs::remove_dir_all(&self.folder);
+    }
+
+    /// Goes on in a folder that another window left behind, so that its work is safe until it is saved.
+    pub fn adopt(self, abandoned: Abandoned) -> (Self, Design, Facts) {
+        let Abandoned { design, facts, folder, lock, .. } = abandoned;
+        self.end();
+        (Self { folder, _lock: lock, kept: None, changed: None, writing: None }, design, facts)
+    }
+
+    fn join(&mut self) -> Option<Result<(), String>> {
+        let writing = self.writing.take()?;
+        Some(writing.join().unwrap_or_else(|_| Err("it broke down".into())))
+    }
+
+    fn clear(&self) {
+        let _ = fs::remove_file(self.folder.join(DESIGN));
+        let others = fs::read_dir(&self.folder).into_iter().flatten().flatten();
+        for entry in others.filter(|entry| entry.file_name() != LOCK) {
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
+impl Work {
+    fn is(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.design, &other.design) && self.drawing == other.drawing && self.facts == other.facts
+    }
+}
+
+impl Abandoned {
+    /// What other windows left behind, the newest last. Folders with nothing in them are cleared away; one that cannot be read
+    /// stays, and its path is told.
+    pub fn find(store: &Store) -> (Vec<Self>, Vec<PathBuf>) {
+        let (mut found, mut unreadable) = (Vec::new(), Vec::new());
+        let entries = store.folder("work").and_then(fs::read_dir).into_iter().flatten().flatten();
+        for folder in entries.map(|entry| entry.path()).filter(|path| path.is_dir()) {
+            let Ok(lock) = File::options().create(true).truncate(false).write(true).open(folder.join(LOCK)) else {
+                continue;
+            };
+            if lock.try_lock().is_err() {
+                continue;
+            }
+            let path = folder.join(DESIGN);
+            let Ok(at) = fs::metadata(&path).and_then(|found| found.modified()) else {
+                let _ = fs::remove_dir_all(&folder);
+                continue;
+            };
+            let facts = fs::read(folder.join(FACTS)).ok().and_then(|text| ron::de::from_bytes(&text).ok());
+            match file::read(&path) {
+                Ok(design) => found.push(Self { design, facts: facts.unwrap_or_default(), at, folder, lock }),
+                Err(_) => unreadable.push(path),
+            }
+        }
+        found.sort_by_key(|work| work.at);
+        (found, unreadable)
+    }
+
+    /// The design with the name that its own texture had, where that is still there, and the file from which what it names is found.
+    pub fn homed(design: Design, facts: &Facts, folder: &Path) -> (Design, PathBuf) {
+        let own = Design { texture: facts.texture.clone(), ..design.clone() };
+        if let Some(origin) = &facts.origin
+            && matches!(texture::find(&own, origin), Ok(Some(_)))
+        {
+            return (own, origin.clone());
+        }
+        (design, folder.join(DESIGN))
+    }
+
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// It is not wanted.
+    pub fn discard(self) {
+        let _ = fs::remove_dir_all(&self.folder);
+    }
+}
+
+/// The facts first: work without them is still work.
+fn write(folder: &Path, work: &Work) -> Result<(), Box<dyn std::error::Error>> {
+    let facts = ron::ser::to_string(&work.facts)?;
+    files::write(&folder.join(FACTS), facts.as_bytes())?;
+    let drawn = work.drawing.clone().map(|drawing| Design { drawing: Some(drawing), ..Design::clone(&work.design) });
+    let design = drawn.as_ref().unwrap_or(&work.design);
+    file::save(design, work.facts.origin.as_deref(), &folder.join(DESIGN), None)?;
+    Ok(())
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+    use crate::studio::blank;
+
+    fn work(name: &str) -> Work {
+        Work {
+            design: Arc::new(Design { name: name.into(), ..blank::design() }),
+            drawing: None,
+            facts: Facts { path: Some("/x/pig.plush".into()), ..Facts::default() },
+        }
+    }
+
+    #[test]
+    fn work_is_found_when_its_window_is_gone_and_not_before() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::at(folder.path());
+        let mut keeper = Keeper::new(&store).unwrap();
+        keeper.keep_now(&work("one")).unwrap();
+        assert!(Abandoned::find(&store).0.is_empty(), "its window is open");
+        drop(keeper);
+        let mut found = Abandoned::find(&store).0;
+        assert_eq!((found.len(), found[0].design.name.as_str()), (1, "one"));
+        assert_eq!(found[0].facts, work("one").facts);
+        let (keeper, design, _) = Keeper::new(&store).unwrap().adopt(found.remove(0));
+        assert_eq!(design.name, "one");
+        assert!(Abandoned::find(&store).0.is_empty());
+        keeper.end();
+        assert_eq!(fs::read_dir(folder.path().join("work")).unwrap().count(), 0);
+    }
+
+    #[test]
+    fn a_change_is_written_after_a_while_and_goes_when_it_is_saved() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut keeper = Keeper::new(&Store::at(folder.path())).unwrap();
+        let file = keeper.folder.join(DESIGN);
+        let work = work("two");
+        assert!(matches!(keeper.follow(Some(work.clone()), || {}), Kept::Due(_)));
+        keeper.changed = Instant::now().checked_sub(EVERY);
+        assert!(matches!(keeper.follow(Some(work.clone()), || {}), Kept::All));
+        assert_eq!(keeper.join(), Some(Ok(())));
+        assert_eq!(crate::design::file::read(&file).unwrap().name, "two");
+        assert!(matches!(keeper.follow(Some(work), || {}), Kept::All) && keeper.changed.is_none());
+        assert!(matches!(keeper.follow(None, || {}), Kept::All));
+        assert!(!file.exists());
+    }
+}

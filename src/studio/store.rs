@@ -1,0 +1,158 @@
+//! What the window keeps between its runs, in the platform's folder for the state of programs (`~/.local/state/plushwright` by the XDG
+//! rules): work that was not saved, which files are open, recent files and settings.
+
+use super::session::Views;
+use super::viewport::Plushie;
+use crate::engine::Quality;
+use crate::files::{self, sha256};
+use crate::picture::palette::Theme;
+use etcetera::BaseStrategy;
+use serde::{Deserialize, Serialize};
+use std::fs::{self, File};
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Recent files that are remembered.
+const MOST_RECENT: usize = 10;
+/// Largest file of settings that is read, bytes.
+const MOST_BYTES: u64 = 1 << 20;
+
+/// A folder of state, shared by all windows of a user.
+#[derive(Clone, Debug)]
+pub struct Store {
+    root: PathBuf,
+}
+
+/// How the window was left.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Settings {
+    pub dark: Option<bool>,
+    pub quality: Option<String>,
+    pub idealized: Option<bool>,
+    pub realizable: Option<bool>,
+    pub texture: Option<bool>,
+    pub fibers: Option<bool>,
+    pub networks: Option<bool>,
+    /// Logical pixels.
+    pub window: Option<[f32; 2]>,
+    /// The newest first.
+    pub recent: Vec<PathBuf>,
+}
+
+impl Store {
+    /// That of the platform; none where there is no home.
+    pub fn of_platform() -> Option<Self> {
+        let strategy = etcetera::choose_base_strategy().ok()?;
+        let folder = strategy.state_dir().unwrap_or_else(|| strategy.data_dir());
+        Some(Self::at(folder.join("plushwright")))
+    }
+
+    pub fn at(root: impl Into<PathBuf>) -> Self {
+        Self { root: root.into() }
+    }
+
+    /// A folder below, made where it is missing, for this user alone.
+    pub(super) fn folder(&self, name: &str) -> io::Result<PathBuf> {
+        let folder = self.root.join(name);
+        let mut builder = fs::DirBuilder::new();
+        builder.recursive(true);
+        #[cfg(unix)]
+        std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
+        builder.create(&folder)?;
+        Ok(folder)
+    }
+
+    /// Says that a file is open here: held until it is dropped. None where another window said so.
+    ///
+    /// # Errors
+    /// What the system says of a folder that cannot be written to.
+    pub fn claim(&self, path: &Path) -> io::Result<Option<File>> {
+        let path = fs::canonicalize(path)?;
+        let name = sha256(path.as_os_str().as_encoded_bytes());
+        let file = File::options().create(true).truncate(false).write(true).open(self.folder("open")?.join(name))?;
+        Ok(file.try_lock().is_ok().then_some(file))
+    }
+
+    /// What was remembered; the defaults where there is nothing or nothing that can be read.
+    pub fn settings(&self) -> Settings {
+        let text = files::read(&self.root.join("settings.ron"), MOST_BYTES).ok();
+        text.and_then(|text| ron::de::from_bytes(&text).ok()).unwrap_or_default()
+    }
+
+    /// # Errors
+    /// What the system says.
+    pub fn remember(&self, settings: &Settings) -> io::Result<()> {
+        let text = ron::ser::to_string_pretty(settings, ron::ser::PrettyConfig::new()).map_err(io::Error::other)?;
+        files::write(&self.folder("")?.join("settings.ron"), text.as_bytes())
+    }
+}
+
+impl Settings {
+    /// Puts a file at the head of the recent ones.
+    pub fn opened(&mut self, path: &Path) {
+        let Ok(path) = std::path::absolute(path) else { return };
+        self.recent.retain(|other| *other != path);
+        self.recent.insert(0, path);
+        self.recent.truncate(MOST_RECENT);
+    }
+
+    pub fn theme(&self) -> Option<Theme> {
+        self.dark.map(|dark| if dark { Theme::Dark } else { Theme::Light })
+    }
+
+    pub fn views(&self) -> Views {
+        let shows = |shown: Option<bool>| shown.unwrap_or(true);
+        match (shows(self.idealized), shows(self.realizable)) {
+            (true, false) => Views::Only(Plushie::Idealized),
+            (false, true) => Views::Only(Plushie::Realizable),
+            _ => Views::Both,
+        }
+    }
+
+    pub fn quality(&self) -> Option<Quality> {
+        [Quality::Draft, Quality::Balanced, Quality::Accurate]
+            .into_iter()
+            .find(|quality| self.quality.as_deref() == Some(&format!("{quality:?}")))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn settings_come_back_and_a_broken_file_does_no_harm() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::at(folder.path().join("state/plushwright"));
+        assert_eq!(store.settings(), Settings::default());
+        let mut settings = Settings { dark: Some(true), quality: Some("Draft".into()), ..Settings::default() };
+        settings.idealized = Some(false);
+        for k in 0..2 * MOST_RECENT {
+            settings.opened(Path::new(&format!("/a/{}.plush", k % 12)));
+        }
+        store.remember(&settings).unwrap();
+        let read = store.settings();
+        assert_eq!(read, settings);
+        assert_eq!((read.theme(), read.quality()), (Some(Theme::Dark), Some(Quality::Draft)));
+        assert_eq!(read.views(), Views::Only(Plushie::Realizable));
+        assert_eq!((read.recent.len(), &read.recent[0]), (MOST_RECENT, &PathBuf::from("/a/7.plush")));
+        fs::write(folder.path().join("state/plushwright/settings.ron"), "(dark: maybe").unwrap();
+        assert_eq!(store.settings(), Settings::default());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_file_is_claimed_once_by_whatever_name() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.plush");
+        fs::write(&path, "x").unwrap();
+        std::os::unix::fs::symlink(&path, folder.path().join("b.plush")).unwrap();
+        let store = Store::at(folder.path().join("state"));
+        let first = store.claim(&path).unwrap();
+        assert!(first.is_some());
+        assert!(store.claim(&folder.path().join("b.plush")).unwrap().is_none());
+        drop(first);
+        assert!(store.claim(&path).unwrap().is_some());
+    }
+}

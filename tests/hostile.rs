@@ -1,0 +1,182 @@
+//! Every number of a design, replaced by numbers that nobody means: refused by name, or worked on in bounded time to finite results.
+//!
+//! The suite tries a part. `scripts/hostile` tries all, through the built program.
+
+use plushwright::design::file::{self, TextError};
+use plushwright::fabrication::{ExportError, blueprint};
+use std::fs;
+use std::ops::Range;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// Values of which no field of a design takes any.
+const SENSELESS: [&str; 5] = ["1e300", "NaN", "inf", "1e9", "4294967295"];
+/// Values that some fields take.
+const UNUSUAL: [&str; 4] = ["0", "-1", "1e-320", "1e-9"];
+/// Of the many numbers of outline and mesh every so manieth is replaced.
+const SAMPLED: usize = 40;
+/// Longest time of a command.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+fn example(name: &str) -> String {
+    fs::read_to_string(format!("examples/{name}.plush")).unwrap()
+}
+
+/// Where the numbers of a design stand; those of outline and mesh sampled.
+fn numbers(text: &str) -> Vec<Range<usize>> {
+    let bytes = text.as_bytes();
+    let body = text.find("\n    outline:").unwrap_or(text.len());
+    let (mut found, mut at, mut quoted, mut skipped) = (Vec::new(), 0, false, 0);
+    while at < bytes.len() {
+        let (here, before) = (bytes[at], if at == 0 { b' ' } else { bytes[at - 1] });
+        quoted ^= here == b'"';
+        let starts = here.is_ascii_digit() || (here == b'-' && bytes.get(at + 1).is_some_and(u8::is_ascii_digit));
+        if quoted || !starts || before.is_ascii_alphanumeric() {
+            at += 1;
+            continue;
+        }
+        let length = bytes[at..].iter().take_while(|b| b.is_ascii_alphanumeric() || b".-+".contains(b)).count();
+        skipped += 1;
+        if at < body || skipped % SAMPLED == 0 {
+            found.push(at..at + length);
+        }
+        at += length;
+    }
+    found
+}
+
+fn replaced(text: &str, place: &Range<usize>, value: &str) -> String {
+    format!("{}{value}{}", &text[..place.start], &text[place.end..])
+}
+
+/// What stands around a number, to be told in a failure.
+fn around<'a>(text: &'a str, place: &Range<usize>) -> &'a str {
+    let start = text[..place.start].rfind('\n').map_or(0, |at| at + 1);
+    let end = text[place.end..].find('\n').map_or(text.len(), |at| place.end + at);
+    text[start..end].trim()
+}
+
+/// Whether a text holds a number that is none.
+fn is_finite(text: &str) -> bool {
+    let words = text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'));
+    !words.into_iter().any(|word| matches!(word, "NaN" | "inf" | "nan" | "null"))
+}
+
+#[test]
+fn what_no_field_takes_is_refused_by_name_and_the_rest_makes_a_finite_blueprint() {
+    for name in ["e", "pig"] {
+        let text = example(name);
+        let places = numbers(&text);
+        assert!(places.len() > 100, "{name}: {}", places.len());
+        for (k, place) in places.iter().enumerate() {
+            for value in SENSELESS {
+                let refused = file::parse(&replaced(&text, place, value)).expect_err(around(&text, place));
+                if let TextError::Invalid(error) = &refused {
+                    assert!(!error.at.is_empty() && error.to_string().len() < 300, "{error}");
+                }
+            }
+            // Nearly all that is accepted takes the same way.
+            for value in UNUSUAL.into_iter().filter(|_| k % 4 == 0) {
+                let Ok(design) = file::parse(&replaced(&text, place, value)) else { continue };
+                let started = Instant::now();
+                match blueprint(&design) {
+                    Ok((files, _)) => files.iter().for_each(|file| {
+                        let written = String::from_utf8_lossy(&file.bytes);
+                        assert!(is_finite(&written), "{name}, {value} in {}: {}", around(&text, place), file.name);
+                    }),
+                    Err(ExportError::Write { source, .. }) => panic!("{source}"),
+                    Err(refused) => assert!(is_finite(&refused.to_string()), "{refused}"),
+                }
+                assert!(started.elapsed() < PATIENCE, "{name}, {value} in {}", around(&text, place));
+            }
+        }
+    }
+}
+
+/// One command on a design; what is wrong with what came of it.
+fn command(folder: &Path, args: &[&str]) -> Result<i32, String> {
+    let mut program = Command::new(env!("CARGO_BIN_EXE_plushwright"));
+    let (out, err) = (folder.join("out.txt"), folder.join("err.txt"));
+    program.args(args).current_dir(folder).stdin(Stdio::null());
+    program.stdout(fs::File::create(&out).unwrap()).stderr(fs::File::create(&err).unwrap());
+    let mut child = program.spawn().unwrap();
+    let started = Instant::now();
+    let status = loop {
+        if let Some(status) = child.try_wait().unwrap() {
+            break status;
+        }
+        if started.elapsed() > PATIENCE {
+            child.kill().unwrap();
+            child.wait().unwrap();
+            return Err(format!("{args:?} takes more than {} s", PATIENCE.as_secs()));
+        }
+        std::thread::sleep(Duration::from_millis(2));
+    };
+    let said = fs::read_to_string(out).unwrap() + &fs::read_to_string(&err).unwrap();
+    let lines = fs::read_to_string(err).unwrap().lines().count();
+    match status.code() {
+        Some(code @ (0 | 2 | 3))
+            if lines <= 1 && is_finite(&said.replace("NaN is not", "").replace("inf is not", "")) =>
+        {
+            Ok(code)
+        }
+        code => Err(format!("{args:?} ends with {code:?}: {said}")),
+    }
+}
+
+/// All commands on a design with one number replaced.
+fn commands(folder: &Path, text: &str, value: &str) -> Result<(), String> {
+    fs::write(folder.join("x.plush"), text).unwrap();
+    let commands: [&[&str]; 3] = [
+        &["check", "x.plush", "--json"],
+        &["export", "x.plush", "-o", "dir"],
+        &["render", "x.plush", "-o", "x.png", "--size", "160x90"],
+    ];
+    for args in commands {
+        let code = command(folder, args)?;
+        if SENSELESS.contains(&value) && code != 2 {
+            return Err(format!("{args:?} accepts it"));
+        }
+    }
+    let written = fs::read_dir(folder.join("dir")).into_iter().flatten().flatten().map(|entry| entry.path());
+    for path in written {
+        let text = String::from_utf8_lossy(&fs::read(&path).unwrap()).into_owned();
+        if !is_finite(&text) {
+            return Err(format!("{} is not finite", path.display()));
+        }
+    }
+    let _ = fs::remove_dir_all(folder.join("dir"));
+    Ok(())
+}
+
+#[test]
+fn commands_end_soon_with_one_line_whatever_a_number_is() {
+    let asked = std::env::var("PLUSHWRIGHT_HOSTILE").ok();
+    let full = asked.is_some();
+    let stride: usize = asked.and_then(|every| every.parse().ok()).unwrap_or(61);
+    let folder = tempfile::tempdir().unwrap();
+    let (mut tried, mut wrong) = (0_usize, Vec::new());
+    for name in ["e", "pig", "squid"] {
+        let text = example(name);
+        let places = numbers(&text);
+        for (k, place) in places.iter().enumerate() {
+            for (v, value) in SENSELESS.into_iter().chain(UNUSUAL).enumerate() {
+                // A few dozen, spread over fields and values.
+                if (!full && name != "e") || (k * 9 + v) % stride != 0 {
+                    continue;
+                }
+                tried += 1;
+                if let Err(why) = commands(folder.path(), &replaced(&text, place, value), value) {
+                    wrong.push(format!("{name}, {value} in `{}`: {why}", around(&text, place)));
+                    eprintln!("{}", wrong[wrong.len() - 1]);
+                }
+            }
+            if full && k % 50 == 0 {
+                eprintln!("{name}: {k} of {} numbers, {tried} designs, {} wrong", places.len(), wrong.len());
+            }
+        }
+    }
+    eprintln!("{tried} designs tried, {} wrong", wrong.len());
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
