@@ -55,7 +55,7 @@ impl Care {
     /// For the equilibrium of least `O`, on whatever branch, in a few times the work of one Gauss-Newton run.
     pub fn quick(winches: usize) -> Self {
         let pace = match winches {
-            1 => Pace { stride: 0.1, longest: 0.125, balance: 1e-2 },
+            1 => Pace { stride: 0.1, longest: 0.125, balance: 1e-4 },
             _ => Pace { stride: 0.2, longest: 0.25, balance: 1e-2 },
         };
         Self { levels: [1, 2, 2], spread: 0, pace, polished: 3, walking: usize::MAX, proved: false }
