@@ -57,7 +57,13 @@ pub(super) fn minimise(model: &mut Model, factorizations: &mut usize) -> Result<
         }
     }
     let inner = interior::minimise(model, &best, factorizations)?;
-    Ok(if inner.value < best.value { inner.step } else { best.step })
+    if inner.value < best.value {
+        best = inner;
+    }
+    // Now the active set is right, or nearly; what was put on its bound has left slopes behind.
+    *factorizations += model.saddle.cost();
+    let (last, _) = model.project(&best)?;
+    Ok(last.unwrap_or(best).step)
 }
 
 impl Model<'_, '_> {

@@ -14,9 +14,9 @@ const SEQUENTIAL_LIMIT: usize = 12;
 /// Steps in which a new winch is wound over its range.
 const SEQUENTIAL_STEPS: usize = 8;
 /// Up to this many free winches, starts are combined winch by winch.
-const COMBINED_STARTS: usize = 4;
+const COMBINED_STARTS: usize = 3;
 /// Starts are no longer tried once so many in a row have ended in the value that is the best.
-const REPEATS: usize = 3;
+const REPEATS: usize = 2;
 /// Two values are the same where they differ by less than this part.
 const SAME_VALUE: f64 = 1e-4;
 
@@ -42,7 +42,7 @@ pub fn from_several(question: &mut Question, start: &Posture, budget: &Budget) -
             best.absorb(answer);
         }
     }
-    if count > 1 && count <= SEQUENTIAL_LIMIT {
+    if count > 1 && count <= SEQUENTIAL_LIMIT && repeats < REPEATS {
         best.starts += 1;
         best.absorb(one_by_one(question, start, method.as_ref(), &exploring));
     }
