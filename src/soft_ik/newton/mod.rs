@@ -32,8 +32,8 @@ impl Default for Newton {
 /// Iterations of little gain after which a search is given up.
 const PATIENCE: usize = 3;
 /// Converged where the [`projected_gradient`] is at most this part of `O`: no winch, moved by its whole length, would change `O` by
-/// more to first order. Ten times less costs a further iteration, and asks for more than statics can always resolve.
-pub const TOLERANCE: f64 = 1e-5;
+/// more to first order. A tenth of it is more than statics can resolve where targets are all but reached.
+pub const TOLERANCE: f64 = 1e-4;
 /// `O` below this part of that of the rest shape counts as zero: targets are reached to six digits.
 const NOTHING: f64 = 1e-12;
 /// Damping in units of a winch's own curvature: the first one, the least (below it counts as none), the largest.
@@ -64,6 +64,11 @@ const EXTENSION: f64 = 3.0;
 const ON_BOUND: f64 = 1e-12;
 /// A promise below this part of `O` is rounding.
 const NO_PROMISE: f64 = 1e-15;
+/// Statics resolves `O` no better than to this part where targets are all but reached: there a promise is believed, and the projected
+/// gradient says whether it was kept.
+const RESOLVED: f64 = 1e-7;
+/// Believed steps that do not leave a smaller projected gradient, before a search is given up.
+const MOST_BELIEVED: usize = 4;
 /// Step of the difference quotient of `H` along `p`, as a part of the body: error 1e-8, rounding 1e-12.
 const DIFFERENCE: f64 = 1e-5;
 
@@ -117,6 +122,8 @@ struct Search {
     convex: usize,
     /// Iterations for which the convexified form is used without a try of the exact one.
     convexified: usize,
+    /// Whether the last step promised too little for `O` to tell.
+    believed: bool,
 }
 
 impl Search {
@@ -129,11 +136,15 @@ impl Search {
             damping: FIRST_DAMPING,
             convex: 0,
             convexified: 0,
+            believed: false,
         })
     }
 
     fn run(&mut self, question: &mut Question, relative_decrease: f64, budget: &Budget, answer: &mut Answer) {
         let mut idle = 0;
+        // The smallest projected gradient where `O` is no longer resolved, and the believed steps since.
+        let mut kept: Option<(f64, Posture)> = None;
+        let mut believed = 0;
         while answer.iterations < budget.iterations && !(budget.stop)() {
             answer.iterations += 1;
             if !self.linearise(question, &answer.posture, &mut answer.factorizations) {
@@ -145,15 +156,26 @@ impl Search {
                 answer.converged = true;
                 return;
             }
+            if !self.believed {
+                (kept, believed) = (None, 0);
+            } else {
+                believed += 1;
+                if kept.as_ref().is_none_or(|(least, _)| projected < *least) {
+                    (kept, believed) = (Some((projected, posture.clone())), 0);
+                }
+            }
             let before = posture.objective;
-            if !self.improve(question, budget, answer) {
-                return;
+            if believed >= MOST_BELIEVED || !self.improve(question, budget, answer) {
+                break;
             }
             let gain = before - answer.posture.objective;
             idle = if gain < relative_decrease * before { idle + 1 } else { 0 };
             if idle >= PATIENCE {
-                return;
+                break;
             }
+        }
+        if let Some((_, posture)) = kept.filter(|_| self.believed) {
+            answer.posture = posture;
         }
     }
 
@@ -189,9 +211,13 @@ impl Search {
                 continue;
             }
             let trial = self.settle_at(question, &answer.posture, &step, t, budget, &mut answer.factorizations);
-            let ratio = (answer.posture.objective - trial.objective) / promised;
-            let taken = trial.in_equilibrium() && ratio > TAKEN;
-            if taken && ratio > GOOD && t == 1.0 {
+            let gain = answer.posture.objective - trial.objective;
+            let ratio = gain / promised;
+            let told = (0.5..2.0).contains(&ratio);
+            self.believed = promised <= RESOLVED * answer.posture.objective && !told;
+            let kept = self.believed && -gain <= RESOLVED * answer.posture.objective;
+            let taken = trial.in_equilibrium() && (ratio > TAKEN || kept);
+            if taken && (ratio > GOOD || self.believed) && t == 1.0 {
                 self.damping = (RELAXED * self.damping).max(LEAST_DAMPING);
             } else if !taken {
                 self.raise();
