@@ -16,8 +16,8 @@ const SAME: f64 = 1e-3;
 /// What is explored is followed to the end where it is at most this part above the best.
 const HOPEFUL: f64 = 1e-2;
 /// Steps of the all-at-once method that are worth taking towards a start, and what ends them earlier.
-const FORMING_ITERATIONS: usize = 40;
-const FORMING_STEP: f64 = 1e-3;
+const FORMING_ITERATIONS: usize = 80;
+const FORMING_STEP: f64 = 1e-5;
 
 /// Where a search begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
