@@ -259,7 +259,8 @@ impl Study {
                 wander::Wander { shapes: common.shapes(&["all"]), fibers: *fibers, drags: *drags }.run(session)
             }
             Self::Winding { rigs, common } => {
-                winding::Winding { shapes: common.shapes(&["all"]), rigs: *rigs }.run(session)
+                winding::Winding { shapes: common.shapes(&["all"]), rigs: *rigs, scanned: winding::SCANNED }
+                    .run(session)
             }
             Self::Trade { fibers, reference, common } => {
                 let shapes = common.shapes(&["pig"]);

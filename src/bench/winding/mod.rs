@@ -23,7 +23,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 /// States of a scan along each winch, for one winch and for two.
-const SCANNED: [usize; 2] = [200, 30];
+pub const SCANNED: [usize; 2] = [200, 30];
 /// States of a scan that are wound from rest once more at most, for each rig.
 const PROVED: usize = 40;
 /// What an answer may miss, as a part of the error at rest.
@@ -44,6 +44,8 @@ pub struct Winding {
     pub shapes: Vec<String>,
     /// Rigs of each number of winches, one to three, over all shapes.
     pub rigs: usize,
+    /// States of the scan along each winch, for one winch and for two ([`SCANNED`]).
+    pub scanned: [usize; 2],
 }
 
 /// What the scan says of a rig; errors as parts of the error at rest.
@@ -89,7 +91,7 @@ impl Winding {
                 let shape = &self.shapes[number % self.shapes.len()];
                 session.next(&format!("{winches} winches, rig {} ({shape})", number + 1))?;
                 let rig = rig(shape, winches, session.seed, number as u64, session.stop)?;
-                if winches <= SCANNED.len() {
+                if winches <= self.scanned.len() {
                     let (row, part) = self.pose(shape, number, &rig, session)?;
                     poses.push(row);
                     missing.push(part);
@@ -128,7 +130,7 @@ impl Winding {
         let rest = rest_error(rig);
         let shown = shown(rig, session);
         session.check()?;
-        let scan = scan(shape, rig, shown.target_error / rest, session)?;
+        let scan = scan(shape, rig, shown.target_error / rest, &self.scanned, session)?;
         let missing = (shown.target_error / rest - scan.wound).max(0.0);
         let design = &rig.design;
         let row = vec![
@@ -267,14 +269,14 @@ fn shown(rig: &Rig, session: &Session) -> Shape {
 }
 
 /// The dense scan, and which of its states that are better than `shown` winding from rest confirms.
-fn scan(shape: &str, rig: &Rig, shown: f64, session: &Session) -> Result<Scan, BenchError> {
+fn scan(shape: &str, rig: &Rig, shown: f64, scanned: &[usize; 2], session: &Session) -> Result<Scan, BenchError> {
     let mut posed = Posed::new(shape, rig)?;
     let mut question = posed.question();
     let rest = question.model.rest.clone();
     let winches = question.actuation.winches.clone();
     let (start, _) = question.settle(&vec![0.0; winches.len()], &rest, session.stop);
     let unit = rest_error(rig);
-    let count = SCANNED[winches.len() - 1];
+    let count = scanned[winches.len() - 1];
     let at = |j: usize, k: usize| winches[j].upper * k as f64 / count as f64;
     let last = winches.len() - 1;
     let mut states: Vec<(f64, Vec<f64>)> = Vec::new();
@@ -314,11 +316,11 @@ mod tests {
     use std::sync::atomic::AtomicBool;
 
     #[test]
-    fn poses_of_seeded_rigs_are_as_good_as_a_dense_scan() {
+    fn poses_of_seeded_rigs_are_as_good_as_a_scan() {
         let cancel = AtomicBool::new(false);
         let session = Session { seed: 3, stop: &|| false, cancel: &cancel, progress: &|_| {} };
         let shapes = vec!["e".to_owned()];
-        let report = Winding { shapes, rigs: 1 }.run(&session).unwrap();
+        let report = Winding { shapes, rigs: 1, scanned: [60, 8] }.run(&session).unwrap();
         for row in &report.tables[0].rows {
             let Cell::Number(missing) = row[9] else { panic!("no figure") };
             assert!(missing <= MISSING, "{row:?}");
