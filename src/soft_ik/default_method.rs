@@ -6,7 +6,6 @@
 //! Newton's method at the end.
 
 use super::newton::Newton;
-use super::tension::AllAtOnce;
 use super::{Answer, Budget, Method, Posture, Question, fibers, winding};
 
 /// Up to this many free winches of one element each are treated as winches.
@@ -41,7 +40,7 @@ impl Method for Default {
             return fibers::solve(question, start, budget);
         }
         if !few && single {
-            return AllAtOnce::default().solve(question, start, budget);
+            return fibers::least_tense(question, start, budget);
         }
         let mut best = winding::least(question, start, budget);
         if own_objective && !(budget.stop)() {

@@ -1,4 +1,10 @@
-//! `soft_ik` questions on many fibres: the question's own `O`, from several starts.
+//! Many fibres: the question's own `O`, from several starts.
+//!
+//! **With a weight on tensions** ([`least_tense`]) the all-at-once method minimises it. A soft body buckles in more than one way on the
+//! way to far targets, so that the start matters: besides the given one, contractions that change smoothly over the body, to
+//! one side and to the other, are tried.
+//!
+//! **Without** ([`solve`]), `O` is that of problem files:
 //!
 //! `O` has many valleys: an element that is slack feels nothing of the targets, so what is slack at the start tends to stay so. The
 //! starts are the answer of the all-at-once method, in whose objective slack elements take part; the activations given; and all
@@ -28,6 +34,53 @@ enum Start {
     Given,
     /// All elements just taut.
     Taut,
+}
+
+/// Smooth starts: half waves across the body along these directions, by this part of the winches' range at their tops.
+const WAVES: [[f64; 2]; 6] = [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0], [0.7, 0.7], [-0.7, -0.7]];
+const WAVE_STRENGTH: f64 = 0.6;
+/// Range of a winch without an upper bound, in lengths of its element.
+const UNBOUNDED_RANGE: f64 = 0.5;
+
+/// The best that the all-at-once method finds from the given posture and from smooth contractions. Every winch winds one element.
+pub(super) fn least_tense(question: &mut Question, start: &Posture, budget: &Budget) -> Answer {
+    let mut best = AllAtOnce::default().solve(question, start, budget);
+    for direction in WAVES {
+        if (budget.stop)() {
+            break;
+        }
+        let beta = wave(question, direction);
+        let (from, factorizations) = question.settle(&beta, &start.x, budget.stop);
+        best.factorizations += factorizations;
+        if from.in_equilibrium() {
+            best.starts += 1;
+            best.absorb(AllAtOnce::default().solve(question, &from, budget));
+        }
+    }
+    let contractions = question.actuation.contractions(&best.posture.beta);
+    question.model.contractile.set_contractions(&contractions);
+    best
+}
+
+/// Activations that rise smoothly across the body in a direction, within their bounds.
+fn wave(question: &Question, direction: [f64; 2]) -> Vec<f64> {
+    let (rest, elements) = (&question.model.rest, &question.model.contractile.elements);
+    let along = |n: usize| rest[2 * n] * direction[0] + rest[2 * n + 1] * direction[1];
+    let nodes = 0..rest.len() / 2;
+    let (low, high) = nodes.map(along).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
+    let mut beta: Vec<f64> = question
+        .actuation
+        .winches
+        .iter()
+        .map(|w| {
+            let (e, ratio) = w.members[0];
+            let range = if w.upper.is_finite() { w.upper } else { UNBOUNDED_RANGE * elements[e].alpha0 / ratio };
+            let part = (along(elements[e].routing[0]) - low) / (high - low).max(f64::MIN_POSITIVE);
+            WAVE_STRENGTH * range * 0.5 * (1.0 - (std::f64::consts::PI * part).cos())
+        })
+        .collect();
+    question.actuation.clamp(&mut beta);
+    beta
 }
 
 /// The best of several starts. Converged where the projected gradient of `O` is small.
