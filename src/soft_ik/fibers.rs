@@ -19,8 +19,8 @@ const EXPLORED: f64 = 1e-3;
 const EXPLORING_ITERATIONS: usize = 80;
 /// Where two starts end within this part of each other, no more are tried.
 const SAME: f64 = 1e-3;
-/// What is explored is followed to the end where it is at most this part above the best.
-const HOPEFUL: f64 = 1e-2;
+/// After the best, what was explored is followed to the end only where it is at most this part above what the best came to.
+const HOPEFUL: f64 = 2e-3;
 /// Steps of the all-at-once method that are worth taking towards a start, and what ends them earlier.
 const FORMING_ITERATIONS: usize = 80;
 const FORMING_STEP: f64 = 1e-5;
@@ -103,9 +103,8 @@ pub(super) fn solve(question: &mut Question, start: &Posture, budget: &Budget) -
         }
     }
     ends.sort_by(|a, b| a.posture.objective.total_cmp(&b.posture.objective));
-    let lowest = ends.first().map_or(f64::INFINITY, |end| end.posture.objective);
     for (rank, mut end) in ends.into_iter().enumerate() {
-        let hopeful = rank == 0 || end.posture.objective <= (1.0 + HOPEFUL) * best.posture.objective.min(lowest);
+        let hopeful = rank == 0 || end.posture.objective <= (1.0 + HOPEFUL) * best.posture.objective;
         if hopeful && !end.converged && !(budget.stop)() {
             let spent = [end.iterations, end.factorizations];
             end = Newton::default().solve(question, &end.posture, budget);
