@@ -168,10 +168,10 @@ mod tests {
         let n = pattern.dimension();
         let mut dense = DMatrix::zeros(n, n);
         for column in 0..n {
-            for k in pattern.column_starts()[column]..pattern.column_starts()[column + 1] {
-                let row = pattern.row_indices()[k];
-                dense[(row, column)] = values[k];
-                dense[(column, row)] = values[k];
+            let stored = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
+            for (&row, value) in pattern.row_indices()[stored.clone()].iter().zip(&values[stored]) {
+                dense[(row, column)] = *value;
+                dense[(column, row)] = *value;
             }
         }
         let mut factor = Indefinite::new(&pattern).unwrap();

@@ -276,7 +276,7 @@ mod tests {
         let nodes = 90;
         let x: Vec<f64> = (0..2 * nodes).map(|d| (d / 2) as f64 * 0.3 + (1.3 * d as f64).sin()).collect();
         let element = |k: usize| {
-            let routing = if k % 2 == 0 { vec![k, k + 1] } else { vec![k + 3, k] };
+            let routing = if k.is_multiple_of(2) { vec![k, k + 1] } else { vec![k + 3, k] };
             Element { routing, stiffness: 0.5 + (k % 7) as f64, epsilon: 0.2, alpha0: 1.0 }
         };
         let mut contractile = Contractile::new((0..nodes - 3).map(element).collect());

@@ -17,8 +17,11 @@ use super::{Answer, Budget, Method, Posture, Question};
 /// A start is explored until it gains less than this part of `O` in an iteration, some times in a row.
 const EXPLORED: f64 = 1e-3;
 const EXPLORING_ITERATIONS: usize = 80;
-/// Where two starts end within this part of each other, no more are tried.
+/// Where two starts end within this part of each other no more are tried.
 const SAME: f64 = 1e-3;
+/// Nor where one ends this part above another: where the targets cannot be reached, what begins with slack elements is no match for the
+/// all-at-once method (of 60 seeded problems, those that are just taut were never better then).
+const WORSE: f64 = 1e-2;
 /// After the best, what was explored is followed to the end only where it is at most this part above what the best came to.
 const HOPEFUL: f64 = 2e-3;
 /// Steps of the all-at-once method that are worth taking towards a start, and what ends them earlier.
@@ -97,8 +100,9 @@ pub(super) fn solve(question: &mut Question, start: &Posture, budget: &Budget) -
         let found = Newton { relative_decrease: EXPLORED }.solve(question, &from, &exploring);
         let value = found.posture.objective;
         let same = ends.iter().any(|other| (other.posture.objective - value).abs() <= SAME * value);
+        let worse = ends.iter().any(|other| value > (1.0 + WORSE) * other.posture.objective);
         ends.push(found);
-        if same {
+        if same || worse {
             break;
         }
     }
