@@ -35,7 +35,7 @@ const HARDLY: f64 = 1e-3;
 /// Iterations of every method.
 const ITERATIONS: usize = 300;
 /// Times are the shortest of so many.
-const RUNS: usize = 5;
+pub const RUNS: usize = 5;
 /// Parts of the ranges from which the Gauss-Newton method starts; the best counts.
 const STARTS: [f64; 3] = [0.0, 0.35, 0.7];
 
@@ -46,6 +46,8 @@ pub struct Winding {
     pub rigs: usize,
     /// States of the scan along each winch, for one winch and for two ([`SCANNED`]).
     pub scanned: [usize; 2],
+    /// Runs of each method, of whose times the shortest counts ([`RUNS`]).
+    pub runs: usize,
 }
 
 /// What the scan says of a rig; errors as parts of the error at rest.
@@ -175,7 +177,7 @@ impl Winding {
         for code in 0..STARTS.len().pow(winches.len() as u32) {
             let part = |j: usize| STARTS[code / STARTS.len().pow(j as u32) % STARTS.len()];
             let beta: Vec<f64> = winches.iter().enumerate().map(|(j, w)| part(j) * w.upper).collect();
-            let (time, (answer, settling)) = fastest(|| {
+            let (time, (answer, settling)) = fastest(self.runs, || {
                 let (from, settling) = question.settle(&beta, &rest, session.stop);
                 (GaussNewton::default().solve(&mut question, &from, &budget), settling)
             });
@@ -189,7 +191,7 @@ impl Winding {
                 alone = Some((value, answer.factorizations + settling, time));
             }
         }
-        let (time, answer) = fastest(|| crate::soft_ik::solve(&mut question, &zero, &budget));
+        let (time, answer) = fastest(self.runs, || crate::soft_ik::solve(&mut question, &zero, &budget));
         session.check()?;
         let value = answer.posture.objective;
         let (alone, fewest, shortest) = alone.unwrap_or((start.objective, 1, f64::NAN));
@@ -210,14 +212,14 @@ impl Winding {
 }
 
 /// The shortest time of a few runs, s, with the result.
-fn fastest<T>(mut work: impl FnMut() -> T) -> (f64, T) {
+fn fastest<T>(runs: usize, mut work: impl FnMut() -> T) -> (f64, T) {
     let mut timed = || {
         let clock = Instant::now();
         let result = work();
         (clock.elapsed().as_secs_f64(), result)
     };
     let mut best = timed();
-    for _ in 1..RUNS {
+    for _ in 1..runs {
         let (time, _) = timed();
         best.0 = best.0.min(time);
     }
@@ -320,7 +322,7 @@ mod tests {
         let cancel = AtomicBool::new(false);
         let session = Session { seed: 3, stop: &|| false, cancel: &cancel, progress: &|_| {} };
         let shapes = vec!["e".to_owned()];
-        let report = Winding { shapes, rigs: 1, scanned: [60, 8] }.run(&session).unwrap();
+        let report = Winding { shapes, rigs: 1, scanned: [60, 8], runs: 1 }.run(&session).unwrap();
         for row in &report.tables[0].rows {
             let Cell::Number(missing) = row[9] else { panic!("no figure") };
             assert!(missing <= MISSING, "{row:?}");
