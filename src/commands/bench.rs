@@ -258,10 +258,13 @@ impl Study {
             Self::Wander { fibers, drags, common } => {
                 wander::Wander { shapes: common.shapes(&["all"]), fibers: *fibers, drags: *drags }.run(session)
             }
-            Self::Winding { rigs, common } => {
-                winding::Winding { shapes: common.shapes(&["all"]), rigs: *rigs, scanned: winding::SCANNED }
-                    .run(session)
+            Self::Winding { rigs, common } => winding::Winding {
+                shapes: common.shapes(&["all"]),
+                rigs: *rigs,
+                scanned: winding::SCANNED,
+                runs: winding::RUNS,
             }
+            .run(session),
             Self::Trade { fibers, reference, common } => {
                 let shapes = common.shapes(&["pig"]);
                 trade::Trade { shapes, fibers: fibers.clone(), reference: *reference }.run(session)
