@@ -210,6 +210,83 @@ fn the_work_of_others_is_not_replaced_without_force() {
 }
 
 #[test]
+fn another_plushie_is_not_replaced_without_force() {
+    let folder = place();
+    let f = folder.path();
+    let pose = ["--name", "p", "--pin", "5,5"];
+    succeed(f, &["new", "bar.svg", "--fibers", "60", "-o", "other.plush"]);
+    succeed(f, &[&["pose", "other.plush", "-o", "other.plush"][..], &pose].concat());
+    let old = fs::read(f.join("other.plush")).unwrap();
+    let commands: [&[&str]; 5] = [
+        &[&["pose", "bar.plush"][..], &pose].concat(),
+        &["key", "bar.plush", "--pose", "bend", "--time", "9"],
+        &["rig", "bar.plush"],
+        &["remesh", "bar.plush", "--fibers", "80"],
+        &["reshape", "bar.plush", "bar.svg"],
+    ];
+    for args in commands {
+        let args = [args, &["-o", "other.plush"][..]].concat();
+        assert!(refused(&run(f, &args), "other.plush").contains("--force"), "{args:?}");
+        assert_eq!(fs::read(f.join("other.plush")).unwrap(), old, "{args:?}");
+    }
+    let key = |time: &str, rest: &[&str]| {
+        run(f, &[&["key", "bar.plush", "--pose", "bend", "--time", time, "-o", "other.plush"][..], rest].concat())
+    };
+    assert!(key("9", &["--force"]).status.success());
+    // What was made of the same plushie before is replaced without a word; so is a bare outline.
+    assert!(key("8", &[]).status.success());
+    succeed(f, &["new", "bar.svg", "--fibers", "60", "-o", "other.plush", "--force"]);
+    assert!(key("9", &[]).status.success());
+}
+
+#[test]
+fn an_answer_or_a_picture_does_not_replace_what_is_none() {
+    let folder = place();
+    let f = folder.path();
+    let photograph = || {
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        image::RgbImage::new(2, 2).write_to(&mut bytes, image::ImageFormat::Png).unwrap();
+        bytes.into_inner()
+    };
+    let jpeg = || b"\xff\xd8\xff\xe0 and so on".to_vec();
+    for (name, bytes) in [
+        ("photo.png", photograph()),
+        ("photo.jpg", jpeg()),
+        ("notes.txt", b"mine".to_vec()),
+        ("other.json", PROBLEM.as_bytes().to_vec()),
+        ("network2.json", NETWORK.as_bytes().to_vec()),
+    ] {
+        fs::write(f.join(name), bytes).unwrap();
+    }
+    let render: &[&str] = &["render", "bar.plush", "--size", "64x32", "-o"];
+    let mesh: &[&str] = &["mesh", "bar.plush", "--size", "64x32", "-o"];
+    let (solve, discover, drawing) =
+        (["solve", "problem.json", "-o"], ["discover", "network.json", "-o"], ["drawing", "bar.plush", "-o"]);
+    for (args, out) in [
+        (render, "photo.png"),
+        (render, "photo.jpg"),
+        (render, "notes.txt"),
+        (mesh, "photo.png"),
+        (&solve, "other.json"),
+        (&solve, "notes.txt"),
+        (&discover, "network2.json"),
+        (&discover, "photo.png"),
+        (&drawing, "bar.svg"),
+        (&drawing, "notes.txt"),
+    ] {
+        let (args, old) = ([args, &[out][..]].concat(), fs::read(f.join(out)).unwrap());
+        assert!(refused(&run(f, &args), out).contains("--force"), "{args:?}");
+        assert_eq!(fs::read(f.join(out)).unwrap(), old, "{args:?}");
+    }
+    succeed(f, &[render, &["photo.png", "--force"]].concat());
+    succeed(f, &[&solve[..], &["notes.txt", "--force"]].concat());
+    // From now on these are ours, by whatever name.
+    for (args, out) in [(mesh, "photo.png"), (render, "photo.png"), (&solve, "notes.txt"), (&discover, "notes.txt")] {
+        succeed(f, &[args, &[out]].concat());
+    }
+}
+
+#[test]
 fn a_folder_with_anything_foreign_in_it_stays() {
     let folder = place();
     let f = folder.path();

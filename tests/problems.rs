@@ -1,7 +1,7 @@
 //! Every problem file against the answer of an independent program.
 
 use plushwright::problem::{Options, read, solve};
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
 fn cases() -> Vec<PathBuf> {
@@ -12,7 +12,7 @@ fn cases() -> Vec<PathBuf> {
     files
 }
 
-fn json(path: &Path) -> Value {
+fn json_of(path: &Path) -> Value {
     serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
 }
 
@@ -41,7 +41,7 @@ fn every_case_agrees_with_its_answer() {
     let mut failures = Vec::new();
     for path in cases {
         let name = path.file_stem().unwrap().to_string_lossy().into_owned();
-        let expected = json(&path.with_extension("answer.json"));
+        let expected = json_of(&path.with_extension("answer.json"));
         let text = std::fs::read_to_string(&path).unwrap();
         let (problem, _) = read(&text).unwrap();
         let answered = solve(&problem, &Options::default()).unwrap();
@@ -53,7 +53,7 @@ fn every_case_agrees_with_its_answer() {
             }
         };
         check("converged", if answered.converged { 0.0 } else { 1.0 }, 0.0);
-        let nodes = numbers(&json(&path)["mesh"]["nodes"]);
+        let nodes = numbers(&json_of(&path)["mesh"]["nodes"]);
         let extent = |axis: usize| {
             let values = nodes.iter().skip(axis).step_by(2);
             values.clone().fold(f64::MIN, |m, v| m.max(*v)) - values.fold(f64::MAX, |m, v| m.min(*v))
@@ -97,4 +97,23 @@ fn every_case_agrees_with_its_answer() {
         }
     }
     assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+#[test]
+fn a_node_of_no_triangle_changes_nothing() {
+    for name in ["bar_fibres_tiny", "bar_tendons", "analytic_square_ik"] {
+        let mut file = json_of(Path::new(&format!("tests/data/problems/{name}.json")));
+        let answered = |file: &Value| solve(&read(&file.to_string()).unwrap().0, &Options::default()).unwrap().document;
+        let without = answered(&file);
+        // One that a pin holds where it is, and that nothing else knows of.
+        let nodes = file["mesh"]["nodes"].as_array_mut().unwrap();
+        let (at, stray) = (nodes[0].clone(), nodes.len());
+        nodes.push(at.clone());
+        file["pins"].as_array_mut().unwrap().push(json!({ "node": stray, "target": at, "K": 1.0 }));
+        let with = answered(&file);
+        let [a, b] = [&with, &without].map(|answer| answer["soft_ik"]["objective"].as_f64().unwrap());
+        assert!((a - b).abs() <= 1e-6 * b.abs().max(1e-12), "{name}: {a:e} and {b:e}");
+        let difference = largest_difference(&with["soft_ik"]["beta"], &without["soft_ik"]["beta"]);
+        assert!(difference <= 1e-5 * largest(&without["soft_ik"]["beta"]), "{name}: {difference:e}");
+    }
 }

@@ -1,7 +1,7 @@
 //! `discover`: network discovery on a given activation graph, as JSON.
 
 use super::error::CommandError;
-use super::output::{Output, json, read_text, say_lines};
+use super::output::{Kind, Output, Replace, json, read_text, say_lines};
 use crate::problem::network::{self, NetworkError};
 use clap::Args;
 use std::io::Write;
@@ -17,12 +17,15 @@ pub struct Discover {
     /// Answer file to write [default: standard output]
     #[arg(short, long, value_name = "OUT.json")]
     pub output: Option<PathBuf>,
+    #[command(flatten)]
+    pub replace: Replace,
 }
 
 impl Discover {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
         let inputs = || [self.network.clone()];
-        let output = self.output.as_deref().map(|path| Output::new(path, inputs())).transpose()?;
+        let output =
+            self.output.as_deref().map(|path| Output::new(path, Kind::Answer, self.replace, inputs())).transpose()?;
         let text = read_text(&self.network)?;
         let (answer, failure) = match network::answer(&text) {
             Ok(answer) => (answer, None),

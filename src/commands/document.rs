@@ -19,7 +19,7 @@ pub struct Target {
     /// Design file to write; may be the one read
     #[arg(short, long, value_name = "DESIGN")]
     pub output: PathBuf,
-    /// Replace a file that is no design
+    /// Replace a file that is no design, or the design of another plushie
     #[arg(long)]
     pub force: bool,
 }
@@ -47,7 +47,9 @@ impl Target {
         files::check(to).map_err(|e| CommandError::write(to, e))?;
         if !files::same(from, to) {
             refuse_foreign(to, self.force)?;
-            return Ok((load(from)?, Edit { from, to, seen: None, _held: None }));
+            let design = load(from)?;
+            refuse_another(to, &design, self.force)?;
+            return Ok((design, Edit { from, to, seen: None, _held: None }));
         }
         let held = Hold::of(from, |waited| wait(from, waited, cancel)).map_err(|e| match e.kind() {
             io::ErrorKind::WouldBlock => CommandError::Cancelled,
@@ -77,6 +79,18 @@ fn refuse_foreign(path: &Path, force: bool) -> Result<(), CommandError> {
     }
     let path = shown(path);
     Err(CommandError::Usage(format!("{path} exists and is no design; --force replaces it")))
+}
+
+/// Refuses to replace a design of another name that somebody has worked on, without force. One of the same name is an earlier output of
+/// the same plushie, as where a script goes through settings.
+fn refuse_another(path: &Path, design: &Design, force: bool) -> Result<(), CommandError> {
+    let there = std::fs::metadata(path).is_ok_and(|found| found.is_file() && found.len() > 0);
+    let may_go = |other: Design| other.is_bare() || other.name == design.name;
+    if force || !there || file::read(path).is_ok_and(may_go) {
+        return Ok(());
+    }
+    let path = shown(path);
+    Err(CommandError::Usage(format!("{path} exists and holds the work on another plushie; --force replaces it")))
 }
 
 /// Refuses to replace a design that somebody has worked on, or what is no design, without force.

@@ -2,7 +2,7 @@
 
 use super::document;
 use super::error::CommandError;
-use super::output::{Output, say_lines};
+use super::output::{Kind, Output, Replace, say_lines};
 use crate::outline::Drawing;
 use clap::Args;
 use std::io::Write;
@@ -20,12 +20,15 @@ pub struct DrawingCommand {
     /// File to write [default: standard output]
     #[arg(short, long, value_name = "DRAWING")]
     pub output: Option<PathBuf>,
+    #[command(flatten)]
+    pub replace: Replace,
 }
 
 impl DrawingCommand {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
         let inputs = || [self.design.clone()];
-        let output = self.output.as_deref().map(|path| Output::new(path, inputs())).transpose()?;
+        let output =
+            self.output.as_deref().map(|path| Output::new(path, Kind::Drawing, self.replace, inputs())).transpose()?;
         let design = document::load(&self.design)?;
         let drawing = design.drawing.unwrap_or_else(|| Drawing::of(&design.outline));
         let text = drawing.to_text().map_err(|e| CommandError::Failed(e.to_string()))?;

@@ -1,7 +1,7 @@
 //! `mesh`: how good the mesh of a design is, as figures and as a picture.
 
 use super::error::CommandError;
-use super::output::{Output, say, say_json};
+use super::output::{Kind, Output, Replace, say, say_json};
 use super::{document, render};
 use crate::design::MeshFigures;
 use crate::mesh::quality::HISTOGRAM_STEP_DEG;
@@ -27,6 +27,8 @@ pub struct MeshCommand {
     /// Picture to write (PNG)
     #[arg(short, long, value_name = "OUT.png")]
     pub output: Option<PathBuf>,
+    #[command(flatten)]
+    pub replace: Replace,
     /// Width and height of the picture in pixels, each 16 to 8192
     #[arg(long, value_name = "WxH", default_value = "1600x900", value_parser = render::parse_size)]
     pub size: (u32, u32),
@@ -38,7 +40,8 @@ pub struct MeshCommand {
 impl MeshCommand {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
         let inputs = || [self.design.clone()];
-        let output = self.output.as_deref().map(|path| Output::new(path, inputs())).transpose()?;
+        let output =
+            self.output.as_deref().map(|path| Output::new(path, Kind::Picture, self.replace, inputs())).transpose()?;
         let design = document::load(&self.design)?;
         let figures = MeshFigures::of(&design);
         if let Some(output) = output {

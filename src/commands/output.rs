@@ -4,13 +4,34 @@ use super::error::{CommandError, check_cancel};
 use crate::design::file::is_design;
 use crate::files::folder::{self, FolderError, MANIFEST, Manifest};
 use crate::files::{self, printable, shown};
+use crate::picture::raster;
+use clap::Args;
+use serde::Deserialize;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
+/// Whether what is in the way of an output may go.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct Replace {
+    /// Replace a file that is no earlier output of this kind
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// What a command writes that is no design.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Kind {
+    Picture,
+    Answer,
+    Drawing,
+}
+
 /// A file to be written that is no design: an answer, a picture, a drawing.
 pub struct Output<'a> {
     path: &'a Path,
+    kind: Kind,
+    replace: Replace,
     /// What the command reads.
     inputs: Vec<PathBuf>,
 }
@@ -19,9 +40,15 @@ impl<'a> Output<'a> {
     /// Looks at the place before the work begins.
     ///
     /// # Errors
-    /// It is a file that the command reads or a design, or it cannot be written to.
-    pub fn new(path: &'a Path, inputs: impl IntoIterator<Item = PathBuf>) -> Result<Self, CommandError> {
-        let output = Self { path, inputs: inputs.into_iter().collect() };
+    /// It is a file that the command reads, a design, or the work of others ([`Kind::is_foreign`]) without force; or it cannot be
+    /// written to.
+    pub fn new(
+        path: &'a Path,
+        kind: Kind,
+        replace: Replace,
+        inputs: impl IntoIterator<Item = PathBuf>,
+    ) -> Result<Self, CommandError> {
+        let output = Self { path, kind, replace, inputs: inputs.into_iter().collect() };
         output.check()?;
         files::check(path).map_err(|e| CommandError::write(path, e))?;
         Ok(output)
@@ -40,8 +67,69 @@ impl<'a> Output<'a> {
             let path = shown(self.path);
             return Err(CommandError::Usage(format!("{path} is a design and would be replaced; choose another name")));
         }
+        if !self.replace.force && self.kind.is_foreign(self.path) {
+            let (path, what) = (shown(self.path), self.kind.name());
+            return Err(CommandError::Usage(format!("{path} exists and is no {what} of ours; --force replaces it")));
+        }
         Ok(())
     }
+}
+
+impl Kind {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Picture => "picture",
+            Self::Answer => "answer",
+            Self::Drawing => "drawing",
+        }
+    }
+
+    /// Ending of the files that the command is meant to write.
+    fn ending(self) -> &'static str {
+        match self {
+            Self::Picture => "png",
+            Self::Answer => "json",
+            Self::Drawing => "ron",
+        }
+    }
+
+    /// Whether a file is the work of others: by its content, or, where that says nothing, by another ending than this kind has. So a
+    /// photograph and a problem stay; what a command has written before is replaced, by whatever name.
+    fn is_foreign(self, path: &Path) -> bool {
+        /// Enough to know a picture or a drawing, bytes.
+        const HEAD: u64 = 512;
+        let mut head = Vec::new();
+        let there = std::fs::metadata(path).is_ok_and(|found| found.is_file() && found.len() > 0);
+        if !there {
+            return false;
+        }
+        if !std::fs::File::open(path).is_ok_and(|file| file.take(HEAD).read_to_end(&mut head).is_ok()) {
+            return true;
+        }
+        let known = match self {
+            Self::Picture => {
+                let picture = head.starts_with(b"\x89PNG") || head.starts_with(b"\xff\xd8");
+                picture.then(|| raster::is_ours(&head))
+            }
+            Self::Answer => json_format(path).map(|format| format.starts_with("plushwright-answer/")),
+            Self::Drawing => {
+                let text = String::from_utf8_lossy(&head);
+                (text.trim_start().starts_with('(') && text.contains("parts:")).then_some(true)
+            }
+        };
+        let named = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(self.ending()));
+        !known.unwrap_or(named)
+    }
+}
+
+/// What a JSON file says that it is.
+fn json_format(path: &Path) -> Option<String> {
+    #[derive(Deserialize)]
+    struct Head {
+        format: String,
+    }
+    let bytes = files::read(path, MOST_TEXT).ok()?;
+    serde_json::from_slice(&bytes).ok().map(|Head { format }| format)
 }
 
 /// Refuses to write to the file that is read.
@@ -117,19 +205,24 @@ pub fn json(value: &impl serde::Serialize) -> Result<String, CommandError> {
     Ok(escaped.collect())
 }
 
+/// Largest text that is read, bytes: a problem of a million triangles takes a third of it.
+const MOST_TEXT: u64 = 256 << 20;
+
 /// Reads an input file as text, or what a pipe brings.
 pub fn read_text(path: &Path) -> Result<String, CommandError> {
-    /// Largest text, bytes: a problem of a million triangles takes a third of it.
-    const MOST: u64 = 256 << 20;
     let refuse = |reason: String| CommandError::input(path, reason);
     let mut text = String::new();
     let file = std::fs::File::open(path).map_err(|e| refuse(e.to_string()))?;
-    if file.metadata().is_ok_and(|found| found.len() > MOST) {
-        return Err(refuse(format!("it is larger than {} MiB", MOST >> 20)));
+    if file.metadata().is_ok_and(|found| found.len() > MOST_TEXT) {
+        return Err(refuse(format!("it is larger than {} MiB", MOST_TEXT >> 20)));
     }
     // A pipe has no length: one byte more than allowed tells.
-    file.take(MOST + 1).read_to_string(&mut text).map_err(|e| refuse(e.to_string()))?;
-    if text.len() as u64 > MOST { Err(refuse(format!("it is larger than {} MiB", MOST >> 20))) } else { Ok(text) }
+    file.take(MOST_TEXT + 1).read_to_string(&mut text).map_err(|e| refuse(e.to_string()))?;
+    if text.len() as u64 > MOST_TEXT {
+        Err(refuse(format!("it is larger than {} MiB", MOST_TEXT >> 20)))
+    } else {
+        Ok(text)
+    }
 }
 
 #[cfg(test)]
@@ -140,7 +233,7 @@ mod tests {
     fn a_cancelled_write_leaves_the_old_file() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.txt");
-        let output = Output::new(&path, []).unwrap();
+        let output = Output::new(&path, Kind::Answer, Replace { force: true }, []).unwrap();
         output.write(b"old", &AtomicBool::new(false)).unwrap();
         assert!(output.write(b"new", &AtomicBool::new(true)).is_err());
         assert_eq!(std::fs::read(&path).unwrap(), b"old");
@@ -156,9 +249,14 @@ mod tests {
         std::fs::write(at("b.plush"), "x").unwrap();
         std::fs::hard_link(at("a.svg"), at("also-a")).unwrap();
         for (output, input) in [("a.svg", "a.svg"), ("also-a", "a.svg"), ("old", "none"), ("b.plush", "none")] {
-            assert!(Output::new(&at(output), [at(input)]).is_err_and(|e| e.code() == 2), "{output}");
+            for force in [false, true] {
+                let made = Output::new(&at(output), Kind::Picture, Replace { force }, [at(input)]).map(drop);
+                assert!(made.is_err_and(|e| e.code() == 2), "{output}");
+            }
         }
-        assert!(Output::new(&at("a.svg"), [at("none")]).is_ok());
+        for (force, taken) in [(false, false), (true, true)] {
+            assert_eq!(Output::new(&at("a.svg"), Kind::Picture, Replace { force }, [at("none")]).is_ok(), taken);
+        }
     }
 
     #[test]

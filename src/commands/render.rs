@@ -1,7 +1,7 @@
 //! `render`: a picture of both plushies.
 
 use super::error::CommandError;
-use super::output::{Output, say};
+use super::output::{Kind, Output, Replace, say};
 use super::{document, key};
 use crate::design::animation::activations_at;
 use crate::design::texture::find;
@@ -28,6 +28,8 @@ pub struct Render {
     /// Picture to write (PNG)
     #[arg(short, long, value_name = "OUT.png")]
     pub output: PathBuf,
+    #[command(flatten)]
+    pub replace: Replace,
     /// Solve both plushies for this pose [default: at rest]
     #[arg(long, value_name = "P", conflicts_with = "time")]
     pub pose: Option<String>,
@@ -46,7 +48,7 @@ impl Render {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
         let design = document::load(&self.design)?;
         let inputs = [Some(self.design.clone()), file::texture_path(&design, &self.design)];
-        let output = Output::new(&self.output, inputs.into_iter().flatten())?;
+        let output = Output::new(&self.output, Kind::Picture, self.replace, inputs.into_iter().flatten())?;
         let question = match (&self.pose, self.time) {
             (Some(pose), _) => Question::Targets(key::targets(&design, pose)?),
             (None, Some(time)) => {

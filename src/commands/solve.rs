@@ -1,7 +1,7 @@
 //! `solve`: one numerical question, as JSON.
 
 use super::error::{CommandError, check_cancel};
-use super::output::{Output, json, read_text, say_lines};
+use super::output::{Kind, Output, Replace, json, read_text, say_lines};
 use crate::problem::{self, Document, Options, Problem, Quality};
 use crate::soft_ik;
 use clap::builder::PossibleValuesParser;
@@ -29,6 +29,8 @@ pub struct Solve {
     /// Answer file to write [default: standard output]
     #[arg(short, long, value_name = "OUT.json")]
     pub output: Option<PathBuf>,
+    #[command(flatten)]
+    pub replace: Replace,
     /// How contractions are found; `gradient` is Algorithm 1 of the paper
     #[arg(long, default_value = "default", value_parser = PossibleValuesParser::new(soft_ik::METHODS))]
     pub method: String,
@@ -83,7 +85,8 @@ impl Stopwatch {
 impl Solve {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
         let inputs = || [self.problem.clone()];
-        let output = self.output.as_deref().map(|path| Output::new(path, inputs())).transpose()?;
+        let output =
+            self.output.as_deref().map(|path| Output::new(path, Kind::Answer, self.replace, inputs())).transpose()?;
         let mut clock = Stopwatch::start();
         let text = read_text(&self.problem)?;
         let (problem, unknown) = problem::read(&text).map_err(|e| CommandError::input(&self.problem, e))?;

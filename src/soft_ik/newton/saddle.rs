@@ -475,13 +475,13 @@ fn put(part: &[f64], both: &mut [f64], at: usize) {
     }
 }
 
-/// The pairs of nodes that a pattern couples.
+/// The pairs of nodes that a pattern couples, every node with itself among them: a node of no element has no other.
 fn coupled(pattern: &Pattern) -> Vec<[usize; 2]> {
     let mut pairs = Vec::new();
     let nodes: Vec<usize> = pattern.unknowns().map(|d| d / 2).collect();
     for column in (0..pattern.dimension()).step_by(2) {
         let range = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
-        for &row in pattern.row_indices()[range].iter().filter(|row| *row % 2 == 0 && **row > column) {
+        for &row in pattern.row_indices()[range].iter().filter(|row| *row % 2 == 0) {
             pairs.push([nodes[column], nodes[row]]);
         }
     }
