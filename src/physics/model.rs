@@ -264,18 +264,6 @@ impl Model {
         self.cholesky.solve(rhs);
     }
 
-    /// [`Self::solve`] with a step of iterative refinement, for where small differences of large numbers count. The Hessian assembled
-    /// last must be the one that was factorised.
-    pub fn solve_refined(&mut self, rhs: &mut [f64]) {
-        let wanted = rhs.to_vec();
-        let mut left = vec![0.0; rhs.len()];
-        self.cholesky.solve(rhs);
-        self.pattern.multiply(&self.values, rhs, &mut left);
-        left.iter_mut().zip(&wanted).for_each(|(left, wanted)| *left = wanted - *left);
-        self.cholesky.solve(&mut left);
-        rhs.iter_mut().zip(&left).for_each(|(z, d)| *z += d);
-    }
-
     /// The same for several right-hand sides stored one after the other.
     pub fn solve_many(&mut self, rhs: &mut [f64], columns: usize) {
         self.cholesky.solve_many(rhs, columns);

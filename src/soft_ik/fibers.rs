@@ -133,7 +133,8 @@ fn posture(
     let posture = match kind {
         Start::Given => given.clone(),
         Start::Taut => {
-            let beta = taut(question, &given.x);
+            let mut beta = question.just_taut(&given.x);
+            question.actuation.clamp(&mut beta);
             let (posture, factorizations) = question.settle(&beta, &given.x, budget.stop);
             total.factorizations += factorizations;
             posture
@@ -164,14 +165,4 @@ fn relaxed(question: &mut Question, mut posture: Posture) -> Posture {
     question.model.contractile.set_contractions(&contractions);
     posture.objective = question.objective_at(&posture.x, &contractions);
     posture
-}
-
-/// The activations, within their bounds, at which every winch has all its elements taut at `x`.
-fn taut(question: &Question, x: &[f64]) -> Vec<f64> {
-    let elements = &question.model.contractile.elements;
-    let of = |&(e, r): &(usize, f64)| (elements[e].alpha0 - elements[e].length(x) + elements[e].epsilon) / r;
-    let mut beta: Vec<f64> =
-        question.actuation.winches.iter().map(|w| w.members.iter().map(of).fold(f64::NEG_INFINITY, f64::max)).collect();
-    question.actuation.clamp(&mut beta);
-    beta
 }

@@ -152,6 +152,14 @@ impl Question<'_> {
         (posture, factorizations)
     }
 
+    /// The activations at which every winch has all its elements taut at `x`, whatever its bounds.
+    fn just_taut(&self, x: &[f64]) -> Vec<f64> {
+        let elements = &self.model.contractile.elements;
+        let of = |&(e, r): &(usize, f64)| (elements[e].alpha0 - elements[e].length(x) + elements[e].epsilon) / r;
+        let winches = self.actuation.winches.iter();
+        winches.map(|w| w.members.iter().map(of).fold(f64::NEG_INFINITY, f64::max)).collect()
+    }
+
     /// `O` at `x` with all elements springs at `contractions` (as set in the model).
     pub fn objective_at(&self, x: &[f64], contractions: &[f64]) -> f64 {
         let tensions = self.model.contractile.tensions(x);

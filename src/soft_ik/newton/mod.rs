@@ -349,7 +349,7 @@ impl Search {
         self.local.hessian.extend_from_slice(question.model.hessian_values());
         let mut p = vec![0.0; at.x.len()];
         question.objective.position_gradient(&at.x, &mut p);
-        question.model.solve_refined(&mut p);
+        question.model.solve(&mut p);
         self.local.rows.update(&self.saddle.stencils, question, &at.x, &contractions, &p);
         self.gradient(question, &contractions, &p);
         self.bend(question, &at.x, &p);

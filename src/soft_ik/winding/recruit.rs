@@ -3,7 +3,7 @@
 use super::rays::reach;
 use crate::soft_ik::contraction::GaussNewton;
 use crate::soft_ik::newton::Newton;
-use crate::soft_ik::{Actuation, Answer, Budget, Method, Posture, Question};
+use crate::soft_ik::{Actuation, Answer, Budget, Method, Posture, Question, Winch};
 
 /// Iterations and relative decrease from each of several starts; the best is then followed to the end.
 const EXPLORING_ITERATIONS: usize = 40;
@@ -13,8 +13,8 @@ const NEWTON_DECREASE: f64 = 1e-3;
 const SEQUENTIAL_LIMIT: usize = 12;
 /// Steps in which a new winch is wound over its range.
 const SEQUENTIAL_STEPS: usize = 8;
-/// Up to this many free winches, starts are combined winch by winch.
-const COMBINED_STARTS: usize = 3;
+/// Parts of the winches' range, from taut to their upper bounds, at which a search begins.
+const PARTS: [f64; 3] = [0.15, 0.4, 0.7];
 /// Starts are no longer tried once so many in a row have ended in the value that is the best.
 const REPEATS: usize = 2;
 /// Two values are the same where they differ by less than this part.
@@ -110,47 +110,16 @@ fn one_by_one(question: &mut Question, start: &Posture, method: &dyn Method, bud
     best
 }
 
-/// Starting activations: the given ones, all winches just taut, and parts of the range (all combinations for few winches).
+/// Starting activations: the given ones, all winches just taut, and parts of the range.
 fn starts(question: &Question, start: &Posture) -> Vec<Vec<f64>> {
-    let elements = &question.model.contractile.elements;
-    let taut: Vec<f64> = question
-        .actuation
-        .winches
-        .iter()
-        .map(|w| {
-            w.members
-                .iter()
-                .map(|&(e, r)| (elements[e].alpha0 - elements[e].length(&start.x) + elements[e].epsilon) / r)
-                .fold(f64::NEG_INFINITY, f64::max)
-        })
-        .collect();
-    let upper: Vec<f64> = question
-        .actuation
-        .winches
-        .iter()
-        .zip(&taut)
-        .map(|(w, t)| {
-            if w.upper.is_finite() {
-                w.upper
-            } else {
-                let shortest = w.members.iter().map(|&(e, r)| elements[e].alpha0 / r).fold(f64::INFINITY, f64::min);
-                t.max(0.5 * shortest)
-            }
-        })
-        .collect();
-    let part = |j: usize, s: f64| taut[j] + s * (upper[j] - taut[j]).max(0.0);
+    let taut = question.just_taut(&start.x);
+    let winches = question.actuation.winches.iter().enumerate().zip(&taut);
+    let top =
+        |((j, w), t): ((usize, &Winch), &f64)| if w.upper.is_finite() { w.upper } else { t.max(reach(question, j)) };
+    let upper: Vec<f64> = winches.map(top).collect();
+    let part = |s: f64| taut.iter().zip(&upper).map(|(t, u)| t + s * (u - t).max(0.0)).collect();
     let mut out = vec![start.beta.clone(), taut.clone()];
-    let count = taut.len();
-    if count <= COMBINED_STARTS {
-        let levels = [0.0, 0.35, 0.7];
-        for code in 1..levels.len().pow(count as u32) {
-            out.push((0..count).map(|j| part(j, levels[code / levels.len().pow(j as u32) % levels.len()])).collect());
-        }
-    } else {
-        for s in [0.15, 0.4, 0.7] {
-            out.push((0..count).map(|j| part(j, s)).collect());
-        }
-    }
+    out.extend(PARTS.map(part));
     for beta in &mut out {
         question.actuation.clamp(beta);
     }
