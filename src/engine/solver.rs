@@ -339,13 +339,7 @@ fn tidy(plushie: &Plushie, posture: &Posture) -> Vec<f64> {
 }
 
 /// A posture as it is shown. The model's laws must be those of the posture.
-pub(super) fn report(
-    design: &Design,
-    plushie: &Plushie,
-    targets: &[Target],
-    posture: &Posture,
-    clock: Instant,
-) -> Shape {
+pub fn report(design: &Design, plushie: &Plushie, targets: &[Target], posture: &Posture, clock: Instant) -> Shape {
     let tensions = plushie.model.contractile.tensions(&posture.x);
     let nodes: Vec<[f64; 2]> = posture.x.chunks_exact(2).map(|p| [p[0], p[1]]).collect();
     Shape {
