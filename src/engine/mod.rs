@@ -3,6 +3,7 @@
 //! The realizable plushie is always solved first; its activations are then held in the idealized one and the fibres
 //! add what is missing (section 3, design loop).
 
+mod body_spec;
 pub mod compile;
 pub mod patch;
 pub mod play;
@@ -11,6 +12,7 @@ pub mod warning;
 pub mod worker;
 
 pub use crate::soft_ik::Quality;
+pub use body_spec::BodySpec;
 pub use play::Play;
 pub use solver::{Effort, Solver, target_error};
 pub use warning::Warning;
