@@ -122,9 +122,9 @@ pub struct Proposal {
     pub network: Network,
     pub parameters: discovery::Parameters,
     /// The stages of discovery, to be shown (fig. 6).
-    pub stages: discovery::Stages,
+    pub stages: Arc<discovery::Stages>,
     /// The realizable plushie with this network added, posed towards the same targets.
-    pub preview: Shape,
+    pub preview: Arc<Shape>,
     /// Target error before and after, in body lengths.
     pub error_before: f64,
     pub error_after: f64,

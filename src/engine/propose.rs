@@ -57,8 +57,8 @@ pub fn propose(design: &Design, targets: &[Target], base: &Parameters, cancel: &
         out.push(Proposal {
             network,
             parameters: candidate.parameters,
-            stages: candidate.stages,
-            preview: trial.shape(&with, targets, &reached),
+            stages: Arc::new(candidate.stages),
+            preview: Arc::new(trial.shape(&with, targets, &reached)),
             error_before: before.error,
             error_after: reached.error,
         });

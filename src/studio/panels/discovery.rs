@@ -2,7 +2,7 @@
 
 use super::{Actions, State, heading, primary, wide};
 use crate::engine::Proposal;
-use crate::picture::scene::Stage;
+use crate::picture::Stage;
 use crate::studio::action::Action;
 use crate::studio::session::Session;
 use crate::studio::style;
