@@ -1,7 +1,7 @@
 //! Scenes to PNG, without a graphics adapter.
 
+use super::scene::{Color, Item, Scene};
 use super::textured::{self, Corner};
-use super::{Color, Item, Scene};
 use crate::outline::Point;
 use tiny_skia::{
     FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, PixmapMut, Rect, Stroke, StrokeDash, Transform,
@@ -29,6 +29,9 @@ const MARK: &[u8] = b"\0\0\0\x14tEXtSoftware\0plushwright\x0f\x01\x4b\xb4";
 const MARK_AT: usize = 33;
 
 /// Two views side by side as PNG, `size` in pixels. Both have the same scale and the same place in their half.
+///
+/// # Errors
+/// A size that is empty or does not fit in memory, or a picture that cannot be encoded.
 pub fn png(left: &Scene, right: &Scene, size: (u32, u32), background: Color) -> Result<Vec<u8>, RasterError> {
     let mut pixmap = Pixmap::new(size.0, size.1).ok_or(RasterError::Size(size.0, size.1))?;
     pixmap.fill(color(background));
