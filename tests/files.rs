@@ -233,7 +233,13 @@ fn another_plushie_is_not_replaced_without_force() {
         run(f, &[&["key", "bar.plush", "--pose", "bend", "--time", time, "-o", "other.plush"][..], rest].concat())
     };
     assert!(key("9", &["--force"]).status.success());
-    // What was made of the same plushie before is replaced without a word; so is a bare outline.
+    // What the same command wrote before is replaced without a word, and other work on the same plushie is not.
+    assert!(key("9", &[]).status.success());
+    let old = fs::read(f.join("other.plush")).unwrap();
+    assert!(refused(&key("8", &[]), "other.plush").contains("--force"));
+    assert_eq!(fs::read(f.join("other.plush")).unwrap(), old);
+    // So is a copy of what is read, and a bare outline.
+    fs::copy(f.join("bar.plush"), f.join("other.plush")).unwrap();
     assert!(key("8", &[]).status.success());
     succeed(f, &["new", "bar.svg", "--fibers", "60", "-o", "other.plush", "--force"]);
     assert!(key("9", &[]).status.success());
@@ -320,6 +326,69 @@ fn a_folder_with_anything_foreign_in_it_stays() {
     }
     refused(&run(f, &["export", "bar.plush", "-o", "figs"]), "figs");
     assert!(names(f).iter().all(|name| !name.starts_with('.')), "{:?}", names(f));
+}
+
+#[test]
+fn a_drawing_and_a_picture_of_others_are_not_replaced_by_new() {
+    let folder = place();
+    let f = folder.path();
+    fs::write(f.join("a.ron"), "(parts: [(primitive: Circle(center: (0, 0), radius: 40))])").unwrap();
+    succeed(f, &["new", "a.ron", "--fibers", "60", "-o", "drawn.plush"]);
+    let old = fs::read(f.join("drawn.plush")).unwrap();
+    assert!(refused(&run(f, &["new", "bar.svg", "-o", "drawn.plush"]), "drawn.plush").contains("--force"));
+    assert_eq!(fs::read(f.join("drawn.plush")).unwrap(), old);
+    succeed(f, &["new", "a.ron", "--fibers", "60", "-o", "drawn.plush"]);
+    let new = ["new", "bar.svg", "--fibers", "60", "--texture", "-o", "skin.plush"];
+    succeed(f, &new);
+    succeed(f, &new);
+    image::RgbImage::new(2, 2).save(f.join("skin.texture.png")).unwrap();
+    let old = fs::read(f.join("skin.texture.png")).unwrap();
+    assert!(refused(&run(f, &new), "skin.texture.png").contains("--force"));
+    assert_eq!(fs::read(f.join("skin.texture.png")).unwrap(), old);
+}
+
+#[test]
+fn a_place_that_cannot_be_is_named_as_it_was_asked_for() {
+    let folder = place();
+    let f = folder.path();
+    Command::new("mkfifo").arg(f.join("pipe")).status().unwrap();
+    symlink("nowhere", f.join("link")).unwrap();
+    for (args, _) in COMMANDS {
+        for out in ["none/out", "pipe"] {
+            if args.contains(&"--texture") {
+                continue;
+            }
+            let output = run(f, &[args, &[out][..]].concat());
+            assert!(refused(&output, out).contains("cannot write"), "{args:?}");
+        }
+    }
+    succeed(f, &["export", "bar.plush", "-o", "link"]);
+    assert!(f.join("link").is_symlink() && f.join("nowhere/manifest.json").is_file());
+}
+
+#[test]
+fn an_interrupt_ends_a_command_that_waits_for_a_pipe() {
+    let folder = place();
+    let f = folder.path();
+    Command::new("mkfifo").arg(f.join("pipe")).status().unwrap();
+    let mut child = program(f).args(["solve", "pipe"]).stderr(Stdio::null()).spawn().unwrap();
+    std::thread::sleep(Duration::from_millis(500));
+    Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+}
+
+#[test]
+fn commands_that_make_one_design_at_once_lose_nothing_without_a_word() {
+    let folder = place();
+    let f = folder.path();
+    let start = |time: usize| -> Child {
+        let time = (10 + time).to_string();
+        let args = ["key", "bar.plush", "--pose", "bend", "--time", &time, "-o", "same.plush"];
+        program(f).args(args).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
+    };
+    let running: Vec<Child> = (0..4).map(start).collect();
+    let codes = running.into_iter().map(|mut command| command.wait().unwrap().code());
+    assert_eq!(codes.filter(|&code| code == Some(0)).count(), 1, "the others are refused");
 }
 
 #[test]
