@@ -36,7 +36,7 @@ fn a_body_pressed_flat_is_shown_whole() {
     }
 }
 
-/// The long run without a release build: `PROBLEMS=100000 FIRST=0 cargo test --test properties -- --ignored --nocapture`.
+/// The long run without a release build: `PROBLEMS=100000 FIRST=0 cargo test --test suite properties -- --ignored --nocapture`.
 #[test]
 #[ignore = "takes long; scripts/properties does the same, optimised"]
 fn a_long_run() {

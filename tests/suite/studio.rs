@@ -1,5 +1,4 @@
 //! The window, driven by accessible names. No display and no graphics adapter are needed.
-#![cfg(feature = "studio")]
 
 use eframe::egui::{self, Key, Modifiers, Pos2, pos2, vec2};
 use egui_kittest::Harness;

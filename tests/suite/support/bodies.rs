@@ -1,7 +1,6 @@
 //! Small bodies for the tests of the solvers: bars with fibres, tendons and pins.
-#![allow(dead_code)]
 
-use super::support::Random;
+use super::Random;
 use plushwright::physics::{Body, Contractile, Element, Energy, Material, Model, NeoHookean, Pin, Pins};
 
 /// Nodes and counter-clockwise triangles.

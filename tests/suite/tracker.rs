@@ -1,12 +1,9 @@
 //! The tracker on bundled designs: what it shows can always be shown, far-away targets leave no trace, and the same drag gives
 //! the same bits.
 
-#[path = "support/scenes.rs"]
-mod scenes;
-
+use crate::support::scenes::{Parts, Scene};
 use plushwright::bench::{Session, wander};
 use plushwright::soft_ik::{Frame, Quality, Tracker};
-use scenes::{Parts, Scene};
 
 /// Largest residual, as a part of the forces at work, with which a pose may be shown.
 const SHOWN: f64 = 1e-3;

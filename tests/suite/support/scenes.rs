@@ -1,5 +1,4 @@
 //! Designs under the hand: what the tests of the tracker drag about.
-#![allow(dead_code)]
 
 use plushwright::design::{Design, Gravity, Target, bundled};
 use plushwright::engine::compile::{Plushie, View, compile, objective};
@@ -7,7 +6,6 @@ use plushwright::soft_ik::{Actuation, Frame, Objective, Quality, Question, Track
 
 /// A compiled design, two of its points under the hand; the fibres are free.
 pub struct Scene {
-    pub name: String,
     pub plushie: Plushie,
     pub actuation: Actuation,
     pub objective: Objective,
@@ -55,7 +53,7 @@ impl Scene {
         let winches = Actuation { winches: plushie.winches.clone(), fixed: zero.clone() };
         let actuation = Actuation { winches: plushie.fibers.clone(), fixed: zero };
         let body_length = design.body_length_mm();
-        let mut scene = Self { name: design.name.clone(), plushie, actuation, objective, home, body_length, winches };
+        let mut scene = Self { plushie, actuation, objective, home, body_length, winches };
         scene.aim([0.0; 2]);
         scene
     }

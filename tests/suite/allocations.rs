@@ -1,15 +1,10 @@
-//! A warm frame under the hand allocates nothing. A test binary of its own, for its allocator counts.
+//! A warm frame under the hand allocates nothing. Its allocator serves the whole suite and counts nothing for other tests.
 
-#[path = "support/bodies.rs"]
-mod bodies;
-#[path = "support/scenes.rs"]
-mod scenes;
-mod support;
-
+use crate::support::scenes::{Parts, Scene};
+use crate::support::{self, bodies};
 use plushwright::design::Pin;
 use plushwright::physics::HessianForm;
 use plushwright::soft_ik::Quality;
-use scenes::{Parts, Scene};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 

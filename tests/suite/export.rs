@@ -1,7 +1,6 @@
 //! The blueprint, read back with other parsers and compared with closed forms.
 
-mod support;
-
+use crate::support::{Random, rectangle, rigged};
 use plushwright::design::{Design, Easing, Keyframe, Network, Tendon, animation};
 use plushwright::fabrication::{ExportError, Manifest, blueprint, export, routing};
 use roxmltree::{Document, Node};
@@ -9,7 +8,6 @@ use sha2::{Digest, Sha256};
 use std::f64::consts::PI;
 use std::fs;
 use std::path::Path;
-use support::{Random, rectangle, rigged};
 
 /// A file of a blueprint as text.
 fn text(design: &Design, name: &str) -> String {

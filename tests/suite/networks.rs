@@ -5,8 +5,7 @@ use plushwright::problem::network;
 use serde_json::Value;
 use std::collections::BTreeSet;
 
-mod networks_reference;
-use networks_reference::{Reference, reference};
+use crate::networks_reference::{Reference, reference};
 
 fn json(name: &str) -> Value {
     let path = format!("{}/tests/data/networks/{name}.json", env!("CARGO_MANIFEST_DIR"));

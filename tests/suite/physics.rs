@@ -1,17 +1,13 @@
 //! The energies, their derivatives and the equilibria they lead to, through the public interface.
 
-#[path = "support/bodies.rs"]
-mod bodies;
-mod support;
-
-use bodies::{Mesh, bar, dot, largest, largest_difference, moved, neo_hookean, plus};
+use crate::support::Random;
+use crate::support::bodies::{Mesh, bar, dot, largest, largest_difference, moved, neo_hookean, plus};
 use nalgebra::Matrix2;
 use plushwright::physics::pattern::{Pattern, Scatter};
 use plushwright::physics::{
     Body, Cause, Contractile, Element, Energy, Gravity, HessianForm, Law, Material, Model, NeoHookean, Pin, Pins,
     StVenantKirchhoff, StaticsSettings, statics,
 };
-use support::Random;
 
 /// A smooth, uninverted deformation of unit-sized bodies: turned, stretched and bent.
 fn deformed(x: &[f64]) -> Vec<f64> {

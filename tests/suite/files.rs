@@ -1,5 +1,4 @@
 //! What every command does to the place that it writes to: the old or the new file, whole; one line; nothing left behind.
-#![cfg(unix)]
 
 use std::fs;
 use std::os::unix::fs::{MetadataExt, PermissionsExt, symlink};

@@ -1,10 +1,7 @@
 //! Soft IK: sensitivities against re-solved equilibria, and how close the methods come to the best answer.
 
-#[path = "support/bodies.rs"]
-mod bodies;
-mod support;
-
-use bodies::{Mesh, bar, dot, largest, largest_difference, neo_hookean};
+use crate::support::Random;
+use crate::support::bodies::{self, Mesh, bar, dot, largest, largest_difference, neo_hookean};
 use plushwright::physics::{
     Energy, HessianForm, Material, Model, NeoHookean, Pin, Pins, StVenantKirchhoff, StaticsSettings, statics,
 };
@@ -14,7 +11,6 @@ use plushwright::soft_ik::tension::AllAtOnce;
 use plushwright::soft_ik::{
     self, Actuation, Answer, Budget, Method, Objective, PointTarget, Posture, Question, Winch, sensitivity,
 };
-use support::Random;
 
 const NEVER: &dyn Fn() -> bool = &|| false;
 

@@ -1,5 +1,4 @@
 //! The window loses nothing: closing asks, work that is not saved comes back, files of others are not replaced without a question.
-#![cfg(all(feature = "studio", unix))]
 
 use eframe::egui::{self, Key, Modifiers, ViewportEvent, ViewportId, vec2};
 use egui_kittest::Harness;

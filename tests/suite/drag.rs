@@ -1,10 +1,6 @@
 //! Drags and malformed files through the JSON interface: what the window does while a hand drags, without the window.
 
-#[path = "support/bodies.rs"]
-mod bodies;
-mod support;
-
-use bodies::{Mesh, bar, largest_difference, neo_hookean};
+use crate::support::bodies::{Mesh, bar, largest_difference, neo_hookean};
 use plushwright::problem::{Options, Quality, read, solve};
 use serde_json::{Value, json};
 

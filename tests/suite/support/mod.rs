@@ -1,5 +1,8 @@
 //! What the integration tests of the document and of the blueprint share: a seeded generator and a grid-shaped plushie.
-#![allow(dead_code)]
+
+pub mod bodies;
+pub mod scenes;
+pub mod shapes;
 
 use plushwright::design::{Design, Easing, Keyframe, Network, Pin, Pose, Target, Tendon};
 use plushwright::mesh::{BodyPoint, Mesh};

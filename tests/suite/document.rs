@@ -1,14 +1,12 @@
 //! The document: the file format, validation, edits and undo, put to random but seeded use.
 
-mod support;
-
+use crate::support::{Random, rectangle, rigged};
 use plushwright::design::file::{self, TextError};
 use plushwright::design::{Design, Easing, EditError, FORMAT_VERSION, FiberSet, Gravity, History, Keyframe, Material};
 use plushwright::design::{Pin, Pose, edit};
 use plushwright::outline::Drawing;
 use std::fs;
 use std::sync::Arc;
-use support::{Random, rectangle, rigged};
 
 /// A text in which every bit of every number counts.
 fn bits(design: &Design) -> String {

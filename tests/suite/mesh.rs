@@ -1,14 +1,11 @@
 //! Meshes of outlines that are hard to mesh: what every one must be, and how good all of them are together.
 
-#[path = "support/shapes.rs"]
-mod shapes;
-
+use crate::support::shapes::{nasty, ring};
 use plushwright::design::reshape::{self, Body};
 use plushwright::design::{Design, edit, remesh};
 use plushwright::mesh::quality::{Fit, Quality};
 use plushwright::mesh::{self, MeshError, Request, Size};
 use plushwright::outline::{self, Drawing, Import, Outline, Point, polygon, svg};
-use shapes::{nasty, ring};
 
 /// Kinds of outlines in `shapes`.
 const KINDS: usize = 12;
