@@ -12,6 +12,7 @@
 //! | [`outline`] | a silhouette: reading, clean-up, polygons |
 //! | [`mesh`] | outline to triangle mesh, points of the body, quality |
 //! | [`physics`] | what a plushie is made of: energies, materials, contractile elements, pins, statics |
+//! | [`sewing`] | rules that a hand with a needle can keep, and where routings break them |
 //! | [`soft_ik`] | targets to contractions: objective, sensitivities, actuation, solvers |
 //! | [`discovery`] | activation graph to winch-tendon network (Algorithm 2) |
 //! | [`problem`] | the JSON question-and-answer interface of the numerical core |
@@ -60,6 +61,7 @@ pub mod physics;
 pub mod picture;
 pub mod problem;
 pub mod rigging;
+pub mod sewing;
 pub mod soft_ik;
 #[cfg(feature = "studio")]
 pub mod studio;
