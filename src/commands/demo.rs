@@ -6,7 +6,6 @@ use super::place::Move;
 use super::{key, new, pose, rig, table};
 use crate::design::animation::{activations_at, duration_s};
 use crate::design::{Design, Target, file};
-use crate::engine::rig::{RigOptions, TendonChoice};
 use crate::engine::{Question, Shape};
 use crate::fabrication;
 use crate::files::shown;
@@ -14,6 +13,7 @@ use crate::mesh::Mesh;
 use crate::outline::{self, Import, Point};
 use crate::picture::palette::{Palette, Theme};
 use crate::picture::{self, Item, Scene, raster};
+use crate::rigging::{Progress, RigOptions, TendonChoice};
 use clap::Args;
 use serde::Serialize;
 use std::io::Write;
@@ -132,9 +132,9 @@ impl Tour<'_> {
         };
         let mut printed = Ok(());
         let out = &mut *self.out;
-        let mut progress = |line: &str| {
+        let mut progress = |step: Progress| {
             if printed.is_ok() {
-                printed = say(out, &format!("     {line}"));
+                printed = say(out, &format!("     {}", rig::worded(&step)));
             }
         };
         let rigged = rig::rigged(design, &options, &mut progress, self.cancel)?;

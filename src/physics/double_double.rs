@@ -1,4 +1,4 @@
-//! Double-double arithmetic: an unevaluated sum of two `f64`, some 31 decimal digits.
+//! DoubleDouble-double arithmetic: an unevaluated sum of two `f64`, some 31 decimal digits.
 //!
 //! For what one `f64` cannot hold: the stretch of a spring a billion times stiffer than the body, and the reference answers
 //! against which accuracy is measured. Error-free transformations after Dekker (1971) and Knuth; products use the fused
@@ -9,13 +9,13 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// `high + low` with `|low| <= ulp(high)/2`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Double {
+pub struct DoubleDouble {
     pub high: f64,
     pub low: f64,
 }
 
 /// `ln 2` to 32 digits.
-const LN_2: Double = Double { high: std::f64::consts::LN_2, low: 2.319_046_813_846_299_6e-17 };
+const LN_2: DoubleDouble = DoubleDouble { high: std::f64::consts::LN_2, low: 2.319_046_813_846_299_6e-17 };
 
 /// `a + b` and its rounding error, whatever their sizes.
 fn two_sum(a: f64, b: f64) -> (f64, f64) {
@@ -25,12 +25,12 @@ fn two_sum(a: f64, b: f64) -> (f64, f64) {
 }
 
 /// The same where `|a| >= |b|`.
-fn quick_sum(a: f64, b: f64) -> Double {
+fn quick_sum(a: f64, b: f64) -> DoubleDouble {
     let high = a + b;
-    Double { high, low: if high.is_finite() { b - (high - a) } else { 0.0 } }
+    DoubleDouble { high, low: if high.is_finite() { b - (high - a) } else { 0.0 } }
 }
 
-impl Double {
+impl DoubleDouble {
     pub const ZERO: Self = Self { high: 0.0, low: 0.0 };
     pub const ONE: Self = Self { high: 1.0, low: 0.0 };
 
@@ -98,13 +98,13 @@ impl Double {
     }
 }
 
-impl From<f64> for Double {
+impl From<f64> for DoubleDouble {
     fn from(high: f64) -> Self {
         Self { high, low: 0.0 }
     }
 }
 
-impl Add for Double {
+impl Add for DoubleDouble {
     type Output = Self;
     fn add(self, other: Self) -> Self {
         let (high, low) = two_sum(self.high, other.high);
@@ -114,21 +114,21 @@ impl Add for Double {
     }
 }
 
-impl Neg for Double {
+impl Neg for DoubleDouble {
     type Output = Self;
     fn neg(self) -> Self {
         Self { high: -self.high, low: -self.low }
     }
 }
 
-impl Sub for Double {
+impl Sub for DoubleDouble {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
         self + -other
     }
 }
 
-impl Mul for Double {
+impl Mul for DoubleDouble {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
         let high = self.high * other.high;
@@ -137,7 +137,7 @@ impl Mul for Double {
     }
 }
 
-impl Div for Double {
+impl Div for DoubleDouble {
     type Output = Self;
     fn div(self, other: Self) -> Self {
         let first = self.high / other.high;
@@ -148,7 +148,7 @@ impl Div for Double {
     }
 }
 
-impl PartialOrd for Double {
+impl PartialOrd for DoubleDouble {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         match self.high.partial_cmp(&other.high) {
             Some(Ordering::Equal) => self.low.partial_cmp(&other.low),
@@ -162,35 +162,35 @@ mod tests {
     use super::*;
 
     /// Relative difference, in units of the last of 31 digits.
-    fn off(a: Double, b: Double) -> f64 {
+    fn off(a: DoubleDouble, b: DoubleDouble) -> f64 {
         ((a - b).value() / b.value()).abs() / 1e-31
     }
 
     #[test]
     fn known_constants_have_thirty_digits() {
         // e and sqrt 2 as sums of two f64 (from their decimal expansions).
-        let e = Double { high: std::f64::consts::E, low: 1.445_646_891_729_250_2e-16 };
-        let root = Double { high: std::f64::consts::SQRT_2, low: -9.667_293_313_452_913e-17 };
-        assert!(off(Double::ONE.exp(), e) < 20.0);
-        assert!(off(Double::from(2.0).sqrt(), root) < 5.0);
-        assert!(off(Double::from(2.0).ln(), LN_2) < 20.0);
+        let e = DoubleDouble { high: std::f64::consts::E, low: 1.445_646_891_729_250_2e-16 };
+        let root = DoubleDouble { high: std::f64::consts::SQRT_2, low: -9.667_293_313_452_913e-17 };
+        assert!(off(DoubleDouble::ONE.exp(), e) < 20.0);
+        assert!(off(DoubleDouble::from(2.0).sqrt(), root) < 5.0);
+        assert!(off(DoubleDouble::from(2.0).ln(), LN_2) < 20.0);
     }
 
     #[test]
     fn operations_undo_each_other() {
         for x in [1e-9, 0.3, 1.0 + 1e-12, 7.0, 123.456, 1e9] {
-            let x = Double::from(x) / Double::from(3.0);
-            assert!(off(x * (Double::ONE / x), Double::ONE) < 10.0);
+            let x = DoubleDouble::from(x) / DoubleDouble::from(3.0);
+            assert!(off(x * (DoubleDouble::ONE / x), DoubleDouble::ONE) < 10.0);
             assert!(off(x.sqrt().square(), x) < 10.0);
             assert!(off(x.ln().exp(), x) < 1e3, "{x:?}: {}", off(x.ln().exp(), x));
-            assert!((x + Double::ONE - x - Double::ONE).value().abs() < 1e-31 * (1.0 + x.value()));
+            assert!((x + DoubleDouble::ONE - x - DoubleDouble::ONE).value().abs() < 1e-31 * (1.0 + x.value()));
         }
     }
 
     #[test]
     fn a_difference_is_exact() {
-        let d = Double::difference(1.0, 1e-30);
+        let d = DoubleDouble::difference(1.0, 1e-30);
         assert_eq!((d.high, d.low), (1.0, -1e-30));
-        assert!(Double { high: 1.0, low: 1e-20 } > Double::ONE);
+        assert!(DoubleDouble { high: 1.0, low: 1e-20 } > DoubleDouble::ONE);
     }
 }

@@ -11,18 +11,63 @@
 //! differentiable, nothing at all above `J0`, infinite at `J = 0`. `m` is the largest of the moduli, so that it holds against
 //! the material's own fall.
 
-use super::material::{Material, cofactor, determinant_hessian};
+use crate::defaults;
+use crate::physics::catalogue::{Dimension, MaterialKind, Parameter};
+use crate::physics::hyperelastic::{Hyperelastic, STIFFENING, cofactor, determinant_hessian};
+use crate::physics::setting::Setting;
 use nalgebra::{Matrix2, Matrix4, Vector4};
 
 /// `J0`: the part of its area at which a triangle begins to resist being pressed flat.
 const TOUCHING: f64 = 1e-2;
 
+/// St. Venant-Kirchhoff material, for comparison and for moderate compression.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StVenantKirchhoff {
     /// Shear modulus, force per length.
     pub mu: f64,
     /// First Lame parameter, force per length.
     pub lambda: f64,
+}
+
+/// Its entry in the catalogue.
+pub(super) static KIND: MaterialKind = MaterialKind {
+    name: "StVenantKirchhoff",
+    label: "St. Venant-Kirchhoff",
+    parameters: &[
+        Parameter {
+            name: "mu",
+            label: "Mu",
+            tip: "Shear modulus, thickness multiplied in",
+            unit: "N/mm",
+            default: [defaults::MU, 0.0],
+            range: [1e-6, 1e6],
+            why: "foam is 0.1 to 10; steel 1 mm thick 8e4",
+            offered: [1e-3, 1e3],
+            dimension: Dimension::MODULUS,
+            ..Parameter::NUMBER
+        },
+        Parameter {
+            name: "lambda",
+            label: "Lambda",
+            tip: "Resistance to change of area, thickness multiplied in",
+            unit: "N/mm",
+            default: [defaults::KAPPA, 0.0],
+            range: [0.0, 1e6],
+            why: "as mu",
+            most_times_first: Some(STIFFENING),
+            offered: [1e-3, 1e3],
+            dimension: Dimension::MODULUS,
+            ..Parameter::NUMBER
+        },
+    ],
+    build: |values| Box::new(StVenantKirchhoff { mu: values[0], lambda: values[1] }),
+    tested: &[&[0.7, 1.1]],
+};
+
+impl From<StVenantKirchhoff> for Setting<MaterialKind> {
+    fn from(StVenantKirchhoff { mu, lambda }: StVenantKirchhoff) -> Self {
+        Self::new(&KIND, &[mu, lambda])
+    }
 }
 
 impl StVenantKirchhoff {
@@ -40,7 +85,7 @@ impl StVenantKirchhoff {
     }
 }
 
-impl Material for StVenantKirchhoff {
+impl Hyperelastic for StVenantKirchhoff {
     fn density(&self, f: &Matrix2<f64>) -> f64 {
         let j = f.determinant();
         if j.is_nan() || j <= 0.0 {

@@ -5,16 +5,61 @@
 //! With `c = kappa ln J - mu` and `C = cof F = dJ/dF`: `P = mu F + (c/J) C`, and
 //! `d2psi = mu I + (kappa - c)/J^2 C C^T + (c/J) d2J/dF2`.
 
-use super::double::Double;
-use super::material::{Material, cofactor, determinant_hessian};
+use crate::defaults;
+use crate::physics::catalogue::{Dimension, MaterialKind, Parameter};
+use crate::physics::double_double::DoubleDouble;
+use crate::physics::hyperelastic::{Hyperelastic, Moduli, STIFFENING, cofactor, determinant_hessian};
+use crate::physics::setting::Setting;
 use nalgebra::{Matrix2, Matrix4, Vector4};
 
+/// Compressible neo-Hookean material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NeoHookean {
     /// Shear modulus, force per length.
     pub mu: f64,
     /// First Lame parameter, force per length.
     pub kappa: f64,
+}
+
+/// Its entry in the catalogue.
+pub(super) static KIND: MaterialKind = MaterialKind {
+    name: "NeoHookean",
+    label: "Neo-Hookean",
+    parameters: &[
+        Parameter {
+            name: "mu",
+            label: "Mu",
+            tip: "Shear modulus, thickness multiplied in",
+            unit: "N/mm",
+            default: [defaults::MU, 0.0],
+            range: [1e-6, 1e6],
+            why: "foam is 0.1 to 10; steel 1 mm thick 8e4",
+            offered: [1e-3, 1e3],
+            dimension: Dimension::MODULUS,
+            ..Parameter::NUMBER
+        },
+        Parameter {
+            name: "kappa",
+            label: "Kappa",
+            tip: "Resistance to change of area, thickness multiplied in",
+            unit: "N/mm",
+            default: [defaults::KAPPA, 0.0],
+            range: [0.0, 1e6],
+            why: "as mu",
+            most_times_first: Some(STIFFENING),
+            offered: [1e-3, 1e3],
+            dimension: Dimension::MODULUS,
+            ..Parameter::NUMBER
+        },
+    ],
+    build: |values| Box::new(NeoHookean { mu: values[0], kappa: values[1] }),
+    tested: &[&[0.7, 1.9], &[0.7, 700.0], &[0.7, 0.0]],
+};
+
+impl From<NeoHookean> for Setting<MaterialKind> {
+    fn from(NeoHookean { mu, kappa }: NeoHookean) -> Self {
+        Self::new(&KIND, &[mu, kappa])
+    }
 }
 
 /// Largest pressure, in shear moduli, that counts as stiffness in a descent step.
@@ -32,7 +77,7 @@ impl NeoHookean {
     }
 }
 
-impl Material for NeoHookean {
+impl Hyperelastic for NeoHookean {
     fn density(&self, f: &Matrix2<f64>) -> f64 {
         let j = f.determinant();
         if j.is_nan() || j <= 0.0 {
@@ -62,22 +107,22 @@ impl Material for NeoHookean {
     }
 
     /// `P = mu (F - C) + (mu (J - 1) + kappa ln J) C / J`, in which what cancels near `J = 1` and near rest is taken first.
-    fn precise_stress(&self, f: &[Double; 4]) -> Matrix2<f64> {
+    fn precise_stress(&self, f: &[DoubleDouble; 4]) -> Matrix2<f64> {
         let [a, b, c, d] = *f;
         let cofactor = [d, -c, -b, a];
-        let growth = a * d - b * c - Double::ONE;
-        let (g, j) = (growth.value(), (growth + Double::ONE).value());
+        let growth = a * d - b * c - DoubleDouble::ONE;
+        let (g, j) = (growth.value(), (growth + DoubleDouble::ONE).value());
         let pressure = (self.mu * g + self.kappa * g.ln_1p()) / j;
         let entry = |k: usize| self.mu * (f[k] - cofactor[k]).value() + pressure * cofactor[k].value();
         Matrix2::from_column_slice(&[0, 1, 2, 3].map(entry))
     }
 
-    fn softened(&self, limit: f64) -> Option<Box<dyn Material>> {
-        (self.kappa > limit).then(|| Box::new(Self { kappa: limit, ..*self }) as Box<dyn Material>)
+    fn softened(&self, limit: f64) -> Option<Box<dyn Hyperelastic>> {
+        (self.kappa > limit).then(|| Box::new(Self { kappa: limit, ..*self }) as Box<dyn Hyperelastic>)
     }
 
-    fn neo_hookean(&self) -> Option<&NeoHookean> {
-        Some(self)
+    fn neo_hookean(&self) -> Option<Moduli> {
+        Some(Moduli { mu: self.mu, kappa: self.kappa })
     }
 
     fn shear_modulus(&self) -> f64 {

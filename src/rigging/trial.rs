@@ -1,9 +1,9 @@
 //! Trying a rig out: the realizable plushie of a design, posed for every pose, from the activations known so far.
 
-use super::Shape;
-use super::compile::{Plushie, View, compile, objective};
-use super::solver::{report, target_error};
 use crate::design::{Design, Target};
+use crate::engine::compile::{Plushie, View, compile, objective};
+use crate::engine::solver::report;
+use crate::engine::{Shape, target_error};
 use crate::soft_ik::contraction::GaussNewton;
 use crate::soft_ik::winding::{self, Search};
 use crate::soft_ik::{Actuation, Budget, Method, Posture, Question};
@@ -26,14 +26,14 @@ const SAME_STATE: f64 = 1.01;
 
 /// How carefully a rig is tried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Care {
+pub enum Scrutiny {
     /// Enough to tell candidates apart.
     Screen,
     /// To the end of the valley at hand.
     Settle,
     /// A look at the other valleys as well; what is reached is proved to be wound from rest.
     Look,
-    /// The same with all effort: what `check` tells of the pose.
+    /// All effort: what is told of a pose that is kept.
     Whole,
 }
 
@@ -66,7 +66,7 @@ impl Trial {
         design: &Design,
         targets: &[Target],
         known: Option<&Posture>,
-        care: Care,
+        scrutiny: Scrutiny,
         cancel: &AtomicBool,
     ) -> Reached {
         let objective = objective(design, &self.plushie, targets);
@@ -84,9 +84,9 @@ impl Trial {
         // Wind what is new slowly and go on from where the body came closest.
         let (mut posture, _) = question.settle(&at(0.0), old_x, &stop);
         let mut closest = posture.clone();
-        let steps = match care {
+        let steps = match scrutiny {
             _ if known_count == count => 0,
-            Care::Screen => SCREENING_STEPS,
+            Scrutiny::Screen => SCREENING_STEPS,
             _ => SETTLING_STEPS,
         };
         for step in 1..=steps {
@@ -95,10 +95,10 @@ impl Trial {
                 closest = posture.clone();
             }
         }
-        let iterations = if care == Care::Screen { SCREENING_ITERATIONS } else { SETTLING_ITERATIONS };
+        let iterations = if scrutiny == Scrutiny::Screen { SCREENING_ITERATIONS } else { SETTLING_ITERATIONS };
         let budget = Budget { iterations, stop: &stop };
         let mut posture = GaussNewton::default().solve(&mut question, &closest, &budget).posture;
-        if care == Care::Settle {
+        if scrutiny == Scrutiny::Settle {
             // What counts is the equilibrium that winding from rest leads to.
             let zero = question.settle(&vec![0.0; count], &rest, &stop).0;
             let (wound, _) = question.wind(&zero, &posture.beta, WINDING_STEPS, &stop);
@@ -106,14 +106,14 @@ impl Trial {
                 posture = GaussNewton::default().solve(&mut question, &wound, &budget).posture;
             }
         }
-        if matches!(care, Care::Look | Care::Whole) {
-            posture = look(&mut question, &posture, care, &stop);
+        if matches!(scrutiny, Scrutiny::Look | Scrutiny::Whole) {
+            posture = look(&mut question, &posture, scrutiny, &stop);
         }
         let nodes: Vec<[f64; 2]> = posture.x.chunks_exact(2).map(|p| [p[0], p[1]]).collect();
         Reached { error: target_error(design, targets, &nodes), posture }
     }
 
-    /// The shape of a posture reached, for showing.
+    /// The posture that was reached, as it is shown.
     pub fn shape(&mut self, design: &Design, targets: &[Target], reached: &Reached) -> Shape {
         let contractions = self.actuation.contractions(&reached.posture.beta);
         self.plushie.model.contractile.set_contractions(&contractions);
@@ -122,12 +122,12 @@ impl Trial {
 }
 
 /// The best that winding from rest reaches, `known` included where winding leads there.
-fn look(question: &mut Question, known: &Posture, care: Care, stop: &dyn Fn() -> bool) -> Posture {
+fn look(question: &mut Question, known: &Posture, scrutiny: Scrutiny, stop: &dyn Fn() -> bool) -> Posture {
     let count = known.beta.len();
     let rest = question.model.rest.clone();
     let (zero, _) = question.settle(&vec![0.0; count], &rest, stop);
-    let care = match care {
-        Care::Whole => winding::Care::THOROUGH,
+    let care = match scrutiny {
+        Scrutiny::Whole => winding::Care::THOROUGH,
         // With many winches a look around costs more than it finds: what is known is proved.
         _ if count > winding::LATTICE => winding::Care { walking: 0, polished: 0, ..winding::Care::quick(count) },
         _ => winding::Care { walking: LOOKING, ..winding::Care::quick(count) },

@@ -1,16 +1,14 @@
-//! Winch and tendons chosen by the body's response instead of by net contraction.
+//! A body linearised at the postures reached so far: which tendons on one winch would move the targets most.
 //!
-//! Algorithm 2 scores tendons by the contraction of the fibres they replace. The body can be asked directly: linearised at the
-//! posture reached so far, with `M = H^-1`, a tendon of length gradient `g_q` under tension `tau_q` moves the targets by
-//! `-S M g_q tau_q`. Tendons `Q` on one winch that takes in `beta` have the tensions `(C + D) tau = beta 1`, with the
-//! compliances `C_pq = g_p M g_q` and the tendons' own `D = 1/(2K)`. For every root of a winch tree the tendons (paths of the
-//! tree that leave the root by different branches) are added greedily so that the targets' residual, at its best `beta` in each
-//! pose, falls most. What this proposes is then simulated like every other candidate.
+//! With `M = H^-1`, a tendon of length gradient `g_q` under tension `tau_q` moves the targets by `-S M g_q tau_q`. Tendons `Q` on
+//! one winch that takes in `beta` have the tensions `(C + D) tau = beta 1`, with the compliances `C_pq = g_p M g_q` and the
+//! tendons' own `D = 1/(2K)`. For every root of a winch tree the tendons (paths of the tree that leave the root by different
+//! branches) are added greedily so that the targets' residual, at its best `beta` in each pose, falls most.
 
-use super::compile::{View, compile};
-use super::patch;
-use super::propose::Known;
+use super::Baseline;
 use crate::design::Design;
+use crate::engine::compile::{View, compile};
+use crate::engine::patch::patch;
 use crate::soft_ik::Actuation;
 use nalgebra::{DMatrix, DVector};
 use std::collections::BTreeMap;
@@ -22,7 +20,12 @@ const SHORTEST_PATH: usize = 2;
 
 /// Tendon sets of `tendon_num` tendons on a winch tree, with the squared residual that the linear model leaves (relative to
 /// the residual without them, summed over the poses), best first; one set a root.
-pub fn select(design: &Design, tree: &[[usize; 2]], poses: &[Known], tendon_num: usize) -> Vec<(f64, Vec<Vec<usize>>)> {
+pub(super) fn select(
+    design: &Design,
+    tree: &[[usize; 2]],
+    poses: &[Baseline],
+    tendon_num: usize,
+) -> Vec<(f64, Vec<Vec<usize>>)> {
     let tree = Tree::new(tree);
     let Some(responses) = responses(design, &tree, poses) else { return Vec::new() };
     let mut out = Vec::new();
@@ -89,7 +92,7 @@ struct Response {
     wanted: DVector<f64>,
 }
 
-fn responses(design: &Design, tree: &Tree, poses: &[Known]) -> Option<Vec<Response>> {
+fn responses(design: &Design, tree: &Tree, poses: &[Baseline]) -> Option<Vec<Response>> {
     let mut plushie = compile(design, View::Realizable).ok()?;
     let n = plushie.model.dimension();
     let actuation = Actuation { winches: plushie.winches.clone(), fixed: vec![0.0; plushie.tendons.len()] };
@@ -108,7 +111,7 @@ fn responses(design: &Design, tree: &Tree, poses: &[Known]) -> Option<Vec<Respon
         let mut motion = DMatrix::zeros(2 * pose.targets.len(), dofs.len());
         let mut wanted = DVector::zeros(2 * pose.targets.len());
         for (t, target) in pose.targets.iter().enumerate() {
-            let (nodes, weights) = patch::patch(&design.mesh, &target.at);
+            let (nodes, weights) = patch(&design.mesh, &target.at);
             let scale = target.weight.sqrt();
             for axis in 0..2 {
                 let at = |x: &[f64]| -> f64 { nodes.iter().zip(&weights).map(|(m, w)| w * x[2 * m + axis]).sum() };

@@ -1,14 +1,20 @@
-//! Materials: energy densities of the deformation gradient.
+//! What a material is: an energy density of the deformation gradient.
 
-use super::double::Double;
-use super::neo_hookean::NeoHookean;
+use super::double_double::DoubleDouble;
 use nalgebra::{Matrix2, Matrix4};
+
+/// Shear modulus and first Lame parameter, force per length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moduli {
+    pub mu: f64,
+    pub kappa: f64,
+}
 
 /// An isotropic, hyperelastic energy density per unit rest area.
 ///
 /// `F` is the 2 x 2 deformation gradient. Second derivatives are 4 x 4 over `vec F = [F00, F10, F01, F11]` (column by
 /// column). Implementations return infinity (density) outside their domain and finite derivatives inside it.
-pub trait Material: Send + Sync {
+pub trait Hyperelastic: Send + Sync {
     /// `psi(F)`.
     fn density(&self, f: &Matrix2<f64>) -> f64;
     /// First Piola-Kirchhoff stress `P = dpsi/dF`.
@@ -21,16 +27,16 @@ pub trait Material: Send + Sync {
         self.tangent(f)
     }
     /// `P` of an `F` known to twice the digits (column by column), where the difference of large terms needs them.
-    fn precise_stress(&self, f: &[Double; 4]) -> Matrix2<f64> {
-        self.stress(&Matrix2::from_column_slice(&f.map(Double::value)))
+    fn precise_stress(&self, f: &[DoubleDouble; 4]) -> Matrix2<f64> {
+        self.stress(&Matrix2::from_column_slice(&f.map(DoubleDouble::value)))
     }
-    /// The same material with its resistance to changes of area limited to `limit`, if it is above that.
-    fn softened(&self, limit: f64) -> Option<Box<dyn Material>> {
+    /// This material with its resistance to changes of area limited to `limit`, if it is above that.
+    fn softened(&self, limit: f64) -> Option<Box<dyn Hyperelastic>> {
         let _ = limit;
         None
     }
-    /// This material, where it is the one whose triangles are worked on many at a time ([`super::triangles`]).
-    fn neo_hookean(&self) -> Option<&NeoHookean> {
+    /// `mu` and `kappa`, where it is the neo-Hookean material: its triangles are worked on many at a time ([`super::triangles`]).
+    fn neo_hookean(&self) -> Option<Moduli> {
         None
     }
     /// The shear modulus at rest: the unit of stress of this material.
@@ -38,6 +44,10 @@ pub trait Material: Send + Sync {
     /// How much stress a change of `F` makes at most, at rest: what rounding of `F` is multiplied by.
     fn largest_modulus(&self) -> f64;
 }
+
+/// Largest resistance to change of area, in shear moduli, that a design may ask for: beyond, triangles lock and the solver takes
+/// minutes.
+pub const STIFFENING: f64 = 1e4;
 
 /// The nearest positive semi-definite matrix: negative eigenvalues set to zero.
 pub fn project(m: Matrix4<f64>) -> Matrix4<f64> {
@@ -63,16 +73,14 @@ pub fn determinant_hessian() -> Matrix4<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::StVenantKirchhoff;
     use super::*;
+    use crate::physics::catalogue::{Kind, MaterialKind};
     use nalgebra::{Rotation2, Vector4};
 
-    fn materials() -> Vec<(&'static str, Box<dyn Material>)> {
-        vec![
-            ("neo-Hookean", Box::new(NeoHookean { mu: 0.7, kappa: 1.3 })),
-            ("neo-Hookean, nearly incompressible", Box::new(NeoHookean { mu: 0.7, kappa: 700.0 })),
-            ("St. Venant-Kirchhoff", Box::new(StVenantKirchhoff { mu: 0.7, lambda: 1.3 })),
-        ]
+    /// Every material of the catalogue, with all values that it is tested with.
+    fn materials() -> Vec<(String, Box<dyn Hyperelastic>)> {
+        let all = MaterialKind::all().iter().flat_map(|kind| kind.tested.iter().map(move |values| (kind, values)));
+        all.map(|(kind, values)| (format!("{} {values:?}", kind.label), (kind.build)(values))).collect()
     }
 
     fn states() -> Vec<Matrix2<f64>> {
