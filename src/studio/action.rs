@@ -11,8 +11,8 @@ use crate::discovery::Parameters;
 use crate::engine::Quality;
 use crate::mesh::BodyPoint;
 use crate::outline::Point;
+use crate::picture::Stage;
 use crate::picture::palette::Theme;
-use crate::picture::scene::Stage;
 use eframe::egui::Vec2;
 use std::path::PathBuf;
 
@@ -39,9 +39,8 @@ pub enum Action {
     DeleteSelected,
     SetTool(Tool),
     SetTheme(Theme),
-    ShowTexture(bool),
-    ShowFibers(bool),
-    ShowNetworks(bool),
+    /// Shows a layer of the pictures by its name, or hides it.
+    ShowLayer(&'static str, bool),
     /// Shows or hides a view; one always stays.
     ShowView(Plushie, bool),
     SetQuality(Quality),

@@ -20,7 +20,7 @@ use crate::engine::{Quality, Request, Shape};
 use crate::files::Stamp;
 use crate::outline::Point;
 use crate::picture::palette::Theme;
-use crate::picture::scene::Stage;
+use crate::picture::{Shown, Stage};
 use crate::rigging::Proposal;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -60,9 +60,8 @@ pub struct Playback {
 
 pub struct Look {
     pub theme: Theme,
-    pub texture: bool,
-    pub fibers: bool,
-    pub networks: bool,
+    /// Which layers of the pictures.
+    pub shown: Shown,
     pub views: Views,
     /// `None`: fits the body.
     pub camera: Option<Camera>,
@@ -192,14 +191,7 @@ impl Session {
             tool: Tool::Drag,
             mode: Mode::Pose,
             playback: Playback { time_s: 0.0, playing: false, looping: true },
-            look: Look {
-                theme: Theme::Light,
-                texture: true,
-                fibers: true,
-                networks: true,
-                views: Views::Both,
-                camera: None,
-            },
+            look: Look { theme: Theme::Light, shown: Shown::default(), views: Views::Both, camera: None },
             quality: Quality::Balanced,
             discovery: Discovery {
                 parameters: Parameters::default(),
@@ -272,9 +264,7 @@ impl Session {
             Action::DeleteSelected => self.delete_selected(),
             Action::SetTool(tool) => self.tool = tool,
             Action::SetTheme(theme) => self.look.theme = theme,
-            Action::ShowTexture(shown) => self.look.texture = shown,
-            Action::ShowFibers(shown) => self.look.fibers = shown,
-            Action::ShowNetworks(shown) => self.look.networks = shown,
+            Action::ShowLayer(name, shown) => self.look.shown.set(name, shown),
             Action::ShowView(plushie, shown) => self.look.views = self.look.views.with(plushie, shown),
             Action::SetQuality(quality) => self.quality = quality,
             Action::SetCamera(camera) => self.look.camera = Some(camera),

@@ -6,6 +6,7 @@ use super::session::{Session, Tool};
 use super::sketching::{Pencil, Sketch};
 use super::viewport::Plushie;
 use crate::outline::drawing::{Item, Primitive};
+use crate::picture::LAYERS;
 use crate::picture::palette::Theme;
 use eframe::egui::{Context, Key, KeyboardShortcut, Modifiers, Popup};
 
@@ -113,8 +114,6 @@ fn plain_keys(ctx: &Context, session: &Session, panels: &mut panels::State, acti
         (Key::V, Action::SetTool(Tool::Drag)),
         (Key::P, Action::SetTool(Tool::Pin)),
         (Key::F, Action::Fit),
-        (Key::M, Action::ShowFibers(!session.look.fibers)),
-        (Key::N, Action::ShowNetworks(!session.look.networks)),
         (Key::Num1, toggled(Plushie::Idealized)),
         (Key::Num2, toggled(Plushie::Realizable)),
         (Key::Q, Action::SetQuality(quality::after(session.quality))),
@@ -127,8 +126,11 @@ fn plain_keys(ctx: &Context, session: &Session, panels: &mut panels::State, acti
             actions.push(action);
         }
     }
-    if session.cannot_texture().is_none() && pressed(Key::X) {
-        actions.push(Action::ShowTexture(!session.look.texture));
+    for layer in LAYERS {
+        let key = layer.switch.and_then(|switch| Key::from_name(&switch.key?.to_string()));
+        if key.is_some_and(|key| session.cannot_show(layer.name).is_none() && pressed(key)) {
+            actions.push(Action::ShowLayer(layer.name, !layer.is_shown(&session.look.shown)));
+        }
     }
     // A focused button is pressed by Space and Enter.
     let free = ctx.memory(|m| m.focused()).is_none();

@@ -1,7 +1,7 @@
 //! Proposing networks: parameters, progress, the proposals and their stages (fig. 6).
 
 use super::{Actions, State, heading, primary, wide};
-use crate::picture::scene::Stage;
+use crate::picture::Stage;
 use crate::rigging::Proposal;
 use crate::studio::action::Action;
 use crate::studio::session::Session;

@@ -3,10 +3,12 @@
 use super::{Actions, quality};
 use crate::design::bundled;
 use crate::files;
+use crate::picture::LAYERS;
+use crate::picture::layers::Switch;
 use crate::picture::palette::Theme;
 use crate::studio::action::{Action, FileAction};
 use crate::studio::icons::{self, Icon};
-use crate::studio::session::{Look, Session, Tool};
+use crate::studio::session::{Session, Tool};
 use crate::studio::sketching::Sketch;
 use crate::studio::viewport::Plushie;
 use eframe::egui::{Align, Button, Layout, RichText, Ui, menu};
@@ -145,39 +147,26 @@ fn shown(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     {
         actions.push(Action::Fit);
     }
-    let look = &session.look;
     ui.add_enabled_ui(!session.sketching().open, |ui| {
-        texture(ui, session, actions);
-        drawn(ui, look, actions);
-    });
-}
-
-fn texture(ui: &mut Ui, session: &Session, actions: &mut Actions) {
-    let cannot = session.cannot_texture();
-    let tip = cannot.unwrap_or("Show the texture: the picture that the plushie was made of (X)");
-    ui.add_enabled_ui(cannot.is_none(), |ui| {
-        let shown = session.look.texture && cannot.is_none();
-        if icons::toggle(ui, Icon::Texture, "Show the texture", tip, shown).clicked() {
-            actions.push(Action::ShowTexture(!session.look.texture));
+        for layer in LAYERS {
+            if let Some(switch) = layer.switch {
+                toggle_layer(ui, session, layer.name, &switch, actions);
+            }
         }
     });
 }
 
-fn drawn(ui: &mut Ui, look: &Look, actions: &mut Actions) {
-    if icons::toggle(
-        ui,
-        Icon::Fibers,
-        "Show fibres",
-        "Show the muscle fibres of the idealized plushie (M)",
-        look.fibers,
-    )
-    .clicked()
-    {
-        actions.push(Action::ShowFibers(!look.fibers));
-    }
-    if icons::toggle(ui, Icon::Networks, "Show networks", "Show winches and tendons (N)", look.networks).clicked() {
-        actions.push(Action::ShowNetworks(!look.networks));
-    }
+/// The button of a layer of the pictures; where it cannot be shown, its tip says why.
+fn toggle_layer(ui: &mut Ui, session: &Session, name: &'static str, switch: &Switch, actions: &mut Actions) {
+    let cannot = session.cannot_show(name);
+    let key = switch.key.map_or(String::new(), |key| format!(" ({key})"));
+    let tip = cannot.map_or_else(|| format!("{}{key}", switch.tip), str::to_owned);
+    ui.add_enabled_ui(cannot.is_none(), |ui| {
+        let shown = session.look.shown.shows(name);
+        if icons::toggle(ui, Icon::Layer(switch.icon), switch.label, &tip, shown && cannot.is_none()).clicked() {
+            actions.push(Action::ShowLayer(name, !shown));
+        }
+    });
 }
 
 fn views(ui: &mut Ui, session: &Session, actions: &mut Actions) {

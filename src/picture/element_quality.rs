@@ -1,7 +1,7 @@
-//! Builds the drawings of a mesh's quality: triangles coloured by their smallest angle, and by their size.
+//! The quality of a mesh's triangles: coloured by their smallest angle, and by their size.
 
 use super::palette::{Palette, Theme, mix, with_alpha};
-use super::{Color, Item, Scene};
+use super::scene::{Color, Item, Scene};
 use crate::mesh::Mesh;
 use crate::mesh::quality::{area, min_angle};
 

@@ -1,19 +1,28 @@
-//! Drawings as SVG: sizes in mm with a matching view box, so that one unit is one millimetre in every program.
+//! Sheets as SVG: sizes in mm with a matching view box, so that one unit is one millimetre in every program.
 
-use super::drawing::{Anchor, Color, Drawing, Group, Item};
+use crate::fabrication::product::Content;
+use crate::fabrication::sheet::{Anchor, Color, Entity, Group, Sheet};
 use crate::outline::Point;
-use std::fmt::Write;
+use std::fmt::Write as _;
 
-/// The text of an SVG file. Coordinates are flipped (y down) and rounded to 0.1 micrometre.
-pub fn to_svg(drawing: &Drawing) -> String {
-    let (w, h) = (number(drawing.width_mm), number(drawing.height_mm));
+/// The bytes of an SVG file.
+pub(super) fn write(content: &Content) -> Option<Vec<u8>> {
+    match content {
+        Content::Sheet(sheet) => Some(svg(sheet).into_bytes()),
+        _ => None,
+    }
+}
+
+/// The text of a sheet. Coordinates are flipped (y down) and rounded to 0.1 micrometre.
+fn svg(sheet: &Sheet) -> String {
+    let (w, h) = (number(sheet.width_mm), number(sheet.height_mm));
     let mut svg = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
     svg += &format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"0 0 {w} {h}\">\n"
     );
-    svg += &format!("  <title>{}</title>\n", escaped(&drawing.title));
-    for group in &drawing.groups {
-        write_group(&mut svg, drawing.height_mm, group);
+    svg += &format!("  <title>{}</title>\n", escaped(&sheet.title));
+    for group in &sheet.groups {
+        write_group(&mut svg, sheet.height_mm, group);
     }
     svg += "</svg>\n";
     svg
@@ -34,15 +43,15 @@ fn write_group(svg: &mut String, height: f64, group: &Group) {
         );
     }
     *svg += ">\n";
-    for item in &group.items {
-        match item {
-            Item::Polygon(points) => *svg += &format!("    <path d=\"{}Z\"/>\n", path(points, height)),
-            Item::Polyline(points) => *svg += &format!("    <path d=\"{}\"/>\n", path(points, height)),
-            Item::Circle { center, radius } => {
+    for entity in &group.entities {
+        match entity {
+            Entity::Polygon(points) => *svg += &format!("    <path d=\"{}Z\"/>\n", path(points, height)),
+            Entity::Polyline(points) => *svg += &format!("    <path d=\"{}\"/>\n", path(points, height)),
+            Entity::Circle { center, radius } => {
                 let (x, y) = (number(center[0]), number(height - center[1]));
                 *svg += &format!("    <circle cx=\"{x}\" cy=\"{y}\" r=\"{}\"/>\n", number(*radius));
             }
-            Item::Text { at, size_mm, anchor, text } => {
+            Entity::Text { at, size_mm, anchor, text } => {
                 let (x, y, size) = (number(at[0]), number(height - at[1]), number(*size_mm));
                 let color = paint(style.stroke.or(style.fill));
                 let anchor = match anchor {
@@ -100,16 +109,16 @@ fn escaped(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::drawing::{Drawing, Group, RED, Style};
     use super::*;
+    use crate::fabrication::sheet::{RED, Style};
 
     #[test]
     fn golden_text() {
         let mut group = Group::new("cut", Style::hairline(RED));
-        group.items.push(Item::Polygon(vec![[0.0, 0.0], [30.0, 0.0], [0.0, 20.00004]]));
-        group.items.push(Item::Circle { center: [10.5, 20.0], radius: 0.75 });
+        group.entities.push(Entity::Polygon(vec![[0.0, 0.0], [30.0, 0.0], [0.0, 20.00004]]));
+        group.entities.push(Entity::Circle { center: [10.5, 20.0], radius: 0.75 });
         group.text([1.0, 2.0], 4.0, Anchor::Middle, "<R & D> \"\u{1}\"");
-        let drawing = Drawing { title: "a < b".into(), width_mm: 30.0, height_mm: 20.0, groups: vec![group] };
+        let sheet = Sheet { title: "a < b".into(), width_mm: 30.0, height_mm: 20.0, groups: vec![group] };
         let expected = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>
 <svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" width=\"30mm\" height=\"20mm\" viewBox=\"0 0 30 20\">
   <title>a &lt; b</title>
@@ -121,6 +130,6 @@ stroke=\"none\">&lt;R &amp; D&gt; &quot;?&quot;</text>
   </g>
 </svg>
 ";
-        assert_eq!(to_svg(&drawing), expected);
+        assert_eq!(super::svg(&sheet), expected);
     }
 }

@@ -3,10 +3,12 @@
 //! Both faces carry the same holes, because both are rigged alike; the back is the mirror image of the front, so that
 //! the pieces meet with their outer sides together.
 
-use super::drawing::{Anchor, BLUE, Drawing, GREEN, Group, Item, RED, REFERENCE_MM, Style, reference};
-use super::routing::holes;
 use super::seam::{grown, seam};
 use crate::design::Design;
+use crate::fabrication::cables::holes;
+use crate::fabrication::error::ExportError;
+use crate::fabrication::product::{Content, Part, Product, Source};
+use crate::fabrication::sheet::{Anchor, BLUE, Entity, GREEN, Group, RED, REFERENCE_MM, Sheet, Style, reference};
 use crate::outline::{Point, polygon::bounding_box};
 
 /// Space around and between the pieces, mm.
@@ -39,8 +41,21 @@ impl Placement {
     }
 }
 
-/// The sheet `pattern.svg`, and remarks for whoever sews it.
-pub fn pattern_sheet(design: &Design) -> (Drawing, Vec<String>) {
+/// The sheet `pattern`.
+pub(super) fn make(source: &Source<'_>) -> Result<Part, ExportError> {
+    let (sheet, remarks) = sheet(source.design);
+    let guide = format!(
+        "  One unit is one millimetre. Measure the 100 mm line before you cut. Red hairlines are cut (holes first), blue lines
+  are sewn, green marks are for you. The seam allowance is {} mm. Put front and back together with their outer
+  sides facing, sew along the blue line, leave the marked gap open, turn, stuff, close the gap by hand.
+",
+        source.design.fabrication.seam_allowance_mm
+    );
+    Ok(Part { products: vec![Product::new("pattern", Content::Sheet(sheet))], guide, remarks })
+}
+
+/// Both pieces, and remarks for whoever sews them.
+fn sheet(design: &Design) -> (Sheet, Vec<String>) {
     let made = &design.fabrication;
     let shapes = grown(&design.outline, made.seam_allowance_mm);
     let outer: Vec<Point> = shapes.iter().filter_map(|s| s.first()).flatten().copied().collect();
@@ -64,16 +79,16 @@ pub fn pattern_sheet(design: &Design) -> (Drawing, Vec<String>) {
 
     // Small holes first, then cut-outs, then the outlines: what is cut free may shift.
     for (piece, _) in pieces {
-        let hole = |&p: &Point| Item::Circle { center: piece.point(p), radius: 0.5 * made.tendon_hole_mm };
-        cut.items.extend(nodes.iter().map(hole));
+        let hole = |&p: &Point| Entity::Circle { center: piece.point(p), radius: 0.5 * made.tendon_hole_mm };
+        cut.entities.extend(nodes.iter().map(hole));
     }
     for (piece, _) in pieces {
-        cut.items.extend(shapes.iter().flat_map(|s| s.iter().skip(1)).map(|c| Item::Polygon(piece.points(c))));
+        cut.entities.extend(shapes.iter().flat_map(|s| s.iter().skip(1)).map(|c| Entity::Polygon(piece.points(c))));
     }
     for (piece, label) in pieces {
-        cut.items.extend(shapes.iter().filter_map(|s| s.first()).map(|c| Item::Polygon(piece.points(c))));
-        stitch.items.push(Item::Polyline(piece.points(&seam.stitches)));
-        stitch.items.extend(design.outline.holes.iter().map(|h| Item::Polygon(piece.points(h))));
+        cut.entities.extend(shapes.iter().filter_map(|s| s.first()).map(|c| Entity::Polygon(piece.points(c))));
+        stitch.entities.push(Entity::Polyline(piece.points(&seam.stitches)));
+        stitch.entities.extend(design.outline.holes.iter().map(|h| Entity::Polygon(piece.points(h))));
         let top = piece.point([0.5 * (low[0] + high[0]), high[1] + 3.0]);
         note.text(top, TEXT_MM, Anchor::Middle, format!("{label}: {}", design.name));
         number_holes(&mut note, piece, &nodes);
@@ -81,8 +96,8 @@ pub fn pattern_sheet(design: &Design) -> (Drawing, Vec<String>) {
         mark_gap(&mut note, piece, &seam.gap, seam.gap_mm);
     }
     let groups = vec![cut, stitch, note, reference([MARGIN_MM, MARGIN_MM])];
-    let drawing = Drawing { title: format!("{}: pattern", design.name), width_mm, height_mm, groups };
-    (drawing, remarks(design, &shapes, seam.gap_mm))
+    let sheet = Sheet { title: format!("{}: pattern", design.name), width_mm, height_mm, groups };
+    (sheet, remarks(design, &shapes, seam.gap_mm))
 }
 
 fn remarks(design: &Design, shapes: &[Vec<Vec<Point>>], gap_mm: f64) -> Vec<String> {
@@ -117,8 +132,8 @@ fn mark_pins(note: &mut Group, piece: &Placement, pins: &[Point]) {
     for (i, &pin) in pins.iter().enumerate() {
         let [x, y] = piece.point(pin);
         let r = PIN_MARK_MM;
-        note.items.push(Item::Polyline(vec![[x - r, y - r], [x + r, y + r]]));
-        note.items.push(Item::Polyline(vec![[x - r, y + r], [x + r, y - r]]));
+        note.entities.push(Entity::Polyline(vec![[x - r, y - r], [x + r, y + r]]));
+        note.entities.push(Entity::Polyline(vec![[x - r, y + r], [x + r, y - r]]));
         note.text([x + r + 0.5, y - 1.0], 3.0, Anchor::Start, format!("pin {}", i + 1));
     }
 }
@@ -133,7 +148,7 @@ fn mark_gap(note: &mut Group, piece: &Placement, gap: &[Point], gap_mm: f64) {
     let across = [-(b[1] - a[1]) / chord * GAP_TICK_MM, (b[0] - a[0]) / chord * GAP_TICK_MM];
     for p in [a, b] {
         let ends = [[p[0] - across[0], p[1] - across[1]], [p[0] + across[0], p[1] + across[1]]];
-        note.items.push(Item::Polyline(ends.to_vec()));
+        note.entities.push(Entity::Polyline(ends.to_vec()));
     }
     let at = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]) + 2.0];
     note.text(at, 3.0, Anchor::Middle, format!("leave {gap_mm:.0} mm open to turn"));

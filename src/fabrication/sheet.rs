@@ -1,25 +1,26 @@
-//! A neutral drawing in mm, y up: what every sheet is made of before a writer gives it a file format.
+//! A sheet in mm, y up: what is cut, sewn or looked at, before a writer gives it a file format.
 
 use crate::outline::Point;
 
 /// One sheet. Groups are painted, and cut, in order.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Drawing {
+pub struct Sheet {
     pub title: String,
     pub width_mm: f64,
     pub height_mm: f64,
     pub groups: Vec<Group>,
 }
 
-/// Items of one kind and style: a layer of the sheet.
+/// Entities of one kind and style: a layer of the sheet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Group {
     /// Letters, digits and dashes, unique on the sheet.
     pub name: String,
     pub style: Style,
-    pub items: Vec<Item>,
+    pub entities: Vec<Entity>,
 }
 
+/// How the entities of a group are drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Style {
     pub stroke: Option<Color>,
@@ -27,12 +28,13 @@ pub struct Style {
     pub fill: Option<Color>,
 }
 
-/// sRGB.
+/// An sRGB colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Color(pub u8, pub u8, pub u8);
 
+/// A line, an area or a text.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Item {
+pub enum Entity {
     /// Closed; the first point is not repeated.
     Polygon(Vec<Point>),
     Polyline(Vec<Point>),
@@ -84,11 +86,11 @@ impl Style {
 
 impl Group {
     pub fn new(name: impl Into<String>, style: Style) -> Self {
-        Self { name: name.into(), style, items: Vec::new() }
+        Self { name: name.into(), style, entities: Vec::new() }
     }
 
     pub fn text(&mut self, at: Point, size_mm: f64, anchor: Anchor, text: impl Into<String>) {
-        self.items.push(Item::Text { at, size_mm, anchor, text: text.into() });
+        self.entities.push(Entity::Text { at, size_mm, anchor, text: text.into() });
     }
 }
 
@@ -96,7 +98,7 @@ impl Group {
 pub fn reference(start: Point) -> Group {
     let mut group = Group::new("reference", Style::line(BLACK, 0.2));
     let end = [start[0] + REFERENCE_MM, start[1]];
-    group.items.push(Item::Polyline(vec![start, end]));
+    group.entities.push(Entity::Polyline(vec![start, end]));
     let text = format!("{REFERENCE_MM} mm: measure this line before you cut");
     group.text([start[0], start[1] + 2.0], 4.0, Anchor::Start, text);
     group
