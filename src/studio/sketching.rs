@@ -10,7 +10,7 @@ use crate::design::Design;
 use crate::design::edit::EditError;
 use crate::design::reshape::{Body, reshape};
 use crate::outline::drawing::{Item, Primitive};
-use crate::outline::{Changes, Drawing, Import, Outline};
+use crate::outline::{Changes, Drawing, Import, Note, Outline};
 
 /// What a press on the paper does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -157,7 +157,7 @@ impl Session {
         self.sketching.fresh = false;
         self.sketch(Sketch::Open(false));
         self.tell_carried(&report);
-        for line in changes.lines() {
+        for line in changes.lines(Note::to_string) {
             self.messages.info(line);
         }
     }
