@@ -16,9 +16,11 @@
 //! | [`discovery`] | activation graph to winch-tendon network (Algorithm 2) |
 //! | [`problem`] | the JSON question-and-answer interface of the numerical core |
 //! | [`design`] | the document: design, poses, networks, keyframes, file format, edits, undo |
-//! | [`engine`] | compiles a design into a physics model, poses both plushies, worker thread, rigging |
-//! | [`fabrication`] | patterns, routings, winch tracks, controller programs |
-//! | [`picture`] | a neutral drawing of both plushies, rasterised without a graphics adapter |
+//! | [`engine`] | compiles a design into a physics model, poses both plushies, worker thread |
+//! | [`rigging`] | finds winches and tendons: generators of candidates, criteria that judge them, the search |
+//! | [`motion`] | what motors are told: trajectories of winches, programs, links that carry them |
+//! | [`fabrication`] | the blueprint: products (patterns, routings, tracks, programs) and the writers of their files |
+//! | [`picture`] | a neutral drawing of both plushies in layers, rasterised without a graphics adapter |
 //! | [`bench`] | whole studies of the solvers, repeatable from a seed |
 //! | [`commands`] | the headless commands |
 //! | `studio` | the window (feature `studio`) |
@@ -52,10 +54,12 @@ pub mod engine;
 pub mod fabrication;
 pub mod files;
 pub mod mesh;
+pub mod motion;
 pub mod outline;
 pub mod physics;
 pub mod picture;
 pub mod problem;
+pub mod rigging;
 pub mod soft_ik;
 #[cfg(feature = "studio")]
 pub mod studio;

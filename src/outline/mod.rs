@@ -60,6 +60,8 @@ pub enum OutlineError {
     TooLarge,
     #[error("the drawing {0}, too much for an outline; simplify it")]
     TooComplex(&'static str),
+    #[error("the picture has more than {millions} million pixels, or half as many of 16 bits: too much for a texture")]
+    TextureTooLarge { millions: u64 },
     #[error("nothing is painted: {0}")]
     NothingPainted(&'static str),
     #[error("there is no layer \"{name}\"; the drawing has: {layers}")]

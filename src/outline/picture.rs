@@ -18,8 +18,14 @@ use i_overlay::core::fill_rule::FillRule;
 use image::{DynamicImage, ImageDecoder, ImageReader, Limits, RgbaImage};
 use std::io::Cursor;
 
-/// Most pixels that are decoded: at most 8 bytes each, and as many again for the common form, so 650 MB.
+/// Most pixels of a picture of a silhouette. With the common form, and what a JPEG in passes needs, 400 MB.
 const MAX_PIXELS: u64 = 40_000_000;
+/// Most pixels of a texture: four times what is kept of it. It is read beside a window, unasked, so it costs less: 170 MB.
+const MAX_TEXTURE_PIXELS: u64 = 4 * (MAX_TEXTURE_PX as u64).pow(2);
+/// Bytes a pixel of the common form. One of more, as with 16 bits a channel, counts for as many pixels.
+const PIXEL_BYTES: u64 = 4;
+/// What decoding may take beside the pixels, bytes: the texts of a file, its rows.
+const DECODER_BYTES: u64 = 64 << 20;
 /// Longer side, in pixels, to which larger pictures are averaged down: 0.2 mm on 300 mm.
 const WORKING_SIDE: usize = 1600;
 /// Part of the pixels that must be less than half opaque for the opacity to be the silhouette.
@@ -36,10 +42,9 @@ const TOLERANCE_PX: f64 = 0.15;
 const LEVELS: usize = 256;
 
 pub(super) fn painting(bytes: &[u8], import: &Import) -> Result<Painting, OutlineError> {
-    let (picture, format) = decode(bytes)?;
+    let (picture, format) = decode(bytes, MAX_PIXELS)?.ok_or(TOO_MANY)?;
     let mut notes = Vec::new();
-    let (field, factor) = field(&picture, import.threshold, &mut notes)?;
-    drop(picture);
+    let (field, factor) = field(picture, import.threshold, &mut notes)?;
     // Averaging has smoothed already; a picture at its own size has stairs, and a JPEG noise.
     let passes = if factor > 1 {
         0
@@ -56,16 +61,17 @@ pub(super) fn painting(bytes: &[u8], import: &Import) -> Result<Painting, Outlin
 
 /// The part of the picture between the corners of a box (working pixels, y up).
 pub(super) fn texture(bytes: &[u8], [low, high]: [Point; 2]) -> Result<RgbaImage, OutlineError> {
-    let picture = decode(bytes)?.0.into_rgba8();
+    let picture = decode(bytes, MAX_PIXELS)?.ok_or(TOO_MANY)?.0.into_rgba8();
     let scale = working_factor(picture.width() as usize, picture.height() as usize) as f64;
     let (low, high) = ([scale * low[0], -scale * high[1]], [scale * high[0], -scale * low[1]]);
     let size = fitted([high[0] - low[0], high[1] - low[1]], f64::from(MAX_TEXTURE_PX));
     Ok(cut(&picture, low, high, size))
 }
 
-/// The whole picture, the right way up.
+/// The whole picture of a texture, the right way up.
 pub(super) fn decoded(bytes: &[u8]) -> Result<RgbaImage, OutlineError> {
-    Ok(decode(bytes)?.0.into_rgba8())
+    let too_many = OutlineError::TextureTooLarge { millions: MAX_TEXTURE_PIXELS / 1_000_000 };
+    Ok(decode(bytes, MAX_TEXTURE_PIXELS)?.ok_or(too_many)?.0.into_rgba8())
 }
 
 /// How many pixels of a picture, along each axis, one working pixel stands for.
@@ -73,23 +79,22 @@ fn working_factor(width: usize, height: usize) -> usize {
     width.max(height).div_ceil(WORKING_SIDE).max(1)
 }
 
-/// The picture the right way up.
-fn decode(bytes: &[u8]) -> Result<(DynamicImage, image::ImageFormat), OutlineError> {
-    let unreadable =
-        |error: image::ImageError| OutlineError::Unreadable { format: "picture", reason: error.to_string() };
-    upright(bytes).map_err(unreadable)?.ok_or(OutlineError::TooComplex("has more than 40 million pixels"))
+const TOO_MANY: OutlineError = OutlineError::TooComplex("has more than 40 million pixels, or half as many of 16 bits");
+
+/// The picture the right way up, or `None` if it has more than so many pixels.
+fn decode(bytes: &[u8], most: u64) -> Result<Option<(DynamicImage, image::ImageFormat)>, OutlineError> {
+    upright(bytes, most).map_err(|error| OutlineError::Unreadable { format: "picture", reason: error.to_string() })
 }
 
-/// The picture the right way up, or `None` if it is too large.
-fn upright(bytes: &[u8]) -> image::ImageResult<Option<(DynamicImage, image::ImageFormat)>> {
+fn upright(bytes: &[u8], most: u64) -> image::ImageResult<Option<(DynamicImage, image::ImageFormat)>> {
     let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
     let mut limits = Limits::default();
-    limits.max_alloc = Some(8 * MAX_PIXELS + (64 << 20));
+    limits.max_alloc = Some(PIXEL_BYTES * most + DECODER_BYTES);
     reader.limits(limits);
     let format = reader.format().unwrap_or(image::ImageFormat::Png);
     let mut decoder = reader.into_decoder()?;
     let (width, height) = decoder.dimensions();
-    if u64::from(width) * u64::from(height) > MAX_PIXELS {
+    if u64::from(width) * u64::from(height) > most || decoder.total_bytes() > PIXEL_BYTES * most {
         return Ok(None);
     }
     let orientation = decoder.orientation()?;
@@ -101,11 +106,11 @@ fn upright(bytes: &[u8]) -> image::ImageResult<Option<(DynamicImage, image::Imag
 /// How much ink there is at each working pixel, with the level that parts it from the background, and how many pixels of
 /// the picture a working pixel measures.
 fn field(
-    picture: &DynamicImage,
+    picture: DynamicImage,
     threshold: Option<u8>,
     notes: &mut Vec<String>,
 ) -> Result<((Field, f64), usize), OutlineError> {
-    let rgba = picture.to_rgba8();
+    let rgba = picture.into_rgba8();
     let (wide, high) = (rgba.width() as usize, rgba.height() as usize);
     let factor = working_factor(wide, high);
     let (width, height) = (wide.div_ceil(factor), high.div_ceil(factor));

@@ -26,7 +26,7 @@ pub fn texture(bytes: &[u8], import: &Import, imported: &Imported) -> Result<Vec
     let mut png = Cursor::new(Vec::new());
     let unwritable = |e: image::ImageError| OutlineError::Unreadable { format: "texture", reason: e.to_string() };
     picture.write_to(&mut png, ImageFormat::Png).map_err(unwritable)?;
-    Ok(png.into_inner())
+    Ok(files::marked_png(&png.into_inner()))
 }
 
 /// Reads a texture back, a PNG or JPEG; a side longer than [`MAX_TEXTURE_PX`] is averaged down.

@@ -12,7 +12,7 @@ use crate::discovery::Parameters;
 use crate::engine::Quality;
 use crate::mesh::BodyPoint;
 use crate::outline::Point;
-use crate::picture::scene::Stage;
+use crate::picture::Stage;
 use eframe::egui::Vec2;
 use std::path::PathBuf;
 

@@ -125,7 +125,7 @@ pub fn run(design: Option<Design>, path: Option<PathBuf>) -> Result<(), StudioEr
 /// The real engine and exporter.
 pub fn services() -> Services {
     Services {
-        propose: Arc::new(crate::engine::propose),
+        propose: Arc::new(crate::rigging::propose),
         export: Arc::new(|design, folder| {
             crate::fabrication::export(design, folder).map(|_| ()).map_err(|error| error.to_string())
         }),

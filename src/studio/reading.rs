@@ -5,7 +5,8 @@ use super::session::{Discovery, Look, Mode, Overlay, Playback, Renamed, Selectio
 use super::viewport::hit::Hit;
 use crate::design::history::History;
 use crate::design::{Design, Target};
-use crate::engine::{Proposal, Quality, Request};
+use crate::engine::{Quality, Request};
+use crate::rigging::Proposal;
 use std::sync::Arc;
 
 impl Session {

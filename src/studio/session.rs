@@ -16,11 +16,12 @@ use crate::design::history::History;
 use crate::design::{Design, Target, edit};
 use crate::discovery::Parameters;
 use crate::engine::worker::Worker;
-use crate::engine::{Proposal, Quality, Request, Shape};
+use crate::engine::{Quality, Request, Shape};
 use crate::files::Stamp;
 use crate::outline::Point;
 use crate::picture::palette::Theme;
-use crate::picture::scene::Stage;
+use crate::picture::{Shown, Stage};
+use crate::rigging::Proposal;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -76,9 +77,8 @@ pub struct Playback {
 
 pub struct Look {
     pub theme: Theme,
-    pub texture: bool,
-    pub fibers: bool,
-    pub networks: bool,
+    /// Which layers of the pictures.
+    pub shown: Shown,
     pub views: Views,
     /// `None`: fits the body.
     pub camera: Option<Camera>,
@@ -219,15 +219,7 @@ impl Session {
             renaming: None,
             mode: Mode::Pose,
             playback: Playback { time_s: 0.0, playing: false, looping: true },
-            look: Look {
-                theme: Theme::Light,
-                texture: true,
-                fibers: true,
-                networks: true,
-                views: Views::Both,
-                camera: None,
-                zoom: None,
-            },
+            look: Look { theme: Theme::Light, shown: Shown::default(), views: Views::Both, camera: None, zoom: None },
             quality: Quality::Balanced,
             discovery: Discovery {
                 parameters: Parameters::default(),

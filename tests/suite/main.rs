@@ -26,6 +26,8 @@ mod problems;
 mod properties;
 #[cfg(all(feature = "studio", unix))]
 mod recovery;
+#[cfg(unix)]
+mod replacing;
 mod soft_ik;
 #[cfg(feature = "studio")]
 mod studio;

@@ -4,12 +4,12 @@ use eframe::egui::{self, Key, Modifiers, Pos2, pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use plushwright::design::{Design, Network, Pin, Tendon, animation};
-use plushwright::discovery::Stages;
-use plushwright::engine::{EQUILIBRIUM, Proposal, Quality, Shape};
+use plushwright::engine::{EQUILIBRIUM, Quality, Shape};
 use plushwright::mesh::Mesh;
 use plushwright::outline::drawing::{Part, Primitive};
 use plushwright::outline::{Outline, polygon};
 use plushwright::picture::palette::Theme;
+use plushwright::rigging::Proposal;
 use plushwright::studio::app::Studio;
 use plushwright::studio::messages::Level;
 use plushwright::studio::session::{Selection, Services, Session, Views};
@@ -52,8 +52,8 @@ fn proposal(design: &Design, error_after: f64) -> Proposal {
     Proposal {
         network: network(),
         parameters: Default::default(),
-        stages: Stages::default(),
-        preview: Shape { nodes: design.mesh.nodes.clone(), ..Shape::default() },
+        stages: Arc::default(),
+        preview: Arc::new(Shape { nodes: design.mesh.nodes.clone(), ..Shape::default() }),
         error_before: 0.2,
         error_after,
     }
@@ -885,22 +885,22 @@ fn the_texture_is_read_aside_shown_and_hidden() {
     // Without a texture the switch says why it cannot be used.
     let mut window = window(bar());
     let is_disabled = |window: &Window| window.get_by_label("Show the texture").accesskit_node().is_disabled();
-    assert!(is_disabled(&window) && session(&window).cannot_texture().unwrap().contains("has no texture"));
+    assert!(is_disabled(&window) && session(&window).cannot_show("texture").unwrap().contains("has no texture"));
     let open = |window: &mut Window| {
         press(window, Modifiers::COMMAND, Key::O);
         type_path(window, &path);
         press(window, Modifiers::NONE, Key::Enter);
-        wait(window, |s| s.cannot_texture().is_none_or(|why| why.contains("missing")));
+        wait(window, |s| s.cannot_show("texture").is_none_or(|why| why.contains("missing")));
         settle(window);
     };
     open(&mut window);
     let texture = session(&window).texture().expect("it was read").clone();
     assert!((texture.levels()[0].width, texture.levels()[0].height) == (2048, 683));
-    assert!(!is_disabled(&window) && session(&window).look().texture);
+    assert!(!is_disabled(&window) && session(&window).look().shown.shows("texture"));
     click(&mut window, "Show the texture");
-    assert!(!session(&window).look().texture);
+    assert!(!session(&window).look().shown.shows("texture"));
     press(&mut window, Modifiers::NONE, Key::X);
-    assert!(session(&window).look().texture && !session(&window).history().is_modified());
+    assert!(session(&window).look().shown.shows("texture") && !session(&window).history().is_modified());
     // It is read once, and nothing is drawn while nothing changes.
     pose(&mut window, "Idealized view");
     assert!(Arc::ptr_eq(&texture, session(&window).texture().unwrap()));

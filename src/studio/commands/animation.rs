@@ -10,9 +10,9 @@ pub static PLAY: Command = Command {
     icon: Some(Icon::Play),
     keys: &[Keys::plain(Key::Space)],
     scope: Scope::Views,
-    on: Some(|session| session.playback().playing),
+    on: Some(&|session| session.playback().playing),
     face_on: Some((Icon::Pause, "Pause", "Pause")),
-    run: |session, _| {
+    run: &|session, _| {
         if session.playback.playing {
             session.playback.playing = false;
         } else {
@@ -26,8 +26,8 @@ pub static LOOP: Command = Command {
     icon: Some(Icon::Loop),
     keys: &[Keys::plain(Key::L)],
     scope: Scope::Views,
-    on: Some(|session| session.playback().looping),
-    run: |session, _| session.playback.looping = !session.playback.looping,
+    on: Some(&|session| session.playback().looping),
+    run: &|session, _| session.playback.looping = !session.playback.looping,
     ..Command::new("animation.loop", "Loop", "Begin again at the end")
 };
 
@@ -35,6 +35,6 @@ pub static ADD_KEYFRAME: Command = Command {
     icon: Some(Icon::Key),
     keys: &[Keys::plain(Key::K)],
     scope: Scope::Views,
-    run: |session, _| session.add_keyframe(),
+    run: &|session, _| session.add_keyframe(),
     ..Command::new("animation.key", "Add keyframe", "Put what the realizable plushie shows on the timeline")
 };

@@ -23,15 +23,18 @@ pub struct Command {
     /// What is only being drawn is put into the drawing first.
     pub ends_drawing: bool,
     /// Whether it is on, of one that can be.
-    pub on: Option<fn(&Session) -> bool>,
+    pub on: Option<Ask<bool>>,
     /// Icon, label and tip while it is on, where they differ.
     pub face_on: Option<(Icon, &'static str, &'static str)>,
     /// More than the tip says, as things are.
-    pub detail: fn(&Session) -> Option<String>,
+    pub detail: Ask<Option<String>>,
     /// Why it cannot be done now, if so.
-    pub why_not: fn(&Session, Hit) -> Option<&'static str>,
-    pub run: fn(&mut Session, Hit),
+    pub why_not: &'static (dyn Fn(&Session, Hit) -> Option<&'static str> + Send + Sync),
+    pub run: &'static (dyn Fn(&mut Session, Hit) + Send + Sync),
 }
+
+/// A question about the session.
+pub type Ask<T> = &'static (dyn Fn(&Session) -> T + Send + Sync);
 
 /// A key with modifiers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -86,9 +89,9 @@ impl Command {
             ends_drawing: false,
             on: None,
             face_on: None,
-            detail: |_| None,
-            why_not: |_, _| None,
-            run: |_, _| {},
+            detail: &|_| None,
+            why_not: &|_, _| None,
+            run: &|_, _| {},
         }
     }
 

@@ -31,9 +31,9 @@ pub static UNDO: Command = Command {
     icon: Some(Icon::Undo),
     keys: &[Keys::ctrl(Key::Z)],
     places: &[Place::Toolbar(Group::History)],
-    detail: |session| session.history().undo_label().map(|label| format!("Undo “{label}”")),
-    why_not: |session, _| session.history().undo_label().is_none().then_some("Nothing to undo"),
-    run: |session, _| session.undo(),
+    detail: &|session| session.history().undo_label().map(|label| format!("Undo “{label}”")),
+    why_not: &|session, _| session.history().undo_label().is_none().then_some("Nothing to undo"),
+    run: &|session, _| session.undo(),
     ..Command::new("edit.undo", "Undo", "Take back the last change")
 };
 
@@ -41,9 +41,9 @@ pub static REDO: Command = Command {
     icon: Some(Icon::Redo),
     keys: &[Keys::ctrl_shift(Key::Z), Keys::ctrl(Key::Y)],
     places: &[Place::Toolbar(Group::History)],
-    detail: |session| session.history().redo_label().map(|label| format!("Redo “{label}”")),
-    why_not: |session, _| session.history().redo_label().is_none().then_some("Nothing to redo"),
-    run: |session, _| session.redo(),
+    detail: &|session| session.history().redo_label().map(|label| format!("Redo “{label}”")),
+    why_not: &|session, _| session.history().redo_label().is_none().then_some("Nothing to redo"),
+    run: &|session, _| session.redo(),
     ..Command::new("edit.redo", "Redo", "Do again what was undone")
 };
 
@@ -51,16 +51,16 @@ pub static DELETE: Command = Command {
     icon: Some(Icon::Trash),
     keys: &[Keys::plain(Key::Delete)],
     scope: Scope::Views,
-    why_not: |session, _| {
+    why_not: &|session, _| {
         (session.selection() == Selection::Nothing).then_some("Select a target, pin, keyframe or network first")
     },
-    run: |session, _| session.delete_selected(),
+    run: &|session, _| session.delete_selected(),
     ..Command::new("edit.delete", "Delete selected", "Delete the target, pin, keyframe or network that is selected")
 };
 
 pub static ESCAPE: Command = Command {
     keys: &[Keys::plain(Key::Escape)],
-    run: |session, _| session.escape(),
+    run: &|session, _| session.escape(),
     ..Command::new(
         "edit.cancel",
         "Let go",
@@ -71,15 +71,15 @@ pub static ESCAPE: Command = Command {
 pub static ADD_POSE: Command = Command {
     icon: Some(Icon::Plus),
     keys: &[Keys::ctrl_shift(Key::N)],
-    run: |session, _| session.change(Change::AddPose),
+    run: &|session, _| session.change(Change::AddPose),
     ..Command::new("pose.add", "Add pose", "Add a pose")
 };
 
 pub static DUPLICATE_POSE: Command = Command {
     icon: Some(Icon::Copy),
     keys: &[Keys::ctrl(Key::D)],
-    why_not: |session, _| session.pose().is_none().then_some(NO_POSE),
-    run: |session, _| with_pose(session, Change::DuplicatePose),
+    why_not: &|session, _| session.pose().is_none().then_some(NO_POSE),
+    run: &|session, _| with_pose(session, Change::DuplicatePose),
     ..Command::new("pose.duplicate", "Duplicate pose", "Duplicate this pose")
 };
 
@@ -87,23 +87,23 @@ pub static RENAME_POSE: Command = Command {
     icon: Some(Icon::Pen),
     keys: &[Keys::plain(Key::F2)],
     scope: Scope::Views,
-    why_not: |session, _| session.pose().is_none().then_some(NO_POSE),
-    run: |session, _| session.rename_pose(),
+    why_not: &|session, _| session.pose().is_none().then_some(NO_POSE),
+    run: &|session, _| session.rename_pose(),
     ..Command::new("pose.rename", "Rename pose", "Rename this pose")
 };
 
 pub static DELETE_POSE: Command = Command {
     icon: Some(Icon::Trash),
-    why_not: |session, _| session.pose().is_none().then_some(NO_POSE),
-    run: |session, _| with_pose(session, Change::RemovePose),
+    why_not: &|session, _| session.pose().is_none().then_some(NO_POSE),
+    run: &|session, _| with_pose(session, Change::RemovePose),
     ..Command::new("pose.delete", "Delete pose", "Delete this pose")
 };
 
 pub static REMOVE_TARGET: Command = Command {
     scope: Scope::Views,
     places: &[Place::ContextMenu],
-    why_not: |_, at| (!matches!(at, Hit::Target(_))).then_some("Select a target first"),
-    run: |session, at| {
+    why_not: &|_, at| (!matches!(at, Hit::Target(_))).then_some("Select a target first"),
+    run: &|session, at| {
         if let (Hit::Target(index), Some(pose)) = (at, session.pose()) {
             session.change(Change::RemoveTarget { pose, index });
         }
@@ -115,8 +115,8 @@ pub static PIN_POINT: Command = Command {
     icon: Some(Icon::Pin),
     scope: Scope::Views,
     places: &[Place::ContextMenu],
-    why_not: |session, at| point(session, at).is_none().then_some("Select a target first, or point at the body"),
-    run: |session, at| {
+    why_not: &|session, at| point(session, at).is_none().then_some("Select a target first, or point at the body"),
+    run: &|session, at| {
         if let Some(at) = point(session, at) {
             session.change(Change::AddPin(at));
         }
@@ -127,8 +127,8 @@ pub static PIN_POINT: Command = Command {
 pub static UNPIN: Command = Command {
     scope: Scope::Views,
     places: &[Place::ContextMenu],
-    why_not: |_, at| (!matches!(at, Hit::Pin(_))).then_some("Select a pin first"),
-    run: |session, at| {
+    why_not: &|_, at| (!matches!(at, Hit::Pin(_))).then_some("Select a pin first"),
+    run: &|session, at| {
         if let Hit::Pin(index) = at {
             session.change(Change::RemovePin(index));
         }
@@ -140,21 +140,21 @@ pub static CLEAR_TARGETS: Command = Command {
     icon: Some(Icon::Trash),
     scope: Scope::Views,
     places: &[Place::ContextMenu],
-    why_not: |session, _| session.targets().is_empty().then_some("There are no targets"),
-    run: |session, _| with_pose(session, Change::ClearTargets),
+    why_not: &|session, _| session.targets().is_empty().then_some("There are no targets"),
+    run: &|session, _| with_pose(session, Change::ClearTargets),
     ..Command::new("target.clear", "Remove all targets", "Remove all targets of this pose")
 };
 
 pub static REMESH: Command = Command {
     scope: Scope::Views,
-    why_not: |session, _| session.meshing().running.is_some().then_some("A mesh is being made"),
-    run: |session, _| session.start_remesh(),
+    why_not: &|session, _| session.meshing().running.is_some().then_some("A mesh is being made"),
+    run: &|session, _| session.start_remesh(),
     ..Command::new("mesh.remesh", "Remesh", "Make a new mesh of the outline; pins, poses, networks and keyframes stay")
 };
 
 pub static CANCEL_MESHING: Command = Command {
-    why_not: |session, _| session.meshing().running.is_none().then_some("No mesh is being made"),
-    run: |session, _| session.cancel_remesh(),
+    why_not: &|session, _| session.meshing().running.is_none().then_some("No mesh is being made"),
+    run: &|session, _| session.cancel_remesh(),
     ..Command::new("mesh.cancel", "Cancel meshing", "Keep the body as it is")
 };
 

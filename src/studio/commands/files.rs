@@ -11,7 +11,7 @@ pub static NEW: Command = Command {
     keys: &[Keys::ctrl(Key::N)],
     places: &[Place::FileMenu],
     ends_drawing: true,
-    run: |session, _| session.file(FileAction::Import),
+    run: &|session, _| session.file(FileAction::Import),
     ..Command::new("file.new", "New from outline…", "Make a plushie of an SVG, picture, DXF, OBJ or drawing")
 };
 
@@ -20,7 +20,7 @@ pub static NEW_DRAWING: Command = Command {
     while_typing: true,
     places: &[Place::FileMenu],
     ends_drawing: true,
-    run: |session, _| session.file(FileAction::NewDrawing),
+    run: &|session, _| session.file(FileAction::NewDrawing),
     ..Command::new("file.new-drawing", "New drawing", "Draw a plushie on an empty sheet")
 };
 
@@ -29,7 +29,7 @@ pub static OPEN: Command = Command {
     while_typing: true,
     places: &[Place::FileMenu],
     ends_drawing: true,
-    run: |session, _| session.file(FileAction::Open),
+    run: &|session, _| session.file(FileAction::Open),
     ..Command::new("file.open", "Open…", "Open a plushie")
 };
 
@@ -38,7 +38,7 @@ pub static SAVE: Command = Command {
     while_typing: true,
     places: &[Place::FileMenu, Place::Toolbar(Group::File)],
     ends_drawing: true,
-    run: |session, _| session.file(FileAction::Save),
+    run: &|session, _| session.file(FileAction::Save),
     ..Command::new("file.save", "Save", "Save the plushie")
 };
 
@@ -47,7 +47,7 @@ pub static SAVE_AS: Command = Command {
     while_typing: true,
     places: &[Place::FileMenu],
     ends_drawing: true,
-    run: |session, _| session.file(FileAction::SaveAs),
+    run: &|session, _| session.file(FileAction::SaveAs),
     ..Command::new("file.save-as", "Save as…", "Save the plushie under another name")
 };
 
@@ -56,7 +56,7 @@ pub static EXPORT: Command = Command {
     while_typing: true,
     places: &[Place::FileMenu, Place::Toolbar(Group::Right)],
     ends_drawing: true,
-    run: |session, _| session.file(FileAction::Export),
+    run: &|session, _| session.file(FileAction::Export),
     ..Command::new("file.export", "Export…", "Write patterns, routings and winch tracks")
 };
 
@@ -64,7 +64,7 @@ pub static PALETTE: Command = Command {
     keys: &[Keys::ctrl_shift(Key::P)],
     while_typing: true,
     places: &[Place::FileMenu],
-    run: |session, _| session.overlay = Some(Overlay::Palette),
+    run: &|session, _| session.overlay = Some(Overlay::Palette),
     ..Command::new("window.commands", "All commands…", "Look for a command by name")
 };
 
@@ -72,7 +72,7 @@ pub static SHORTCUTS: Command = Command {
     keys: &[Keys::plain(Key::F1)],
     while_typing: true,
     places: &[Place::FileMenu],
-    run: |session, _| session.overlay = Some(Overlay::Shortcuts),
+    run: &|session, _| session.overlay = Some(Overlay::Shortcuts),
     ..Command::new("window.shortcuts", "Keyboard shortcuts", "Show what every key does")
 };
 
@@ -81,6 +81,6 @@ pub static QUIT: Command = Command {
     while_typing: true,
     places: &[Place::FileMenu],
     ends_drawing: true,
-    run: |session, _| session.file(FileAction::Quit),
+    run: &|session, _| session.file(FileAction::Quit),
     ..Command::new("window.quit", "Quit", "Close the window; unsaved changes are asked about")
 };

@@ -7,22 +7,28 @@ pub mod command;
 pub mod discovery;
 pub mod document;
 pub mod files;
+pub mod layers;
 pub mod outline;
 pub mod tools;
 pub mod view;
 
 pub use command::{Command, Group, Place};
 
+use std::sync::LazyLock;
+
 /// The commands by subject, in the order of the page of shortcuts.
-pub static ALL: [(&str, &[&Command]); 7] = [
-    ("Files", &files::ALL),
-    ("Document", &document::ALL),
-    ("Tools", &tools::ALL),
-    ("View", &view::ALL),
-    ("Networks", &discovery::ALL),
-    ("Animation", &animation::ALL),
-    ("Outline", &outline::ALL),
-];
+pub static ALL: LazyLock<Vec<(&str, Vec<&Command>)>> = LazyLock::new(|| {
+    vec![
+        ("Files", files::ALL.to_vec()),
+        ("Document", document::ALL.to_vec()),
+        ("Tools", tools::ALL.to_vec()),
+        ("View", view::ALL.to_vec()),
+        ("Layers", layers::ALL.iter().collect()),
+        ("Networks", discovery::ALL.to_vec()),
+        ("Animation", animation::ALL.to_vec()),
+        ("Outline", outline::ALL.to_vec()),
+    ]
+});
 
 /// All of them, in order.
 pub fn all() -> impl Iterator<Item = &'static Command> {

@@ -16,16 +16,16 @@ pub static EDIT: Command = Command {
     keys: &[Keys::plain(Key::O)],
     places: &[Place::Toolbar(Group::Tools)],
     ends_drawing: true,
-    on: Some(|session| session.sketching().open),
-    run: |session, _| session.sketch(Sketch::Open(!session.sketching().open)),
+    on: Some(&|session| session.sketching().open),
+    run: &|session, _| session.sketch(Sketch::Open(!session.sketching().open)),
     ..Command::new("outline.edit", "Edit outline", "Draw the outline, change its points, build it from parts")
 };
 
 pub static CUT: Command = Command {
     keys: &[Keys::plain(Key::X)],
     scope: Scope::Outline,
-    on: Some(|session| session.sketching().cut),
-    run: |session, _| session.sketch(Sketch::Cut(!session.sketching().cut)),
+    on: Some(&|session| session.sketching().cut),
+    run: &|session, _| session.sketch(Sketch::Cut(!session.sketching().cut)),
     ..Command::new(
         "outline.cut",
         "Cut out what is drawn",
@@ -36,8 +36,8 @@ pub static CUT: Command = Command {
 pub static CORNER: Command = Command {
     keys: &[Keys::plain(Key::K)],
     scope: Scope::Outline,
-    why_not: |session, _| sharpened(session).is_none().then_some("Pick out a point of a path first"),
-    run: |session, _| {
+    why_not: &|session, _| sharpened(session).is_none().then_some("Pick out a point of a path first"),
+    run: &|session, _| {
         if let Some(change) = sharpened(session) {
             session.change(change);
         }
@@ -49,8 +49,8 @@ pub static DELETE: Command = Command {
     icon: Some(Icon::Trash),
     keys: &[Keys::plain(Key::Delete), Keys::plain(Key::Backspace)],
     scope: Scope::Outline,
-    why_not: |session, _| session.sketching().item.is_none().then_some("Pick out a part, a track or a point first"),
-    run: |session, _| session.delete_drawn(),
+    why_not: &|session, _| session.sketching().item.is_none().then_some("Pick out a part, a track or a point first"),
+    run: &|session, _| session.delete_drawn(),
     ..Command::new(
         "outline.delete",
         "Delete part or point",
@@ -60,8 +60,8 @@ pub static DELETE: Command = Command {
 
 pub static TRACE: Command = Command {
     scope: Scope::Outline,
-    why_not: |session, _| session.design().drawing.is_none().then_some("The present body is what is drawn"),
-    run: |session, _| {
+    why_not: &|session, _| session.design().drawing.is_none().then_some("The present body is what is drawn"),
+    run: &|session, _| {
         let tracks = session.drawing().tracks.clone();
         let drawing = Drawing { tracks, ..Drawing::of(&session.design().outline) };
         session.change(Change::Draw { what: "Trace the body", drawing });
@@ -76,8 +76,8 @@ pub static TRACE: Command = Command {
 pub static MAKE_BODY: Command = Command {
     scope: Scope::Outline,
     ends_drawing: true,
-    why_not: |session, _| session.meshing().running.is_some().then_some("A body is being made"),
-    run: |session, _| session.sketch(Sketch::MakeBody),
+    why_not: &|session, _| session.meshing().running.is_some().then_some("A body is being made"),
+    run: &|session, _| session.sketch(Sketch::MakeBody),
     ..Command::new(
         "outline.body",
         "Make the body",
@@ -88,7 +88,7 @@ pub static MAKE_BODY: Command = Command {
 pub static CLOSE: Command = Command {
     scope: Scope::Outline,
     ends_drawing: true,
-    run: |session, _| session.sketch(Sketch::Open(false)),
+    run: &|session, _| session.sketch(Sketch::Open(false)),
     ..Command::new("outline.close", "Close the drawing", "Back to the plushies; the drawing stays in the document")
 };
 

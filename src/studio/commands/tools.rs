@@ -13,8 +13,8 @@ pub static DRAG: Command = Command {
     keys: &[Keys::plain(Key::V)],
     scope: Scope::Views,
     places: &[Place::Toolbar(Group::Tools)],
-    on: Some(|session| session.tool == Tool::Drag && !session.sketching().open),
-    run: |session, _| session.tool = Tool::Drag,
+    on: Some(&|session| session.tool == Tool::Drag && !session.sketching().open),
+    run: &|session, _| session.tool = Tool::Drag,
     ..Command::new("tool.drag", "Drag tool", "Drag points of the body; every drag makes or moves a target")
 };
 
@@ -23,8 +23,8 @@ pub static PIN: Command = Command {
     keys: &[Keys::plain(Key::P)],
     scope: Scope::Views,
     places: &[Place::Toolbar(Group::Tools)],
-    on: Some(|session| session.tool == Tool::Pin && !session.sketching().open),
-    run: |session, _| session.tool = Tool::Pin,
+    on: Some(&|session| session.tool == Tool::Pin && !session.sketching().open),
+    run: &|session, _| session.tool = Tool::Pin,
     ..Command::new("tool.pin", "Pin tool", "Click the body to pin it there, click a pin to remove it")
 };
 
@@ -34,8 +34,8 @@ macro_rules! pencil {
             keys: &[Keys::plain($key)],
             scope: Scope::Outline,
             ends_drawing: true,
-            on: Some(|session| session.sketching().pencil == $pencil),
-            run: |session, _| session.sketch(Sketch::Take($pencil)),
+            on: Some(&|session| session.sketching().pencil == $pencil),
+            run: &|session, _| session.sketch(Sketch::Take($pencil)),
             ..Command::new($id, $label, $tip)
         };
     };

@@ -6,8 +6,7 @@ use crate::studio::icons::Icon;
 use crate::studio::viewport::Plushie;
 use eframe::egui::Key;
 
-pub static ALL: [&Command; 10] =
-    [&FIT, &ZOOM_IN, &ZOOM_OUT, &TEXTURE, &FIBERS, &NETWORKS, &IDEALIZED, &REALIZABLE, &QUALITY, &THEME];
+pub static ALL: [&Command; 7] = [&FIT, &ZOOM_IN, &ZOOM_OUT, &IDEALIZED, &REALIZABLE, &QUALITY, &THEME];
 
 /// Of a step with the keys.
 const ZOOM: f32 = 1.25;
@@ -16,51 +15,20 @@ pub static FIT: Command = Command {
     icon: Some(Icon::Fit),
     keys: &[Keys::plain(Key::F)],
     places: &[Place::Toolbar(Group::Shown), Place::ContextMenu],
-    run: |session, _| session.fit(),
+    run: &|session, _| session.fit(),
     ..Command::new("view.fit", "Fit view", "Fit the body into the views. Scroll to zoom, drag beside the body to pan")
 };
 
 pub static ZOOM_IN: Command = Command {
     keys: &[Keys::plain(Key::Plus), Keys::shift(Key::Plus), Keys::plain(Key::Equals)],
-    run: |session, _| session.zoom(ZOOM),
+    run: &|session, _| session.zoom(ZOOM),
     ..Command::new("view.zoom-in", "Zoom in", "Show less, larger")
 };
 
 pub static ZOOM_OUT: Command = Command {
     keys: &[Keys::plain(Key::Minus)],
-    run: |session, _| session.zoom(1.0 / ZOOM),
+    run: &|session, _| session.zoom(1.0 / ZOOM),
     ..Command::new("view.zoom-out", "Zoom out", "Show more, smaller")
-};
-
-pub static TEXTURE: Command = Command {
-    icon: Some(Icon::Texture),
-    keys: &[Keys::plain(Key::X)],
-    scope: Scope::Views,
-    places: &[Place::Toolbar(Group::Shown)],
-    on: Some(|session| session.look.texture && session.cannot_texture().is_none()),
-    why_not: |session, _| session.cannot_texture(),
-    run: |session, _| session.look.texture = !session.look.texture,
-    ..Command::new("view.texture", "Show the texture", "Show the texture: the picture that the plushie was made of")
-};
-
-pub static FIBERS: Command = Command {
-    icon: Some(Icon::Fibers),
-    keys: &[Keys::plain(Key::M)],
-    scope: Scope::Views,
-    places: &[Place::Toolbar(Group::Shown)],
-    on: Some(|session| session.look.fibers),
-    run: |session, _| session.look.fibers = !session.look.fibers,
-    ..Command::new("view.fibers", "Show fibres", "Show the muscle fibres of the idealized plushie")
-};
-
-pub static NETWORKS: Command = Command {
-    icon: Some(Icon::Networks),
-    keys: &[Keys::plain(Key::N)],
-    scope: Scope::Views,
-    places: &[Place::Toolbar(Group::Shown)],
-    on: Some(|session| session.look.networks),
-    run: |session, _| session.look.networks = !session.look.networks,
-    ..Command::new("view.networks", "Show networks", "Show winches and tendons")
 };
 
 pub static IDEALIZED: Command = Command {
@@ -68,8 +36,8 @@ pub static IDEALIZED: Command = Command {
     keys: &[Keys::plain(Key::Num1)],
     scope: Scope::Views,
     places: &[Place::Toolbar(Group::Views)],
-    on: Some(|session| session.look.views.shows(Plushie::Idealized)),
-    run: |session, _| session.look.views = session.look.views.toggled(Plushie::Idealized),
+    on: Some(&|session| session.look.views.shows(Plushie::Idealized)),
+    run: &|session, _| session.look.views = session.look.views.toggled(Plushie::Idealized),
     ..Command::new(
         "view.idealized",
         "Show idealized view",
@@ -82,8 +50,8 @@ pub static REALIZABLE: Command = Command {
     keys: &[Keys::plain(Key::Num2)],
     scope: Scope::Views,
     places: &[Place::Toolbar(Group::Views)],
-    on: Some(|session| session.look.views.shows(Plushie::Realizable)),
-    run: |session, _| session.look.views = session.look.views.toggled(Plushie::Realizable),
+    on: Some(&|session| session.look.views.shows(Plushie::Realizable)),
+    run: &|session, _| session.look.views = session.look.views.toggled(Plushie::Realizable),
     ..Command::new(
         "view.realizable",
         "Show realizable view",
@@ -94,7 +62,7 @@ pub static REALIZABLE: Command = Command {
 pub static QUALITY: Command = Command {
     keys: &[Keys::plain(Key::Q)],
     scope: Scope::Views,
-    run: |session, _| session.next_quality(),
+    run: &|session, _| session.next_quality(),
     ..Command::new("view.quality", "Next quality", "Draft, balanced, accurate: how much work a frame may take")
 };
 
@@ -102,9 +70,9 @@ pub static THEME: Command = Command {
     icon: Some(Icon::Moon),
     keys: &[Keys::plain(Key::T)],
     places: &[Place::Toolbar(Group::Right)],
-    on: Some(|session| session.look.theme == Theme::Dark),
+    on: Some(&|session| session.look.theme == Theme::Dark),
     face_on: Some((Icon::Sun, "Light theme", "Switch to the light theme")),
-    run: |session, _| {
+    run: &|session, _| {
         session.look.theme = match session.look.theme {
             Theme::Light => Theme::Dark,
             Theme::Dark => Theme::Light,

@@ -1,8 +1,8 @@
 //! Proposing networks: parameters, progress, the proposals and their stages (fig. 6).
 
 use super::{Actions, State, buttons, heading};
-use crate::engine::Proposal;
-use crate::picture::scene::Stage;
+use crate::picture::Stage;
+use crate::rigging::Proposal;
 use crate::studio::action::Action;
 use crate::studio::commands::discovery::{ACCEPT, CANCEL, PROPOSE, REJECT};
 use crate::studio::commands::document::ESCAPE;

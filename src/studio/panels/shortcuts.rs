@@ -17,10 +17,10 @@ pub fn show(ctx: &Context, session: &Session, actions: &mut Actions) {
         ui.set_width(SIZE[0]);
         ui.heading("Keyboard shortcuts");
         ScrollArea::vertical().max_height(SIZE[1]).auto_shrink([false, true]).show(ui, |ui| {
-            for (subject, list) in commands::ALL {
+            for (subject, list) in commands::ALL.iter() {
                 ui.add_space(6.0);
                 heading(ui, subject);
-                Grid::new(subject).num_columns(2).min_col_width(150.0).spacing([12.0, 3.0]).show(ui, |ui| {
+                Grid::new(*subject).num_columns(2).min_col_width(150.0).spacing([12.0, 3.0]).show(ui, |ui| {
                     for command in list.iter().filter(|command| !command.keys.is_empty()) {
                         ui.label(RichText::new(command.keys_text()).monospace());
                         ui.label(command.label.trim_end_matches('…')).on_hover_text(command.tip);
