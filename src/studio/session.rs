@@ -45,6 +45,23 @@ pub enum Selection {
     Network(usize),
 }
 
+/// What stands over the window for the keyboard's sake.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Overlay {
+    /// Every command by name.
+    Palette,
+    /// What every key does.
+    Shortcuts,
+}
+
+/// What gets another name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Renamed {
+    Pose(usize),
+    Network(usize),
+    Plushie,
+}
+
 /// Whether the views show a pose or the animation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
@@ -65,6 +82,8 @@ pub struct Look {
     pub views: Views,
     /// `None`: fits the body.
     pub camera: Option<Camera>,
+    /// Times which the scale shall change about the middle, as soon as a view knows what it shows.
+    pub zoom: Option<f32>,
 }
 
 /// Which views are shown: one at least. What is hidden is not solved.
@@ -80,6 +99,10 @@ impl Views {
             Self::Both => true,
             Self::Only(shown) => shown == plushie,
         }
+    }
+
+    pub fn toggled(self, plushie: Plushie) -> Self {
+        self.with(plushie, !self.shows(plushie))
     }
 
     /// With one of them shown or hidden. Where that leaves none, the other one comes back.
@@ -148,6 +171,9 @@ pub struct Session {
     pub(super) pose: Option<usize>,
     pub(super) selection: Selection,
     pub(super) tool: Tool,
+    pub(super) overlay: Option<Overlay>,
+    /// A name that is being typed.
+    pub(super) renaming: Option<(Renamed, String)>,
     pub(super) mode: Mode,
     pub(super) playback: Playback,
     pub(super) look: Look,
@@ -189,9 +215,11 @@ impl Session {
             texturing: Texturing::default(),
             selection: Selection::Nothing,
             tool: Tool::Drag,
+            overlay: None,
+            renaming: None,
             mode: Mode::Pose,
             playback: Playback { time_s: 0.0, playing: false, looping: true },
-            look: Look { theme: Theme::Light, shown: Shown::default(), views: Views::Both, camera: None },
+            look: Look { theme: Theme::Light, shown: Shown::default(), views: Views::Both, camera: None, zoom: None },
             quality: Quality::Balanced,
             discovery: Discovery {
                 parameters: Parameters::default(),
@@ -253,43 +281,32 @@ impl Session {
         match action {
             Action::Change(change) => self.change(change),
             Action::Live(change) => self.live(change),
-            Action::Undo => self.travel("Undone", History::undo),
-            Action::Redo => self.travel("Redone", History::redo),
+            Action::Run(command, at) => match command.refused(self, at) {
+                None => (command.run)(self, at),
+                Some(why) => self.messages.info(why),
+            },
+            Action::Overlay(overlay) => self.overlay = overlay,
+            Action::Typed(renaming) => self.renaming = renaming,
             Action::Grab { what, pointer } => self.grab(what, pointer),
             Action::DragTo(pointer) => self.drag_to(pointer),
             Action::Release => self.release(),
-            Action::Escape => self.escape(),
             Action::SelectPose(pose) => self.select_pose(pose),
             Action::Select(selection) => self.selection = selection,
-            Action::DeleteSelected => self.delete_selected(),
-            Action::SetTool(tool) => self.tool = tool,
-            Action::SetTheme(theme) => self.look.theme = theme,
-            Action::ShowLayer(name, shown) => self.look.shown.set(name, shown),
-            Action::ShowView(plushie, shown) => self.look.views = self.look.views.with(plushie, shown),
             Action::SetQuality(quality) => self.quality = quality,
-            Action::SetCamera(camera) => self.look.camera = Some(camera),
+            Action::SetCamera(camera) => {
+                self.look.camera = Some(camera);
+                self.look.zoom = None;
+            }
             Action::Pan { from, delta, always } => {
                 if always || self.drag.is_none() {
                     self.look.camera = Some(from.panned(delta));
                 }
             }
-            Action::Fit if self.sketching.open => self.sketching.camera = None,
-            Action::Fit => self.look.camera = None,
-            Action::Play => self.play(),
-            Action::Pause => self.playback.playing = false,
-            Action::SetLooping(looping) => self.playback.looping = looping,
             Action::Scrub(time_s) => self.scrub(time_s),
-            Action::AddKeyframe => self.add_keyframe(),
             Action::SetParameters(parameters) => self.discovery.parameters = parameters,
             Action::SetResolution(resolution) => self.meshing.wanted = Some(resolution),
-            Action::Remesh => self.start_remesh(),
-            Action::CancelRemesh => self.cancel_remesh(),
-            Action::Propose => self.start_propose(),
-            Action::CancelPropose => self.cancel_propose(),
             Action::ShowProposal(index) => self.discovery.shown = index,
             Action::ShowStage(stage) => self.discovery.stage = stage,
-            Action::Accept(index) => self.accept(index),
-            Action::Reject(index) => self.reject(index),
             Action::Sketch(sketch) => self.sketch(sketch),
             Action::File(action) => self.file(action),
             Action::DismissMessage(id) => self.messages.dismiss(id),
@@ -358,6 +375,42 @@ impl Session {
         self.clamp();
     }
 
+    pub(super) fn undo(&mut self) {
+        self.travel("Undone", History::undo);
+    }
+
+    pub(super) fn redo(&mut self) {
+        self.travel("Redone", History::redo);
+    }
+
+    /// Shows all of the body, or of the drawing.
+    pub(super) fn fit(&mut self) {
+        if self.sketching.open {
+            self.sketching.camera = None;
+        } else {
+            self.look.camera = None;
+        }
+    }
+
+    pub(super) fn zoom(&mut self, factor: f32) {
+        self.look.zoom = Some(self.look.zoom.unwrap_or(1.0) * factor);
+    }
+
+    pub(super) fn next_quality(&mut self) {
+        self.quality = match self.quality {
+            Quality::Draft => Quality::Balanced,
+            Quality::Balanced => Quality::Accurate,
+            Quality::Accurate => Quality::Draft,
+        };
+    }
+
+    /// Starts to edit the name of the current pose.
+    pub(super) fn rename_pose(&mut self) {
+        if let Some((index, pose)) = self.pose.and_then(|index| Some((index, self.design().poses.get(index)?))) {
+            self.renaming = Some((Renamed::Pose(index), pose.name.clone()));
+        }
+    }
+
     fn travel(&mut self, done: &str, step: impl FnOnce(&mut History) -> Option<String>) {
         self.drag = None;
         if let Some(label) = step(&mut self.history) {
@@ -397,10 +450,7 @@ impl Session {
         self.clamp();
     }
 
-    fn delete_selected(&mut self) {
-        if self.sketching.open {
-            return self.delete_drawn();
-        }
+    pub(super) fn delete_selected(&mut self) {
         match (self.selection, self.pose) {
             (Selection::Target(index), Some(pose)) => self.change(Change::RemoveTarget { pose, index }),
             (Selection::Pin(index), _) => self.change(Change::RemovePin(index)),
@@ -411,7 +461,10 @@ impl Session {
         self.selection = Selection::Nothing;
     }
 
-    fn escape(&mut self) {
+    pub(super) fn escape(&mut self) {
+        if self.discovery.running.is_some() && self.drag.is_none() && !self.sketching.open {
+            return self.cancel_propose();
+        }
         if self.drag.take().is_some() || self.history.in_gesture() {
             self.history.cancel();
         } else if self.files.dialog.is_some() {

@@ -10,7 +10,7 @@ use crate::design::Design;
 use crate::design::edit::EditError;
 use crate::design::reshape::{Body, reshape};
 use crate::outline::drawing::{Item, Primitive};
-use crate::outline::{Changes, Drawing, Import, Outline};
+use crate::outline::{Changes, Drawing, Import, Note, Outline};
 
 /// What a press on the paper does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -86,7 +86,10 @@ impl Session {
                 self.sketching.point = point;
                 self.clamp_sketch();
             }
-            Sketch::Camera(camera) => self.sketching.camera = camera,
+            Sketch::Camera(camera) => {
+                self.sketching.camera = camera;
+                self.look.zoom = None;
+            }
             Sketch::MakeBody => self.start_body(),
         }
     }
@@ -157,7 +160,7 @@ impl Session {
         self.sketching.fresh = false;
         self.sketch(Sketch::Open(false));
         self.tell_carried(&report);
-        for line in changes.lines() {
+        for line in changes.lines(Note::to_string) {
             self.messages.info(line);
         }
     }
