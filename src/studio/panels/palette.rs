@@ -144,7 +144,8 @@ mod tests {
         let mut found = vec![commands::files::PALETTE.id];
         for open in [false, true] {
             if open {
-                (commands::outline::EDIT.run)(&mut session, session.selected());
+                let selected = session.selected();
+                (commands::outline::EDIT.run)(&mut session, selected);
             }
             for command in commands::all().filter(|c| c.applies(&session) && c.id != commands::files::PALETTE.id) {
                 let first = matches(&session, command.label(&session));
