@@ -10,7 +10,7 @@ use crate::design::Design;
 use crate::design::edit::EditError;
 use crate::design::reshape::{Body, reshape};
 use crate::outline::drawing::{Item, Primitive};
-use crate::outline::{Changes, Drawing, Import, Outline};
+use crate::outline::{Changes, Drawing, Import, Note, Outline};
 
 /// The tool that an empty sheet begins with.
 pub const FREEHAND: &str = "tool.freehand";
@@ -144,7 +144,7 @@ impl Session {
         self.sketching.fresh = false;
         self.sketch(Sketch::Open(false));
         self.tell_carried(&report);
-        for line in changes.lines() {
+        for line in changes.lines(Note::to_string) {
             self.messages.info(line);
         }
     }

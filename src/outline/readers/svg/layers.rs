@@ -6,7 +6,8 @@
 //! styles, clips, opacity) stays as it was. The text is changed and not the tree that `usvg` makes of it, since that has
 //! neither labels nor all of the groups.
 
-use crate::outline::{OutlineError, layers};
+use crate::outline::OutlineError;
+use crate::outline::readers::layers;
 use std::collections::BTreeSet;
 use usvg::roxmltree::{Document, Node};
 

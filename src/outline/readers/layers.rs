@@ -1,6 +1,6 @@
 //! The names of layers: those asked for against those there are.
 
-use super::OutlineError;
+use crate::outline::OutlineError;
 
 /// Layers that a refusal names at most, and letters of a name that it shows.
 const LISTED: usize = 20;

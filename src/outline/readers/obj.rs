@@ -3,8 +3,9 @@
 //! Of the format only vertices (`v`) and faces (`f`, polygons as fans) matter; all else is passed over. The axis along
 //! which the mesh is thinnest is dropped. Vertices at one place are one node.
 
-use super::import::{Import, Imported};
-use super::{Changes, Outline, OutlineError, Painting, Point, import, polygon};
+use super::finish::{finish, warned};
+use super::{OutlineReader, Painting, ReadingOption};
+use crate::outline::{Changes, Import, Imported, Note, Outline, OutlineError, Point, polygon};
 use std::collections::BTreeMap;
 
 /// Thickness over size up to which a mesh counts as flat.
@@ -17,8 +18,32 @@ const MAX_ELEMENTS: usize = 500_000;
 /// Nodes, and counter-clockwise triangles.
 type Triangles = (Vec<Point>, Vec<[usize; 3]>);
 
+pub(super) struct Obj;
+
+impl OutlineReader for Obj {
+    fn names(&self) -> [&'static str; 2] {
+        ["an OBJ mesh", "OBJ meshes"]
+    }
+
+    fn extensions(&self) -> &'static [&'static str] {
+        &["obj"]
+    }
+
+    fn can_read(&self, head: &[u8]) -> bool {
+        is_obj(head)
+    }
+
+    fn options(&self) -> &'static [ReadingOption] {
+        &[ReadingOption::Unit]
+    }
+
+    fn read(&self, bytes: &[u8], import: &Import) -> Result<Imported, OutlineError> {
+        read(bytes, import)
+    }
+}
+
 /// Whether the bytes look like an OBJ file: the first word that is no comment is one of the format's.
-pub(super) fn is_obj(bytes: &[u8]) -> bool {
+fn is_obj(bytes: &[u8]) -> bool {
     let head = String::from_utf8_lossy(&bytes[..bytes.len().min(4000)]).into_owned();
     let words = ["v", "vn", "vt", "o", "g", "s", "mtllib", "usemtl"];
     let first = head.lines().map(str::trim).find(|line| !line.is_empty() && !line.starts_with('#'));
@@ -27,20 +52,20 @@ pub(super) fn is_obj(bytes: &[u8]) -> bool {
 
 /// The mesh, scaled, with its boundary as the outline. Where the boundary is not one ring with holes, the triangles count
 /// as painted areas.
-pub(super) fn read(bytes: &[u8], import: &Import) -> Result<Imported, OutlineError> {
+fn read(bytes: &[u8], import: &Import) -> Result<Imported, OutlineError> {
     let (nodes, triangles) = parse(&String::from_utf8_lossy(bytes))?;
     let mut notes = Vec::new();
     let unit_mm = import.unit_mm.unwrap_or_else(|| {
         if import.height_mm.is_none() {
-            notes.push("an OBJ states no unit; a plain number is taken for 1 mm (--unit sets another)".to_owned());
+            notes.push(Note::NoUnit("an OBJ"));
         }
         1.0
     });
     let Some(rings) = boundary(&nodes, &triangles) else {
         let area = |t: &[usize; 3]| vec![t.map(|n| nodes[n]).to_vec()];
         let shapes = triangles.iter().map(area).collect();
-        notes.push("the triangles of the OBJ are not one sound piece; their area is meshed anew".to_owned());
-        return import::finish(Painting { shapes, unit_mm, notes }, import);
+        notes.push(Note::NotOnePiece);
+        return finish(Painting { shapes, unit_mm, notes }, import);
     };
     let (low, high) = polygon::bounding_box(&nodes);
     let scale = import.height_mm.map_or(unit_mm, |height| height / (high[1] - low[1]));
@@ -54,7 +79,7 @@ pub(super) fn read(bytes: &[u8], import: &Import) -> Result<Imported, OutlineErr
     }
     let changes = Changes { painted_mm2: area, outline_mm2: area, notes, ..Changes::default() };
     let mesh = Some((nodes.iter().map(place).collect(), triangles));
-    Ok(import::warned(Imported { outline, changes, drawn_box: [low, high], mesh, drawing: None }, import))
+    Ok(warned(Imported { outline, changes, drawn_box: [low, high], mesh, drawing: None }, import))
 }
 
 fn parse(text: &str) -> Result<Triangles, OutlineError> {
@@ -185,7 +210,7 @@ mod tests {
     const SQUARE: &str = "# a square\no s\nv 0 0 5\nv 10 0 5\nv 10 10 5\nv 0 10 5\nv 9 9 9\n";
 
     fn read(text: &str, import: &Import) -> Result<Imported, OutlineError> {
-        super::super::import(text.as_bytes(), import)
+        crate::outline::import(text.as_bytes(), import)
     }
 
     #[test]

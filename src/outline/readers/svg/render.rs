@@ -1,7 +1,7 @@
 //! A drawing as a picture.
 
-use super::tree;
-use crate::outline::texture::{MAX_TEXTURE_PX, fitted};
+use super::tree::tree;
+use crate::outline::resample::{MAX_TEXTURE_PX, fitted};
 use crate::outline::{Import, OutlineError, Point};
 use image::RgbaImage;
 use tiny_skia::Pixmap;
@@ -22,11 +22,7 @@ const LAYER_MARGIN: f32 = 2.0;
 const LEAST_PX: f64 = 64.0;
 
 /// What the drawing shows between the corners of a box (px, y up), with fewer pixels the more lies over each other.
-pub(in crate::outline) fn texture(
-    svg: &[u8],
-    import: &Import,
-    [low, high]: [Point; 2],
-) -> Result<RgbaImage, OutlineError> {
+pub(super) fn texture(svg: &[u8], import: &Import, [low, high]: [Point; 2]) -> Result<RgbaImage, OutlineError> {
     let tree = tree(svg, &import.layers)?;
     let size = [high[0] - low[0], high[1] - low[1]];
     let window = Rect::from_xywh(low[0] as f32, -high[1] as f32, size[0] as f32, size[1] as f32)

@@ -1,7 +1,7 @@
 //! Lines, arcs, ellipses and splines of a drawing, and their polygons.
 
-use super::Place;
 use super::entity::Entity;
+use super::place::Place;
 use crate::outline::Point;
 use std::f64::consts::TAU;
 

@@ -1,9 +1,7 @@
-//! What a step was worth: `O` at the equilibrium that it leads to, against what its model promised.
+//! The gain ratio of a step: how far `O` fell at the equilibrium that it leads to, over what its model promised.
 
-use super::fiber::Fiber;
-use super::run::{LARGEST_PROXIMAL, LEAST_PROXIMAL, REJECTION_GROWTH, Run, STANDSTILL};
-use super::step::longest;
-use super::workspace::Workspace;
+use super::state::{LARGEST_PROXIMAL, LEAST_PROXIMAL, REJECTION_GROWTH, Run, STANDSTILL, value};
+use super::workspace::{Workspace, longest};
 use crate::physics::{HessianForm, statics};
 use crate::soft_ik::Question;
 
@@ -43,17 +41,10 @@ pub(super) enum Verdict {
     Back,
 }
 
-/// The state of lowest `O` that a run has seen near equilibrium.
-pub(in crate::soft_ik) struct Best {
-    pub objective: f64,
-    pub x: Vec<f64>,
-    pub(super) fibers: Vec<Fiber>,
-}
-
 impl Run {
     /// Compares `O` at the equilibrium that the state is on its way to, `x - u`, with what the last step promised. Keeps it if
     /// it is the best, and lets `nu` follow success.
-    pub(super) fn judge(&mut self, question: &Question, form: HessianForm, work: &mut Workspace) -> Verdict {
+    pub(super) fn compare(&mut self, question: &Question, form: HessianForm, work: &mut Workspace) -> Verdict {
         let u = &work.newton;
         for ((p, x), u) in work.pulled.iter_mut().zip(&self.x).zip(u) {
             *p = x - u;
@@ -143,22 +134,4 @@ impl Run {
         self.best.x.copy_from_slice(&self.x);
         self.best.fibers.copy_from_slice(&self.fibers);
     }
-}
-
-impl Best {
-    /// Activations that hold the tensions at the positions, within the bounds, into `beta`. `lengths` becomes those of all elements.
-    pub fn activations_into(&self, question: &Question, lengths: &mut [f64], beta: &mut [f64]) {
-        let contractile = &question.model.contractile;
-        contractile.lengths_into(&self.x, lengths);
-        for (b, fiber) in beta.iter_mut().zip(&self.fibers) {
-            *b = fiber.activation(&contractile.elements[fiber.element], lengths[fiber.element]);
-        }
-        question.actuation.clamp(beta);
-    }
-}
-
-/// `O` of the tension form at `x`.
-pub(super) fn value(x: &[f64], fibers: &[Fiber], question: &Question, rho: f64) -> f64 {
-    let tensions: f64 = fibers.iter().map(|f| f.tension * f.tension).sum();
-    question.objective.position_value(x) + 0.5 * rho * tensions
 }

@@ -11,17 +11,18 @@ mod flatten;
 mod layers;
 mod mask;
 mod render;
+mod tree;
 
-pub(super) use render::texture;
-
-use super::regions::{self, Shapes};
-use super::{Background, Import, Outline, OutlineError, Painting, Point, import, polygon};
+use super::finish::finish;
+use super::{OutlineReader, Painting, ReadingOption};
+use crate::outline::regions::{self, Shapes};
+use crate::outline::{Background, Import, Imported, Note, Outline, OutlineError, Point, polygon};
 use flatten::flatten;
 use i_overlay::core::fill_rule::FillRule;
-use std::sync::{Arc, LazyLock};
-use usvg::roxmltree::{self, Document, ParsingOptions};
+use image::RgbaImage;
+use tree::tree;
 use usvg::tiny_skia_path::PathStroker;
-use usvg::{Group, ImageHrefResolver, ImageKind, Node, Paint, Transform, Tree};
+use usvg::{Group, ImageKind, Node, Paint, Transform, Tree};
 
 /// Millimetres in a CSS px.
 const MM_PER_PX: f64 = 25.4 / 96.0;
@@ -40,6 +41,36 @@ const MAX_POINTS: usize = 3_000_000;
 /// Parts of the drawing beyond the page that are worth a note, as a part of the drawing's box.
 const OFF_PAGE_FRACTION: f64 = 0.01;
 
+pub(super) struct Svg;
+
+impl OutlineReader for Svg {
+    fn names(&self) -> [&'static str; 2] {
+        ["an SVG drawing", "SVG drawings"]
+    }
+
+    fn extensions(&self) -> &'static [&'static str] {
+        &["svg"]
+    }
+
+    /// An angle bracket, and before it at most a byte order mark and blanks.
+    fn can_read(&self, head: &[u8]) -> bool {
+        let head = head.trim_ascii_start();
+        head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head).trim_ascii_start().starts_with(b"<")
+    }
+
+    fn options(&self) -> &'static [ReadingOption] {
+        &[ReadingOption::Layers, ReadingOption::Background]
+    }
+
+    fn read(&self, bytes: &[u8], import: &Import) -> Result<Imported, OutlineError> {
+        finish(painting(bytes, import)?, import)
+    }
+
+    fn texture(&self, bytes: &[u8], import: &Import, drawn_box: [Point; 2]) -> Result<RgbaImage, OutlineError> {
+        render::texture(bytes, import, drawn_box)
+    }
+}
+
 /// Reads the silhouette of an SVG, scaled so that it is `height_mm` high, or in its physical size, with the default
 /// clean-up.
 ///
@@ -50,11 +81,11 @@ const OFF_PAGE_FRACTION: f64 = 0.01;
 /// Not an SVG, nothing painted, more than one piece, degenerate; see [`OutlineError`].
 pub fn read(svg: &[u8], height_mm: Option<f64>) -> Result<Outline, OutlineError> {
     let import = Import { height_mm, ..Import::default() };
-    Ok(import::finish(painting(svg, &import)?, &import)?.outline)
+    Ok(finish(painting(svg, &import)?, &import)?.outline)
 }
 
 /// All that is painted, in px with y up.
-pub(super) fn painting(svg: &[u8], import: &Import) -> Result<Painting, OutlineError> {
+fn painting(svg: &[u8], import: &Import) -> Result<Painting, OutlineError> {
     let tree = tree(svg, &import.layers)?;
     let bounds = tree.root().abs_stroke_bounding_box();
     let longer = f64::from(bounds.width().max(bounds.height()));
@@ -62,7 +93,7 @@ pub(super) fn painting(svg: &[u8], import: &Import) -> Result<Painting, OutlineE
     if !(longer.is_finite() && longer > 0.0) {
         return Err(nothing(&tree));
     }
-    let mut reader = Reader {
+    let mut walk = Walk {
         tolerance: FLATTEN_FRACTION * longer,
         page,
         keep_background: import.background == Background::Keep,
@@ -76,41 +107,19 @@ pub(super) fn painting(svg: &[u8], import: &Import) -> Result<Painting, OutlineE
         filters: 0,
         texts: Vec::new(),
     };
-    let mut shapes = reader.painted(tree.root(), Transform::identity())?;
+    let mut shapes = walk.painted(tree.root(), Transform::identity())?;
     let mut notes = Vec::new();
     if shapes.is_empty() {
         // Nothing lies on the rectangle: it is the silhouette.
-        shapes = std::mem::take(&mut reader.background);
-    } else if !reader.background.is_empty() {
-        notes.push("a background rectangle as large as the page was left out (--background keep keeps it)".to_owned());
+        shapes = std::mem::take(&mut walk.background);
+    } else if !walk.background.is_empty() {
+        notes.push(Note::Background);
     }
     if shapes.is_empty() {
         return Err(nothing(&tree));
     }
-    reader.describe(&mut notes, longer, &shapes)?;
+    walk.describe(&mut notes, longer, &shapes)?;
     Ok(Painting { shapes, unit_mm: MM_PER_PX, notes })
-}
-
-/// The drawing with everything resolved, or the chosen layers of it.
-fn tree(svg: &[u8], layers: &[String]) -> Result<Tree, OutlineError> {
-    let unreadable = |reason: String| OutlineError::Unreadable { format: "SVG", reason };
-    let text = std::str::from_utf8(svg).map_err(|error| unreadable(error.to_string()))?;
-    let document = parse(text).map_err(|error| unreadable(error.to_string()))?;
-    expansion::check(&document)?;
-    let chosen;
-    let document = if layers.is_empty() {
-        document
-    } else {
-        chosen = layers::chosen(&document, layers)?;
-        drop(document);
-        parse(&chosen).map_err(|error| unreadable(error.to_string()))?
-    };
-    Tree::from_xmltree(&document, &options()).map_err(|error| unreadable(error.to_string()))
-}
-
-/// The elements of a file. Its own entities are resolved, within the bounds of the XML reader.
-fn parse(text: &str) -> Result<Document<'_>, roxmltree::Error> {
-    Document::parse_with_options(text, ParsingOptions { allow_dtd: true, ..ParsingOptions::default() })
 }
 
 /// Nothing is painted: says so, and whether there is something that cannot count.
@@ -127,30 +136,8 @@ fn nothing(tree: &Tree) -> OutlineError {
     OutlineError::NothingPainted("the SVG has no fill or stroke with an area")
 }
 
-/// The bundled fonts: text is set in the first one, whatever the drawing asks for, so that it looks the same everywhere.
-static FONTS: LazyLock<Arc<usvg::fontdb::Database>> = LazyLock::new(|| {
-    let mut fonts = usvg::fontdb::Database::new();
-    fonts.load_font_data(epaint_default_fonts::UBUNTU_LIGHT.to_vec());
-    fonts.load_font_data(epaint_default_fonts::HACK_REGULAR.to_vec());
-    Arc::new(fonts)
-});
-
-/// The default options, with references to files outside the SVG cut off, which a silhouette
-/// does not need, and embedded drawings read within the same bounds.
-fn options() -> usvg::Options<'static> {
-    let mut options = usvg::Options { fontdb: FONTS.clone(), ..usvg::Options::default() };
-    options.image_href_resolver.resolve_string = Box::new(|_, _| None);
-    let embedded = ImageHrefResolver::default_data_resolver();
-    options.image_href_resolver.resolve_data = Box::new(move |mime, data, options| {
-        let drawing = ["image/svg+xml", "text/plain"].contains(&mime);
-        if drawing && !expansion::fits(&data) { None } else { embedded(mime, data, options) }
-    });
-    options.font_resolver.select_font = Box::new(|_, fonts| fonts.faces().next().map(|face| face.id));
-    options
-}
-
 /// What is gathered while the tree is walked.
-struct Reader {
+struct Walk {
     /// Farthest that a polygon may lie from its curve, px.
     tolerance: f64,
     /// Width and height of the page, px.
@@ -169,7 +156,7 @@ struct Reader {
     texts: Vec<String>,
 }
 
-impl Reader {
+impl Walk {
     /// The regions painted by a group, in px with y up. `place` comes after the group's own absolute transform (it is
     /// the identity but inside clips and masks, whose content has a coordinate system of its own).
     fn painted(&mut self, group: &Group, place: Transform) -> Result<Shapes, OutlineError> {
@@ -206,14 +193,14 @@ impl Reader {
         let mut clip = group.clip_path();
         while let Some(path) = clip.filter(|_| !shapes.is_empty()) {
             let to_page = place.pre_concat(group.abs_transform()).pre_concat(path.transform());
-            let window = self.aside(|reader| reader.painted(path.root(), to_page))?;
+            let window = self.aside(|walk| walk.painted(path.root(), to_page))?;
             shapes = regions::intersection(&regions::union(shapes)?, &regions::union(window)?);
             clip = path.clip_path();
         }
         let mut mask = group.mask();
         while let Some(cover) = mask.filter(|_| !shapes.is_empty()) {
             let to_page = place.pre_concat(group.abs_transform());
-            let window = self.aside(|reader| reader.shown(cover, to_page))?;
+            let window = self.aside(|walk| walk.shown(cover, to_page))?;
             shapes = regions::intersection(&regions::union(shapes)?, &window);
             mask = cover.mask();
         }
@@ -309,21 +296,20 @@ impl Reader {
         Ok(())
     }
 
-    fn describe(&self, notes: &mut Vec<String>, longer: f64, shapes: &Shapes) -> Result<(), OutlineError> {
+    fn describe(&self, notes: &mut Vec<Note>, longer: f64, shapes: &Shapes) -> Result<(), OutlineError> {
         if !self.texts.is_empty() {
-            let texts = self.texts.iter().take(3).map(|t| format!("\"{t}\"")).collect::<Vec<_>>().join(", ");
-            notes.push(format!("text ({texts}) is set in the bundled font Ubuntu Light"));
+            notes.push(Note::Text(self.texts.iter().take(3).cloned().collect()));
         }
         if self.pictures > 0 {
-            notes.push(format!("{} embedded picture(s) left out; only drawn shapes count", self.pictures));
+            notes.push(Note::EmbeddedPictures(self.pictures));
         }
         if self.filters > 0 {
-            notes.push("filter effects (shadows, blurs) left out".to_owned());
+            notes.push(Note::Filters);
         }
         let (low, high) = regions::bounding_box(shapes);
         let off = (-low[0]).max(high[0] - self.page[0]).max(high[1]).max(-low[1] - self.page[1]);
         if off > OFF_PAGE_FRACTION * longer {
-            notes.push("parts of the drawing lie off the page; they count".to_owned());
+            notes.push(Note::OffPage);
         }
         Ok(())
     }

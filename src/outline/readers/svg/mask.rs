@@ -1,13 +1,14 @@
 //! What a mask lets through.
 
-use super::{Reader, Shapes};
-use crate::outline::{OutlineError, regions};
+use super::Walk;
+use crate::outline::OutlineError;
+use crate::outline::regions::{self, Shapes};
 use usvg::{Group, Mask, MaskType, Node, Paint, Transform};
 
 /// Luminance times opacity below which nothing shows through: what an eye cannot tell from black.
 const DARK: f32 = 0.02;
 
-impl Reader {
+impl Walk {
     /// The area that a mask lets through at least in part: what it paints in anything but black, in painting order, since
     /// black on top closes again. A mask by opacity lets through all that it paints.
     pub(super) fn shown(&mut self, mask: &Mask, place: Transform) -> Result<Shapes, OutlineError> {

@@ -7,7 +7,7 @@
 
 use crate::outline::OutlineError;
 use std::collections::BTreeMap;
-use usvg::roxmltree::{Document, Node};
+use usvg::roxmltree::{self, Document, Node, ParsingOptions};
 
 /// Most elements that a drawing may stand for: reading so many takes some seconds and about a gigabyte.
 const MAX_ELEMENTS: u64 = 1_000_000;
@@ -29,10 +29,15 @@ pub(super) fn check(document: &Document) -> Result<(), OutlineError> {
     }
 }
 
+/// The elements of a file. Its own entities are resolved, within the bounds of the XML walk.
+pub(super) fn parse(text: &str) -> Result<Document<'_>, roxmltree::Error> {
+    Document::parse_with_options(text, ParsingOptions { allow_dtd: true, ..ParsingOptions::default() })
+}
+
 /// Whether an embedded drawing may be read; what is none is left to the reader.
 pub(super) fn fits(data: &[u8]) -> bool {
     let text = std::str::from_utf8(data).unwrap_or_default();
-    super::parse(text).map_or(true, |document| check(&document).is_ok())
+    parse(text).map_or(true, |document| check(&document).is_ok())
 }
 
 /// What the root stands for; `None` where its styles alone are too many.

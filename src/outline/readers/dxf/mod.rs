@@ -10,11 +10,15 @@
 mod chain;
 mod curves;
 mod entity;
+mod place;
 
-use super::{Import, OutlineError, Painting, Point, layers, regions};
+use super::finish::finish;
+use super::{OutlineReader, Painting, ReadingOption, layers};
+use crate::outline::{Import, Imported, Note, OutlineError, Point, regions};
 use curves::Curve;
 use entity::{Entity, Tags};
 use i_overlay::core::fill_rule::FillRule;
+use place::Place;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The layer that every drawing has; in a block it is that of the insertion.
@@ -28,29 +32,32 @@ const MAX_POINTS: usize = 2_000_000;
 /// Farthest that a polygon may lie from its curve, as a fraction of the drawing's size.
 const FLATTEN_FRACTION: f64 = 2e-5;
 
-/// An affine map, `[a, b, c, d, x, y]`: `(a p + c q + x, b p + d q + y)`.
-#[derive(Clone, Copy)]
-struct Place([f64; 6]);
+pub(super) struct Dxf;
 
-impl Place {
-    const IDENTITY: Self = Self([1.0, 0.0, 0.0, 1.0, 0.0, 0.0]);
-
-    fn at(&self, [p, q]: Point) -> Point {
-        let Self([a, b, c, d, x, y]) = self;
-        [a * p + c * q + x, b * p + d * q + y]
+impl OutlineReader for Dxf {
+    fn names(&self) -> [&'static str; 2] {
+        ["a DXF drawing", "DXF drawings"]
     }
 
-    /// First `inner`, then this.
-    fn after(&self, inner: &Self) -> Self {
-        let [x, y] = self.at([inner.0[4], inner.0[5]]);
-        let Self([a, b, c, d, ..]) = self;
-        let Self([e, f, g, h, ..]) = inner;
-        Self([a * e + c * f, b * e + d * f, a * g + c * h, b * g + d * h, x, y])
+    fn extensions(&self) -> &'static [&'static str] {
+        &["dxf"]
+    }
+
+    fn can_read(&self, head: &[u8]) -> bool {
+        is_dxf(head)
+    }
+
+    fn options(&self) -> &'static [ReadingOption] {
+        &[ReadingOption::Layers, ReadingOption::Unit]
+    }
+
+    fn read(&self, bytes: &[u8], import: &Import) -> Result<Imported, OutlineError> {
+        finish(painting(bytes, import)?, import)
     }
 }
 
 /// Whether the bytes look like a DXF drawing.
-pub(super) fn is_dxf(bytes: &[u8]) -> bool {
+fn is_dxf(bytes: &[u8]) -> bool {
     if bytes.starts_with(BINARY) {
         return true;
     }
@@ -69,7 +76,7 @@ pub(super) fn is_dxf(bytes: &[u8]) -> bool {
 
 const BINARY: &[u8] = b"AutoCAD Binary DXF";
 
-pub(super) fn painting(bytes: &[u8], import: &Import) -> Result<Painting, OutlineError> {
+fn painting(bytes: &[u8], import: &Import) -> Result<Painting, OutlineError> {
     let unreadable = |reason: &str| OutlineError::Unreadable { format: "DXF", reason: reason.into() };
     if bytes.starts_with(BINARY) {
         return Err(unreadable("binary DXF; save it as ASCII DXF"));
@@ -109,15 +116,15 @@ pub(super) fn painting(bytes: &[u8], import: &Import) -> Result<Painting, Outlin
     }
     let mut notes = Vec::new();
     if open > 0 {
-        notes.push(format!("{open} open line(s) left out; only closed outlines count"));
+        notes.push(Note::OpenLines(open));
     }
     for (kind, count) in skipped {
-        notes.push(format!("{count} {kind} left out"));
+        notes.push(Note::LeftOut { count, kind: kind.to_string() });
     }
     let unit_mm = match (import.unit_mm, file.unit_mm) {
         (Some(mm), _) | (None, Some(mm)) => mm,
         (None, None) => {
-            notes.push("the DXF states no unit; a plain number is taken for 1 mm (--unit sets another)".into());
+            notes.push(Note::NoUnit("the DXF"));
             1.0
         }
     };
@@ -350,7 +357,7 @@ mod tests {
         let expected = 5000.0 + pi * 625.0 - pi * 100.0;
         assert!((imported.outline.area() / expected - 1.0).abs() < 1e-3, "{}", imported.outline.area());
         assert_eq!(imported.outline.holes.len(), 1);
-        assert!(imported.changes.notes.iter().any(|n| n.contains("text")), "{:?}", imported.changes.notes);
+        assert!(imported.changes.notes.iter().any(|n| n.to_string().contains("text")), "{:?}", imported.changes.notes);
     }
 
     #[test]

@@ -9,11 +9,13 @@
 mod background;
 mod resolution;
 
-use super::regions::{self, Shapes};
-use super::simplify::simplify;
-use super::texture::{MAX_TEXTURE_PX, cut, fitted};
-use super::trace::Field;
-use super::{Import, OutlineError, Painting, Point, polygon};
+use super::finish::finish;
+use super::{OutlineReader, Painting, ReadingOption};
+use crate::outline::regions::{self, Shapes};
+use crate::outline::resample::{MAX_TEXTURE_PX, cut, fitted};
+use crate::outline::simplify::simplify;
+use crate::outline::trace::Field;
+use crate::outline::{Import, Imported, Note, OutlineError, Point, polygon};
 use i_overlay::core::fill_rule::FillRule;
 use image::{DynamicImage, ImageDecoder, ImageReader, Limits, RgbaImage};
 use std::io::Cursor;
@@ -41,7 +43,35 @@ const TOLERANCE_PX: f64 = 0.15;
 /// Levels of Otsu's histogram.
 const LEVELS: usize = 256;
 
-pub(super) fn painting(bytes: &[u8], import: &Import) -> Result<Painting, OutlineError> {
+pub(super) struct Picture;
+
+impl OutlineReader for Picture {
+    fn names(&self) -> [&'static str; 2] {
+        ["a picture", "pictures"]
+    }
+
+    fn extensions(&self) -> &'static [&'static str] {
+        &["png", "jpg", "jpeg"]
+    }
+
+    fn can_read(&self, head: &[u8]) -> bool {
+        head.starts_with(b"\x89PNG") || head.starts_with(b"\xff\xd8\xff")
+    }
+
+    fn options(&self) -> &'static [ReadingOption] {
+        &[ReadingOption::Unit, ReadingOption::Threshold]
+    }
+
+    fn read(&self, bytes: &[u8], import: &Import) -> Result<Imported, OutlineError> {
+        finish(painting(bytes, import)?, import)
+    }
+
+    fn texture(&self, bytes: &[u8], _import: &Import, drawn_box: [Point; 2]) -> Result<RgbaImage, OutlineError> {
+        texture(bytes, drawn_box)
+    }
+}
+
+fn painting(bytes: &[u8], import: &Import) -> Result<Painting, OutlineError> {
     let (picture, format) = decode(bytes, MAX_PIXELS)?.ok_or(TOO_MANY)?;
     let mut notes = Vec::new();
     let (field, factor) = field(picture, import.threshold, &mut notes)?;
@@ -60,7 +90,7 @@ pub(super) fn painting(bytes: &[u8], import: &Import) -> Result<Painting, Outlin
 }
 
 /// The part of the picture between the corners of a box (working pixels, y up).
-pub(super) fn texture(bytes: &[u8], [low, high]: [Point; 2]) -> Result<RgbaImage, OutlineError> {
+fn texture(bytes: &[u8], [low, high]: [Point; 2]) -> Result<RgbaImage, OutlineError> {
     let picture = decode(bytes, MAX_PIXELS)?.ok_or(TOO_MANY)?.0.into_rgba8();
     let scale = working_factor(picture.width() as usize, picture.height() as usize) as f64;
     let (low, high) = ([scale * low[0], -scale * high[1]], [scale * high[0], -scale * low[1]]);
@@ -69,7 +99,7 @@ pub(super) fn texture(bytes: &[u8], [low, high]: [Point; 2]) -> Result<RgbaImage
 }
 
 /// The whole picture of a texture, the right way up.
-pub(super) fn decoded(bytes: &[u8]) -> Result<RgbaImage, OutlineError> {
+pub(in crate::outline) fn decoded(bytes: &[u8]) -> Result<RgbaImage, OutlineError> {
     let too_many = OutlineError::TextureTooLarge { millions: MAX_TEXTURE_PIXELS / 1_000_000 };
     Ok(decode(bytes, MAX_TEXTURE_PIXELS)?.ok_or(too_many)?.0.into_rgba8())
 }
@@ -108,7 +138,7 @@ fn upright(bytes: &[u8], most: u64) -> image::ImageResult<Option<(DynamicImage, 
 fn field(
     picture: DynamicImage,
     threshold: Option<u8>,
-    notes: &mut Vec<String>,
+    notes: &mut Vec<Note>,
 ) -> Result<((Field, f64), usize), OutlineError> {
     let rgba = picture.into_rgba8();
     let (wide, high) = (rgba.width() as usize, rgba.height() as usize);
@@ -142,10 +172,7 @@ fn field(
         return Err(OutlineError::NothingPainted("the picture has one colour all over"));
     }
     let level = asked.unwrap_or_else(|| otsu(&values, f64::from(most)).max(0.5 * LEAST_CONTRAST));
-    notes.push(format!(
-        "ink is what differs from the background by more than {:.0} of 255 (--threshold sets another value)",
-        255.0 * level
-    ));
+    notes.push(Note::Ink(255.0 * level));
     Ok(((Field { width, height, values }, level), factor))
 }
 
@@ -179,7 +206,7 @@ fn otsu(values: &[f32], most: f64) -> f64 {
 }
 
 /// The regions at or above the level, without noise.
-fn traced(field: &Field, level: f64, notes: &mut Vec<String>) -> Result<Shapes, OutlineError> {
+fn traced(field: &Field, level: f64, notes: &mut Vec<Note>) -> Result<Shapes, OutlineError> {
     let contours = field.contours(level);
     let areas: Vec<f64> = contours.iter().map(|ring| polygon::signed_area(ring).abs()).collect();
     let least = NOISE_PX2.max(NOISE_FRACTION * areas.iter().copied().fold(0.0, f64::max));
@@ -195,7 +222,7 @@ fn traced(field: &Field, level: f64, notes: &mut Vec<String>) -> Result<Shapes, 
         return Err(OutlineError::NothingPainted("the picture has no area that differs from its background"));
     }
     if noise > 0 {
-        notes.push(format!("{noise} speck(s) of the picture, each under {least:.0} pixels, left out"));
+        notes.push(Note::Specks { count: noise, pixels: least });
     }
     regions::resolve(&kept, FillRule::EvenOdd)
 }
