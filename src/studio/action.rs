@@ -1,20 +1,20 @@
 //! What panels and viewports ask for. They borrow the session, read only, and return these; the session alone acts.
 
+use super::canvas::{Camera, Hit};
 use super::change::Change;
 use super::commands::Command;
 use super::files::{ImportChoice, PathDialog};
 use super::meshing::Resolution;
 use super::session::{Overlay, Renamed, Selection};
 use super::sketching::Sketch;
-use super::viewport::camera::Camera;
-use super::viewport::hit::Hit;
 use crate::discovery::Parameters;
 use crate::engine::Quality;
-use crate::mesh::BodyPoint;
 use crate::outline::Point;
 use crate::picture::Stage;
-use eframe::egui::Vec2;
 use std::path::PathBuf;
+
+/// Wanted, in the order in which it was asked for.
+pub type Actions = Vec<Action>;
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Action {
@@ -28,23 +28,12 @@ pub enum Action {
     Overlay(Option<Overlay>),
     /// A name that is being typed.
     Typed(Option<(Renamed, String)>),
-    /// Begins to drag; `pointer` is where, mm.
-    Grab {
-        what: Grab,
-        pointer: Point,
-    },
-    DragTo(Point),
-    Release,
+    /// Moves the target that is selected, mm; part of a gesture.
+    DragTarget(Point),
     SelectPose(Option<usize>),
     Select(Selection),
     SetQuality(Quality),
     SetCamera(Camera),
-    /// Moves the picture, unless the drag moves a target and not `always`.
-    Pan {
-        from: Camera,
-        delta: Vec2,
-        always: bool,
-    },
     Scrub(f64),
     SetParameters(Parameters),
     SetResolution(Resolution),
@@ -54,14 +43,6 @@ pub enum Action {
     Sketch(Sketch),
     File(FileAction),
     DismissMessage(u64),
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Grab {
-    /// A target of the current pose.
-    Target(usize),
-    /// A point of the body, and where it is in that view: becomes a new target.
-    Body(BodyPoint, Point),
 }
 
 #[derive(Clone, Debug, PartialEq)]

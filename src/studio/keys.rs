@@ -10,7 +10,7 @@ pub fn collect(ctx: &Context, session: &Session, actions: &mut Vec<Action>) {
     for file in ctx.input(|i| i.raw.dropped_files.clone()) {
         actions.push(Action::File(FileAction::Dropped(file.path().to_path_buf())));
     }
-    if session.files.dialog.is_some() || session.overlay.is_some() {
+    if session.is_covered() {
         return;
     }
     let typing = ctx.text_edit_focused();
@@ -20,7 +20,7 @@ pub fn collect(ctx: &Context, session: &Session, actions: &mut Vec<Action>) {
         // A focused button is pressed by them.
         Key::Space | Key::Enter => !focused,
         // An open menu or list is closed by it instead.
-        Key::Escape => !popup && !typing && !session.sketching().open,
+        Key::Escape => !popup && !typing,
         _ => !typing || command.while_typing,
     };
     ctx.input_mut(|input| {

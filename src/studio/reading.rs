@@ -1,8 +1,8 @@
 //! What panels, viewports and tests may read of the session.
 
+use super::canvas::Hit;
 use super::messages::Messages;
 use super::session::{Discovery, Look, Mode, Overlay, Playback, Renamed, Selection, Session, Shapes};
-use super::viewport::hit::Hit;
 use crate::design::history::History;
 use crate::design::{Design, Target};
 use crate::engine::{Quality, Request};
@@ -22,6 +22,16 @@ impl Session {
     /// The current pose; `None` is the rest shape.
     pub fn pose(&self) -> Option<usize> {
         self.pose
+    }
+
+    /// Whether a dialog, the palette or a page stands over the window.
+    pub fn is_covered(&self) -> bool {
+        self.files.dialog.is_some() || self.overlay.is_some()
+    }
+
+    /// Whether a tool is the one for its canvas.
+    pub fn has_taken(&self, id: &str) -> bool {
+        self.tools.contains(&id)
     }
 
     /// What stands over the window.
@@ -85,8 +95,9 @@ impl Session {
         }
     }
 
+    /// Whether a hand is in the middle of a change.
     pub fn is_dragging(&self) -> bool {
-        self.drag.is_some()
+        self.history.in_gesture()
     }
 
     /// Whether the shapes answer the newest question; while the outline is drawn none is asked.

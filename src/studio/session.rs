@@ -1,6 +1,7 @@
 //! The state of the window, and everything that changes it.
 
 use super::action::{Action, FileAction};
+use super::canvas::{Camera, Plushie};
 use super::change::{Change, Made};
 use super::files::Files;
 use super::jobs::{Jobs, Report, Wake};
@@ -10,8 +11,6 @@ use super::messages::Messages;
 use super::safety::Safety;
 use super::sketching::{Sketch, Sketching};
 use super::texturing::Texturing;
-use super::viewport::Plushie;
-use super::viewport::camera::Camera;
 use crate::design::history::History;
 use crate::design::{Design, Target, edit};
 use crate::discovery::Parameters;
@@ -26,13 +25,6 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
-
-/// What a press on the body does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Tool {
-    Drag,
-    Pin,
-}
 
 /// What is picked out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -140,14 +132,6 @@ pub struct Shapes {
     pub realizable: Option<Arc<Shape>>,
 }
 
-/// A target in hand.
-pub(super) struct Drag {
-    pub(super) pose: usize,
-    pub(super) target: usize,
-    /// From the pointer to the goal, mm.
-    pub(super) offset: Point,
-}
-
 /// Makes proposals for a design and the targets of a pose.
 pub type Propose = Arc<dyn Fn(&Design, &[Target], &Parameters, &AtomicBool) -> Vec<Proposal> + Send + Sync>;
 /// Writes the blueprint of a design into a folder.
@@ -170,7 +154,8 @@ pub struct Session {
     pub(super) texturing: Texturing,
     pub(super) pose: Option<usize>,
     pub(super) selection: Selection,
-    pub(super) tool: Tool,
+    /// By their names, of the views and of the sheet.
+    pub(super) tools: [&'static str; 2],
     pub(super) overlay: Option<Overlay>,
     /// A name that is being typed.
     pub(super) renaming: Option<(Renamed, String)>,
@@ -191,7 +176,6 @@ pub struct Session {
     pub(super) jobs: Jobs,
     pub(super) services: Services,
     pub(super) worker: Worker,
-    pub(super) drag: Option<Drag>,
     /// Of the solver, last.
     pub(super) asked: Option<Request>,
     /// Outcomes before this one belong to another document.
@@ -214,7 +198,7 @@ impl Session {
             kept: None,
             texturing: Texturing::default(),
             selection: Selection::Nothing,
-            tool: Tool::Drag,
+            tools: [""; 2],
             overlay: None,
             renaming: None,
             mode: Mode::Pose,
@@ -239,7 +223,6 @@ impl Session {
             jobs: Jobs::new(wake),
             services,
             worker: Worker::spawn(Box::new(move || on_outcome())),
-            drag: None,
             asked: None,
             first_id: 0,
             answered_id: None,
@@ -270,7 +253,6 @@ impl Session {
         self.discovery.proposals.clear();
         self.discovery.shown = None;
         self.shapes = Shapes::default();
-        self.drag = None;
         self.key_wanted = false;
         self.warning = None;
         self.first_id = self.asked.as_ref().map_or(0, |asked| asked.id + 1);
@@ -287,20 +269,13 @@ impl Session {
             },
             Action::Overlay(overlay) => self.overlay = overlay,
             Action::Typed(renaming) => self.renaming = renaming,
-            Action::Grab { what, pointer } => self.grab(what, pointer),
-            Action::DragTo(pointer) => self.drag_to(pointer),
-            Action::Release => self.release(),
+            Action::DragTarget(to) => self.drag_target(to),
             Action::SelectPose(pose) => self.select_pose(pose),
             Action::Select(selection) => self.selection = selection,
             Action::SetQuality(quality) => self.quality = quality,
             Action::SetCamera(camera) => {
                 self.look.camera = Some(camera);
                 self.look.zoom = None;
-            }
-            Action::Pan { from, delta, always } => {
-                if always || self.drag.is_none() {
-                    self.look.camera = Some(from.panned(delta));
-                }
             }
             Action::Scrub(time_s) => self.scrub(time_s),
             Action::SetParameters(parameters) => self.discovery.parameters = parameters,
@@ -361,6 +336,18 @@ impl Session {
         }
     }
 
+    /// Goes on with the gesture that made the target, or begins one that moves it.
+    fn drag_target(&mut self, to: Point) {
+        let (Selection::Target(index), Some(pose)) = (self.selection, self.pose) else { return };
+        let change = Change::MoveTarget { pose, index, to };
+        if !self.history.in_gesture() {
+            return self.live(change);
+        }
+        if let Err(error) = self.history.preview(|design| change.apply(design)) {
+            self.messages.error(error.to_string());
+        }
+    }
+
     pub(super) fn pick_out(&mut self, made: Made) {
         match made {
             Made::Nothing => {}
@@ -412,7 +399,6 @@ impl Session {
     }
 
     fn travel(&mut self, done: &str, step: impl FnOnce(&mut History) -> Option<String>) {
-        self.drag = None;
         if let Some(label) = step(&mut self.history) {
             self.messages.info(format!("{done}: {label}"));
         }
@@ -462,10 +448,10 @@ impl Session {
     }
 
     pub(super) fn escape(&mut self) {
-        if self.discovery.running.is_some() && self.drag.is_none() && !self.sketching.open {
+        if self.discovery.running.is_some() && !self.history.in_gesture() && !self.sketching.open {
             return self.cancel_propose();
         }
-        if self.drag.take().is_some() || self.history.in_gesture() {
+        if self.history.in_gesture() {
             self.history.cancel();
         } else if self.files.dialog.is_some() {
             self.file(FileAction::CloseDialog);

@@ -11,9 +11,10 @@ use plushwright::outline::{Outline, polygon};
 use plushwright::picture::palette::Theme;
 use plushwright::rigging::Proposal;
 use plushwright::studio::app::Studio;
+use plushwright::studio::commands::command::Scope;
 use plushwright::studio::messages::Level;
 use plushwright::studio::session::{Selection, Services, Session, Views};
-use plushwright::studio::sketching::Pencil;
+use plushwright::studio::tools::taken;
 use plushwright::studio::viewport::Plushie;
 use plushwright::studio::viewport::camera::Camera;
 use std::sync::Arc;
@@ -798,7 +799,7 @@ fn a_polygon_that_is_not_closed_is_kept() {
         _ => 0,
     };
     assert_eq!((parts(&window).len(), corners(&parts(&window)[1])), (2, 3));
-    assert_eq!(session(&window).sketching().pencil, Pencil::Circle);
+    assert_eq!(taken(session(&window), Scope::Outline).id, "tool.circle");
     press(&mut window, Modifiers::COMMAND, Key::Z);
     assert_eq!(*session(&window).design(), before);
     click(&mut window, "Polygon");

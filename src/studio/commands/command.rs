@@ -1,8 +1,8 @@
 //! A command: all that the window says of it and does with it, in one place.
 
+use crate::studio::canvas::Hit;
 use crate::studio::icons::Icon;
 use crate::studio::session::Session;
-use crate::studio::viewport::hit::Hit;
 use eframe::egui::{Key, Modifiers};
 use std::fmt;
 

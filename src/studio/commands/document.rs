@@ -2,10 +2,10 @@
 
 use super::command::{Command, Group, Keys, Place, Scope};
 use crate::mesh::BodyPoint;
+use crate::studio::canvas::Hit;
 use crate::studio::change::Change;
 use crate::studio::icons::Icon;
 use crate::studio::session::{Selection, Session};
-use crate::studio::viewport::hit::Hit;
 use eframe::egui::Key;
 
 pub static ALL: [&Command; 14] = [

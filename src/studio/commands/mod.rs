@@ -21,7 +21,7 @@ pub static ALL: LazyLock<Vec<(&str, Vec<&Command>)>> = LazyLock::new(|| {
     vec![
         ("Files", files::ALL.to_vec()),
         ("Document", document::ALL.to_vec()),
-        ("Tools", tools::ALL.to_vec()),
+        ("Tools", tools::ALL.iter().collect()),
         ("View", view::ALL.to_vec()),
         ("Layers", layers::ALL.iter().collect()),
         ("Networks", discovery::ALL.to_vec()),

@@ -2,8 +2,8 @@
 
 use super::command::{Command, Group, Keys, Place, Scope};
 use crate::picture::palette::Theme;
+use crate::studio::canvas::Plushie;
 use crate::studio::icons::Icon;
-use crate::studio::viewport::Plushie;
 use eframe::egui::Key;
 
 pub static ALL: [&Command; 7] = [&FIT, &ZOOM_IN, &ZOOM_OUT, &IDEALIZED, &REALIZABLE, &QUALITY, &THEME];

@@ -2,11 +2,11 @@
 
 use super::Actions;
 use crate::studio::action::Action;
+use crate::studio::canvas::Hit;
 use crate::studio::commands::Command;
 use crate::studio::icons;
 use crate::studio::session::Session;
 use crate::studio::style;
-use crate::studio::viewport::hit::Hit;
 use eframe::egui::{Button, Response, RichText, Ui};
 
 /// Side of an icon in lists and headings, logical pixels.

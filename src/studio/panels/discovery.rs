@@ -4,11 +4,11 @@ use super::{Actions, State, buttons, heading};
 use crate::picture::Stage;
 use crate::rigging::Proposal;
 use crate::studio::action::Action;
+use crate::studio::canvas::Hit;
 use crate::studio::commands::discovery::{ACCEPT, CANCEL, PROPOSE, REJECT};
 use crate::studio::commands::document::ESCAPE;
 use crate::studio::session::Session;
 use crate::studio::style;
-use crate::studio::viewport::hit::Hit;
 use eframe::egui::{
     Align2, Button, CollapsingHeader, DragValue, FontId, Grid, ProgressBar, Rect, Response, RichText, Role, ScrollArea,
     Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2,

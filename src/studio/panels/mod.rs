@@ -17,6 +17,7 @@ pub mod timeline;
 pub mod toolbar;
 
 use super::action::Action;
+pub use super::action::Actions;
 use super::commands::document::CANCEL_MESHING;
 use super::session::Session;
 use super::style;
@@ -95,6 +96,3 @@ pub fn name_field(ui: &mut Ui, session: &Session, label: &str, actions: &mut Act
     }
     None
 }
-
-/// Wanted, in the order in which it was asked for.
-pub type Actions = Vec<Action>;

@@ -3,12 +3,12 @@
 use super::{Actions, heading, name_field};
 use crate::picture::palette::Palette;
 use crate::studio::action::Action;
+use crate::studio::canvas::Plushie;
 use crate::studio::change::Change;
 use crate::studio::commands::document::DELETE;
 use crate::studio::icons::{self, Icon};
 use crate::studio::session::{Renamed, Selection, Session};
 use crate::studio::style;
-use crate::studio::viewport::Plushie;
 use eframe::egui::{Align, Button, Layout, RichText, Sense, Ui, vec2};
 
 pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {

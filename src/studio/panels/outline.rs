@@ -5,13 +5,13 @@ use crate::mesh::MAX_FIBERS;
 use crate::outline::Point;
 use crate::outline::drawing::{Item, Part, Primitive, track};
 use crate::studio::action::Action;
+use crate::studio::canvas;
 use crate::studio::change::Change;
 use crate::studio::commands;
 use crate::studio::commands::command::Scope;
 use crate::studio::commands::outline::{CLOSE, CORNER, CUT, DELETE, MAKE_BODY, TRACE};
 use crate::studio::icons::{self, Icon};
 use crate::studio::meshing::Resolution;
-use crate::studio::paper;
 use crate::studio::session::Session;
 use crate::studio::sketching::Sketch;
 use eframe::egui::{Align, DragValue, Grid, Layout, RichText, ScrollArea, Ui};
@@ -19,7 +19,7 @@ use eframe::egui::{Align, DragValue, Grid, Layout, RichText, ScrollArea, Ui};
 /// Least radius, mm.
 const LEAST_MM: f64 = 0.5;
 
-pub fn show(ui: &mut Ui, session: &Session, state: &mut paper::State, actions: &mut Actions) {
+pub fn show(ui: &mut Ui, session: &Session, state: &mut canvas::State, actions: &mut Actions) {
     let sketching = session.sketching();
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 1.0;
@@ -158,7 +158,7 @@ fn numbers_of_part(ui: &mut Ui, part: &mut Part, point: Option<usize>) {
     ui.checkbox(&mut part.cut, "Cut out").on_hover_text(tip);
 }
 
-fn body(ui: &mut Ui, session: &Session, state: &mut paper::State, actions: &mut Actions) {
+fn body(ui: &mut Ui, session: &Session, state: &mut canvas::State, actions: &mut Actions) {
     let surface = state.surface(session.drawing());
     let [wide_mm, high_mm] = surface.size;
     let trouble = match (surface.pieces, &surface.trouble) {

@@ -131,6 +131,7 @@ fn rank(session: &Session, command: &Command, words: &str) -> Option<u8> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::studio::canvas::Hit;
     use crate::studio::{blank, services};
     use std::sync::Arc;
 
@@ -144,8 +145,7 @@ mod tests {
         let mut found = vec![commands::files::PALETTE.id];
         for open in [false, true] {
             if open {
-                let selected = session.selected();
-                (commands::outline::EDIT.run)(&mut session, selected);
+                (commands::outline::EDIT.run)(&mut session, Hit::Nothing);
             }
             for command in commands::all().filter(|c| c.applies(&session) && c.id != commands::files::PALETTE.id) {
                 let first = matches(&session, command.label(&session));

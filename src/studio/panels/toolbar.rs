@@ -4,9 +4,9 @@ use super::{Actions, buttons, quality};
 use crate::design::bundled;
 use crate::files;
 use crate::studio::action::{Action, FileAction};
+use crate::studio::canvas::Hit;
 use crate::studio::commands::{self, Group, Place};
 use crate::studio::session::Session;
-use crate::studio::viewport::hit::Hit;
 use eframe::egui::{Align, Layout, RichText, Ui, menu};
 use std::path::Path;
 
