@@ -1,6 +1,5 @@
 //! How to read an outline.
 
-use super::error::OutlineError;
 use std::ops::RangeInclusive;
 
 /// Largest file that is read, bytes. Reading the largest SVG takes about a gigabyte of memory and some seconds.
@@ -52,23 +51,4 @@ pub struct Import {
     /// Names of the layers that count, empty for all. SVG: the `id` or Inkscape label of groups and elements at any depth.
     /// DXF: the layers of the entities.
     pub layers: Vec<String>,
-}
-
-impl Import {
-    pub(super) fn check(&self) -> Result<(), OutlineError> {
-        if let Some(height) = self.height_mm.filter(|h| !SIZES_MM.contains(h)) {
-            return Err(OutlineError::Height(height));
-        }
-        let lengths = [
-            ("the smoothing tolerance", Some(self.smooth_mm)),
-            ("the least width", self.min_width_mm),
-            ("the unit", self.unit_mm),
-        ];
-        for (what, value) in lengths {
-            if let Some(value) = value.filter(|v| !(v.is_finite() && *v >= 0.0)) {
-                return Err(OutlineError::Length { what, value });
-            }
-        }
-        Ok(())
-    }
 }

@@ -1,22 +1,12 @@
 //! What a `plushwright-problem/1` file holds.
 
-use super::checks::finite;
+use super::error::{ProblemError, content, finite};
 pub use super::material::MaterialData;
 use crate::physics::{Setting, TermKind};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Display;
 
 pub const FORMAT: &str = "plushwright-problem/1";
-
-/// What is wrong with a problem file: one line that names the key and the offending index.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum ProblemError {
-    #[error("malformed JSON: {0}")]
-    Json(String),
-    #[error("{key}: {what}")]
-    Content { key: String, what: String },
-}
 
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct Problem {
@@ -112,10 +102,6 @@ pub struct DragData {
     pub report: Vec<usize>,
     #[serde(default)]
     pub tension_regulariser: f64,
-}
-
-pub(super) fn content(key: impl Display, what: impl Into<String>) -> ProblemError {
-    ProblemError::Content { key: key.to_string(), what: what.into() }
 }
 
 impl Problem {

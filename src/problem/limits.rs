@@ -4,7 +4,8 @@
 //! Sizes and moduli may be nearly anything, since a problem is solved in the frame of its own body ([`super::frame`]). What counts
 //! is how far the figures of one problem lie apart.
 
-use super::file::{Problem, ProblemError};
+use super::error::ProblemError;
+use super::file::Problem;
 use super::frame::box_of;
 use crate::physics::catalogue::Dimension;
 use std::fmt::Arguments;

@@ -3,9 +3,9 @@
 //! A file of 10 000 fibres is 2 MB of numbers; a tree of JSON values in between would take longer than solving it. Only a file that cannot be
 //! read so is taken apart as a tree, to say where it is wrong.
 
+use super::error::{ProblemError, content};
 use super::file::{
-    DragData, ElementData, FORMAT, MaterialData, MeshData, ObjectiveData, PinData, Problem, ProblemError, SoftIkData,
-    TargetData, content,
+    DragData, ElementData, FORMAT, MaterialData, MeshData, ObjectiveData, PinData, Problem, SoftIkData, TargetData,
 };
 use crate::physics::{Setting, TermKind};
 use serde::de::{Error, IgnoredAny, MapAccess, Visitor};

@@ -16,6 +16,8 @@
 pub mod activation;
 mod candidate;
 pub mod criteria;
+pub mod criterion;
+pub mod generator;
 pub mod generators;
 mod options;
 mod polish;

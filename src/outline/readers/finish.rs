@@ -27,3 +27,23 @@ pub(super) fn warned(mut imported: Imported, import: &Import) -> Imported {
     }
     imported
 }
+
+impl Import {
+    /// Refuses lengths that are none, and heights that no plushie has.
+    pub(in crate::outline) fn check(&self) -> Result<(), OutlineError> {
+        if let Some(height) = self.height_mm.filter(|h| !SIZES_MM.contains(h)) {
+            return Err(OutlineError::Height(height));
+        }
+        let lengths = [
+            ("the smoothing tolerance", Some(self.smooth_mm)),
+            ("the least width", self.min_width_mm),
+            ("the unit", self.unit_mm),
+        ];
+        for (what, value) in lengths {
+            if let Some(value) = value.filter(|v| !(v.is_finite() && *v >= 0.0)) {
+                return Err(OutlineError::Length { what, value });
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,7 +1,8 @@
 //! Networks of Algorithm 2 with its parameters varied, as found and with their paths refined.
 
-use super::{Candidate, Generator, Given};
 use crate::discovery::refine;
+use crate::rigging::Candidate;
+use crate::rigging::generator::{Generator, Given};
 
 /// A dropped via point may lie this far from the straightened tendon, as a part of the mean edge length.
 const STRAIGHTENING: f64 = 0.15;
