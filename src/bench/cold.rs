@@ -84,8 +84,8 @@ impl Cold {
         let median = Summary::of(needed.iter().copied()).median;
         let remarks = vec![format!(
             "Within 40 factorisations {good} of {drags} drags are within 1 %; the worst misses {}. Median to 1 %: {}.",
-            super::report::significant(worst),
-            super::report::significant(median)
+            super::figures::significant(worst),
+            super::figures::significant(median)
         )];
         let plot = Plot {
             name: "cold".into(),

@@ -254,7 +254,7 @@ impl Linear {
                     }
                 }
                 if let Some((time, label)) = best {
-                    let time = super::report::significant(time);
+                    let time = super::figures::significant(time);
                     remarks.push(format!("{name}, {} fibres: fastest is {label}, {time} ms", subject.fibers()));
                 }
             }

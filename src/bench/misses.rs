@@ -6,9 +6,9 @@
 //! best of all that many starts lead to, the paper's gradient method among them.
 
 use super::drags::{places_on, points, positions, towards};
+use super::figures::significant;
 use super::posing::{at_rest, free_fibers, optimum};
 use super::random::Random;
-use super::report::significant;
 use super::shapes::{Field, Subject, design, names};
 use super::statistics::{Summary, wilson};
 use super::{BenchError, Cell, Quality, Report, Session, Table, Tracker, silhouettes};

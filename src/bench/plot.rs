@@ -150,7 +150,7 @@ impl Plot {
 
 /// A number beside an axis: three digits without idle zeros.
 fn tick(value: f64) -> String {
-    let text = super::report::significant(value);
+    let text = super::figures::significant(value);
     match text.contains('.') && !text.contains('e') {
         true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
         false => text,

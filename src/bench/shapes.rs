@@ -37,9 +37,15 @@ pub fn original(name: &str) -> Result<Design, BenchError> {
         return silhouettes::design(family, defaults::FIBERS, &mut Random::of(number, family, 0));
     }
     let found = bundled::ALL.iter().find(|b| b.name.to_lowercase() == name.to_lowercase());
-    let found = found.ok_or_else(|| BenchError::NoSuchShape(name.to_owned()))?;
+    let found = found.ok_or_else(|| no_such(name))?;
     // A test reads every bundled design; what it cannot read is not there.
-    found.design().map_err(|_| BenchError::NoSuchShape(name.to_owned()))
+    found.design().map_err(|_| no_such(name))
+}
+
+/// The refusal of a name, with all that there are.
+fn no_such(name: &str) -> BenchError {
+    let made = silhouettes::FAMILIES.map(str::to_owned).to_vec();
+    BenchError::NoSuchShape { name: name.to_owned(), known: names(), made }
 }
 
 /// Family and number of a shape that is made from the seed.

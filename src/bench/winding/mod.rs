@@ -9,7 +9,7 @@
 pub mod rigs;
 
 use self::rigs::{Rig, rig};
-use super::report::significant;
+use super::figures::significant;
 use super::statistics::Summary;
 use super::{BenchError, Cell, Report, Session, Table};
 use crate::design::Target;
