@@ -40,6 +40,10 @@ pub struct Cold {
 type Course = Vec<(usize, f64)>;
 
 impl Cold {
+    /// Runs the study.
+    ///
+    /// # Errors
+    /// A shape that cannot be meshed, or the study was cancelled.
     pub fn run(&self, session: &Session) -> Result<Report, BenchError> {
         let mut headings = vec!["shape", "fibres", "targets", "draw", "O rest", "O best"];
         let marks = MARKS.map(|k| format!("after {k}"));

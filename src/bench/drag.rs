@@ -54,6 +54,10 @@ struct Measured {
 }
 
 impl Drag {
+    /// Runs the study.
+    ///
+    /// # Errors
+    /// A shape that cannot be meshed, or the study was cancelled.
     pub fn run(&self, session: &Session) -> Result<Report, BenchError> {
         let key = ["shape", "fibres", "targets", "path"];
         let time = [

@@ -61,6 +61,10 @@ struct Scene {
 }
 
 impl Misses {
+    /// Runs the study.
+    ///
+    /// # Errors
+    /// A shape that cannot be meshed, or the study was cancelled.
     pub fn run(&self, session: &Session) -> Result<Report, BenchError> {
         let mut scenes = Vec::new();
         for number in self.first..self.first + self.scenes {

@@ -56,6 +56,9 @@ impl Series {
 
 impl Plot {
     /// The plot as an SVG document.
+    ///
+    /// # Errors
+    /// [`BenchError::Plot`] with what the plotting library says.
     pub fn svg(&self) -> Result<String, BenchError> {
         let x = self.range(self.log_x, |p| p.0);
         let y = self.range(self.log_y, |p| p.1);

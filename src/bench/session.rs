@@ -41,12 +41,19 @@ pub enum BenchError {
 
 impl Session<'_> {
     /// Says what comes next, or ends the study.
+    ///
+    /// # Errors
+    /// [`BenchError::Cancelled`].
     pub fn next(&self, what: &str) -> Result<(), BenchError> {
         self.check()?;
         (self.progress)(what);
         Ok(())
     }
 
+    /// Ends the study if that was asked for.
+    ///
+    /// # Errors
+    /// [`BenchError::Cancelled`].
     pub fn check(&self) -> Result<(), BenchError> {
         if (self.stop)() { Err(BenchError::Cancelled) } else { Ok(()) }
     }

@@ -32,6 +32,9 @@ pub fn names() -> Vec<String> {
 }
 
 /// The bundled design as it is, networks and poses included; or the one that is made from the number in a name such as `hand-3`.
+///
+/// # Errors
+/// A name that is no shape.
 pub fn original(name: &str) -> Result<Design, BenchError> {
     if let Some((family, number)) = seeded(name) {
         return silhouettes::design(family, defaults::FIBERS, &mut Random::of(number, family, 0));
@@ -57,6 +60,9 @@ fn seeded(name: &str) -> Option<(&'static str, u64)> {
 
 /// The bundled design with about `fibers` fibres, its pins and the targets of its poses carried over by their rest positions.
 /// Networks stay behind: their routings mean other nodes.
+///
+/// # Errors
+/// A name that is no shape, or no mesh with so many fibres.
 pub fn design(name: &str, fibers: usize) -> Result<Design, BenchError> {
     let old = original(name)?;
     let mesh = meshed(name, &old, fibers)?;
@@ -93,6 +99,9 @@ pub fn carry(old: &Mesh, at: &BodyPoint, new: &Mesh) -> Option<BodyPoint> {
 
 impl Subject {
     /// Compiles a design, as the idealized plushie.
+    ///
+    /// # Errors
+    /// A design that does not compile.
     pub fn of(name: &str, design: Design) -> Result<Self, BenchError> {
         let fail = |source| BenchError::Model { shape: name.to_owned(), source };
         let plushie = compile(&design, View::Idealized).map_err(fail)?;
@@ -100,6 +109,9 @@ impl Subject {
     }
 
     /// A bundled shape at a number of fibres.
+    ///
+    /// # Errors
+    /// A name that is no shape, no mesh with so many fibres, or a design that does not compile.
     pub fn new(name: &str, fibers: usize) -> Result<Self, BenchError> {
         Self::of(name, design(name, fibers)?)
     }
@@ -128,6 +140,9 @@ impl Subject {
     }
 
     /// The equilibrium at these contractions, statics started from `from`; it leaves the model's laws so.
+    ///
+    /// # Errors
+    /// No equilibrium.
     pub fn settle(
         &mut self,
         contractions: &[f64],

@@ -57,6 +57,10 @@ struct Course {
 }
 
 impl Wander {
+    /// Runs the study.
+    ///
+    /// # Errors
+    /// A shape that cannot be meshed, or the study was cancelled.
     pub fn run(&self, session: &Session) -> Result<Report, BenchError> {
         let headings = [
             "shape",

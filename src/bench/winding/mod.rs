@@ -58,6 +58,10 @@ struct Scan {
 }
 
 impl Winding {
+    /// Runs the study.
+    ///
+    /// # Errors
+    /// A shape that cannot be meshed, or the study was cancelled.
     pub fn run(&self, session: &Session) -> Result<Report, BenchError> {
         let headings = [
             "rig",
