@@ -19,6 +19,7 @@
 //! | [`engine`] | compiles a design into a physics model, poses both plushies, worker thread, rigging |
 //! | [`fabrication`] | patterns, routings, winch tracks, controller programs |
 //! | [`picture`] | a neutral drawing of both plushies, rasterised without a graphics adapter |
+//! | [`operations`] | every use case once: new, remesh, reshape, pose, propose, rig, key, check, export, render |
 //! | [`bench`] | whole studies of the solvers, repeatable from a seed |
 //! | [`commands`] | the headless commands |
 //! | `studio` | the window (feature `studio`) |
@@ -52,6 +53,7 @@ pub mod engine;
 pub mod fabrication;
 pub mod files;
 pub mod mesh;
+pub mod operations;
 pub mod outline;
 pub mod physics;
 pub mod picture;

@@ -1,15 +1,14 @@
 //! `rig`: the design loop over all poses, without a window.
 
+use super::document;
 use super::error::CommandError;
 use super::output::say;
-use super::{document, key};
-use crate::defaults;
-use crate::design::{Design, Easing};
-use crate::engine::rig::{RigError, RigOptions, TendonChoice, rig};
 use crate::files::shown;
+use crate::operations::Context;
+use crate::operations::rig::{self, Error, Options, TendonChoice};
 use clap::Args;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
 /// Find winches and tendons for all poses: solve, discover, try out, accept
@@ -44,8 +43,8 @@ pub struct Rig {
 
 impl Rig {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
-        let (design, edit) = self.target.open(&self.design, cancel)?;
-        let options = RigOptions {
+        let (mut design, edit) = self.target.open(&self.design, cancel)?;
+        let options = Options {
             max_winches: usize::from(self.max_winches),
             tendons: self.tendons.clone(),
             seed_num: self.seed_num,
@@ -54,56 +53,28 @@ impl Rig {
             phi: self.phi,
         };
         let mut printed = Ok(());
-        let rigged = rigged(
-            &design,
-            &options,
-            &mut |line| {
-                if printed.is_ok() {
-                    printed = say(out, line);
-                }
-            },
-            cancel,
-        )
-        .map_err(|e| match e {
-            CommandError::Usage(reason) => CommandError::input(&self.design, reason),
-            other => other,
-        })?;
+        let mut progress = |line: &str| {
+            if printed.is_ok() {
+                printed = say(out, line);
+            }
+        };
+        let mut context = Context::telling(cancel, &mut progress);
+        rig::run(&mut design, &options, &mut context).map_err(|error| failed(&self.design, error))?;
         printed?;
-        edit.save(&rigged, cancel)?;
-        let tendons: usize = rigged.networks.iter().map(|n| n.tendons.len()).sum();
-        say(out, &format!("{}: {} winches, {tendons} tendons", shown(&self.target.output), rigged.networks.len()))
+        edit.save(&design, cancel)?;
+        let tendons: usize = design.networks.iter().map(|n| n.tendons.len()).sum();
+        say(out, &format!("{}: {} winches, {tendons} tendons", shown(&self.target.output), design.networks.len()))
     }
 }
 
-/// The design with networks for its poses, and its poses on the timeline if nothing is there yet.
-pub fn rigged(
-    design: &Design,
-    options: &RigOptions,
-    progress: &mut dyn FnMut(&str),
-    cancel: &AtomicBool,
-) -> Result<Design, CommandError> {
-    let mut rigged = rig(design, options, progress, cancel).map_err(|e| match e {
-        RigError::NoTargets => CommandError::Usage(e.to_string()),
-        RigError::NothingFound => CommandError::NotConverged(e.to_string()),
-        RigError::Cancelled => CommandError::Cancelled,
-    })?;
-    if rigged.keyframes.is_empty() {
-        lay_out(&mut rigged, cancel)?;
+/// Why there is no rig for a design that was read from `path`.
+pub fn failed(path: &Path, error: Error) -> CommandError {
+    match error {
+        Error::NoTargets => CommandError::input(path, error),
+        Error::NothingFound => CommandError::NotConverged(error.to_string()),
+        Error::Key(_) | Error::Edit(_) => CommandError::Failed(error.to_string()),
+        Error::Cancelled(_) => CommandError::Cancelled,
     }
-    Ok(rigged)
-}
-
-/// Lays the poses on the timeline, evenly spaced, with rest at both ends.
-fn lay_out(design: &mut Design, cancel: &AtomicBool) -> Result<(), CommandError> {
-    let names: Vec<String> = design.poses.iter().filter(|p| !p.targets.is_empty()).map(|p| p.name.clone()).collect();
-    let rest = vec![0.0; design.networks.len()];
-    let time = |index: usize| index as f64 * defaults::KEYFRAME_SPACING_S;
-    key::put(design, time(0), rest.clone(), None, Easing::default())?;
-    for (index, name) in names.iter().enumerate() {
-        let activations = key::activations(design, name, cancel)?;
-        key::put(design, time(index + 1), activations, Some(name.clone()), Easing::default())?;
-    }
-    key::put(design, time(names.len() + 1), rest, None, Easing::default())
 }
 
 /// Most tendons of one winch: a spool does not hold more.

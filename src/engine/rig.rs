@@ -4,6 +4,7 @@ use super::propose::{Candidate, Known, candidates, misfit, rank, try_all, with_n
 use super::trial::{Care, Reached, Trial};
 use crate::design::{Design, Target};
 use crate::discovery::Parameters;
+use serde::{Deserialize, Serialize};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A pose served better than this part of its rest error needs no further winch of its own.
@@ -16,7 +17,8 @@ const POLISHING_ROUNDS: usize = 15;
 const WORTHWHILE: f64 = 0.99;
 
 /// What the loop may build and try.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct RigOptions {
     pub max_winches: usize,
     pub tendons: TendonChoice,
@@ -27,13 +29,32 @@ pub struct RigOptions {
     pub phi: Option<f64>,
 }
 
+impl Default for RigOptions {
+    fn default() -> Self {
+        Self {
+            max_winches: 3,
+            tendons: TendonChoice::default(),
+            seed_num: None,
+            join_depth: None,
+            join_len: None,
+            phi: None,
+        }
+    }
+}
+
 /// How many tendons each winch gets.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum TendonChoice {
     /// Winch by winch; the last number holds for all further ones.
     PerWinch(Vec<usize>),
     /// Whatever serves best between the two, both included.
     Between(usize, usize),
+}
+
+impl Default for TendonChoice {
+    fn default() -> Self {
+        Self::Between(1, 4)
+    }
 }
 
 /// Why no rig was found.

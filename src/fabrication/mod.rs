@@ -59,7 +59,7 @@ pub struct File {
 /// Why a design was not exported.
 #[derive(Debug, Error)]
 pub enum ExportError {
-    #[error("the design has no winch-tendon networks yet: accept one, or run `plushwright rig`")]
+    #[error("the design has no winch-tendon networks yet")]
     NoNetworks,
     #[error(transparent)]
     Invalid(#[from] DesignError),

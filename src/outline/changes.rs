@@ -1,5 +1,6 @@
 //! What the clean-up of a silhouette changed.
 
+use super::Note;
 use serde::Serialize;
 
 /// A step of the clean-up that changed something.
@@ -35,7 +36,7 @@ pub struct Change {
 }
 
 /// What lies between the painted areas and the outline.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Changes {
     /// Area of all that is painted, mm^2.
     pub painted_mm2: f64,
@@ -45,11 +46,12 @@ pub struct Changes {
     pub unasked: f64,
     pub steps: Vec<Change>,
     /// What the reader and the clean-up have to say besides.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
 }
 
 impl Change {
-    fn line(&self) -> String {
+    /// The step in words, for one line.
+    pub fn line(&self) -> String {
         let count = |one: &str, many: &str| match self.count {
             1 => format!("1 {one}"),
             n => format!("{n} {many}"),
@@ -68,11 +70,6 @@ impl Change {
 }
 
 impl Changes {
-    /// One line for each step and note, in words.
-    pub fn lines(&self) -> Vec<String> {
-        self.steps.iter().map(Change::line).chain(self.notes.iter().cloned()).collect()
-    }
-
     pub(super) fn add(&mut self, what: What, count: usize, area: f64, asked: bool) {
         if count > 0 {
             self.steps.push(Change { what, count, area, asked });
@@ -86,13 +83,13 @@ mod tests {
 
     #[test]
     fn changes_are_told_in_words() {
-        let mut changes = Changes { notes: vec!["text".into()], ..Default::default() };
+        let mut changes = Changes::default();
         changes.add(What::Specks, 0, 0.0, false);
         changes.add(What::Pinches, 1, 0.0001, false);
         changes.add(What::Holes, 3, 0.25, true);
         assert_eq!(
-            changes.lines(),
-            ["1 pinched point joined (0.01 % of the area)", "3 holes filled (25.00 % of the area)", "text"]
+            changes.steps.iter().map(Change::line).collect::<Vec<_>>(),
+            ["1 pinched point joined (0.01 % of the area)", "3 holes filled (25.00 % of the area)"]
         );
     }
 }

@@ -2,7 +2,8 @@
 
 use super::changes::Changes;
 use super::drawing::Track;
-use super::{Drawing, Outline, OutlineError, Painting, Point, clean, drawing, dxf, obj, picture, svg};
+use super::{Drawing, Note, Outline, OutlineError, Painting, Point, clean, drawing, dxf, obj, picture, svg};
+use serde::{Deserialize, Serialize};
 use std::io::Read;
 use std::ops::RangeInclusive;
 use std::path::Path;
@@ -18,7 +19,7 @@ pub const EXTENSIONS: [&str; 7] = ["svg", "png", "jpg", "jpeg", "dxf", "obj", "r
 const SIZES_MM: RangeInclusive<f64> = 1e-2..=1e6;
 
 /// What to do about several pieces.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Pieces {
     #[default]
     Refuse,
@@ -27,7 +28,7 @@ pub enum Pieces {
 }
 
 /// What to do about holes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Holes {
     #[default]
     Keep,
@@ -35,7 +36,7 @@ pub enum Holes {
 }
 
 /// What to do about a rectangle that fills the page below everything else.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Background {
     #[default]
     Drop,
@@ -43,7 +44,8 @@ pub enum Background {
 }
 
 /// How to read an outline.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Import {
     /// Height of the silhouette, mm; without it the file's own size counts.
     pub height_mm: Option<f64>,
@@ -203,10 +205,7 @@ pub(super) fn finish(painting: Painting, import: &Import) -> Result<Imported, Ou
 pub(super) fn warned(mut imported: Imported, import: &Import) -> Imported {
     let (_, high) = imported.outline.bounding_box();
     if import.height_mm.is_none() && high[1] < SMALL_MM {
-        imported.changes.notes.push(format!(
-            "the silhouette is only {:.1} mm high, small for a plushie; --height sets another height",
-            high[1]
-        ));
+        imported.changes.notes.push(Note::Small { height_mm: high[1] });
     }
     imported
 }

@@ -10,6 +10,7 @@ mod dxf;
 mod grid;
 mod import;
 mod layers;
+mod note;
 mod obj;
 mod picture;
 pub mod polygon;
@@ -26,6 +27,7 @@ pub use drawing::Drawing;
 pub use import::{
     Background, EXTENSIONS, Format, Holes, Import, Imported, MAX_FILE_BYTES, Pieces, import, import_file, read_file,
 };
+pub use note::Note;
 pub use texture::{MAX_TEXTURE_PX, read_texture, shrunk, texture};
 
 use grid::Grid;
@@ -70,10 +72,7 @@ pub enum OutlineError {
     NoTexture(&'static str),
     #[error("the text \"{0}\" has characters that the bundled font lacks; convert it to paths")]
     NoFont(String),
-    #[error(
-        "the silhouette is in {pieces} separate pieces, the largest with {largest:.0} % of the area; choose --pieces \
-         largest, or join them in the drawing"
-    )]
+    #[error("the silhouette is in {pieces} separate pieces, the largest with {largest:.0} % of the area")]
     Pieces { pieces: usize, largest: f64 },
     #[error("the silhouette touches itself in a single point near ({x:.1}, {y:.1}) mm; widen or open it there")]
     Pinched { x: f64, y: f64 },
@@ -83,7 +82,7 @@ pub enum OutlineError {
     Length { what: &'static str, value: f64 },
     #[error("the height must be between 0.01 and 1000000 mm, not {0} mm")]
     Height(f64),
-    #[error("the silhouette would measure {0:e} mm; --height sets another height")]
+    #[error("the silhouette would measure {0:e} mm")]
     Size(f64),
 }
 
@@ -92,7 +91,7 @@ struct Painting {
     shapes: Shapes,
     /// Millimetres in a unit of the shapes.
     unit_mm: f64,
-    notes: Vec<String>,
+    notes: Vec<Note>,
 }
 
 impl Outline {

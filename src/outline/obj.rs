@@ -4,7 +4,7 @@
 //! which the mesh is thinnest is dropped. Vertices at one place are one node.
 
 use super::import::{Import, Imported};
-use super::{Changes, Outline, OutlineError, Painting, Point, import, polygon};
+use super::{Changes, Note, Outline, OutlineError, Painting, Point, import, polygon};
 use std::collections::BTreeMap;
 
 /// Thickness over size up to which a mesh counts as flat.
@@ -32,14 +32,14 @@ pub(super) fn read(bytes: &[u8], import: &Import) -> Result<Imported, OutlineErr
     let mut notes = Vec::new();
     let unit_mm = import.unit_mm.unwrap_or_else(|| {
         if import.height_mm.is_none() {
-            notes.push("an OBJ states no unit; a plain number is taken for 1 mm (--unit sets another)".to_owned());
+            notes.push(Note::NoUnit("an OBJ"));
         }
         1.0
     });
     let Some(rings) = boundary(&nodes, &triangles) else {
         let area = |t: &[usize; 3]| vec![t.map(|n| nodes[n]).to_vec()];
         let shapes = triangles.iter().map(area).collect();
-        notes.push("the triangles of the OBJ are not one sound piece; their area is meshed anew".to_owned());
+        notes.push(Note::Unsound);
         return import::finish(Painting { shapes, unit_mm, notes }, import);
     };
     let (low, high) = polygon::bounding_box(&nodes);

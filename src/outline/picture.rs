@@ -13,7 +13,7 @@ use super::regions::{self, Shapes};
 use super::simplify::simplify;
 use super::texture::{MAX_TEXTURE_PX, cut, fitted};
 use super::trace::Field;
-use super::{Import, OutlineError, Painting, Point, polygon};
+use super::{Import, Note, OutlineError, Painting, Point, polygon};
 use i_overlay::core::fill_rule::FillRule;
 use image::{DynamicImage, ImageDecoder, ImageReader, Limits, RgbaImage};
 use std::io::Cursor;
@@ -103,7 +103,7 @@ fn upright(bytes: &[u8]) -> image::ImageResult<Option<(DynamicImage, image::Imag
 fn field(
     picture: &DynamicImage,
     threshold: Option<u8>,
-    notes: &mut Vec<String>,
+    notes: &mut Vec<Note>,
 ) -> Result<((Field, f64), usize), OutlineError> {
     let rgba = picture.to_rgba8();
     let (wide, high) = (rgba.width() as usize, rgba.height() as usize);
@@ -137,10 +137,7 @@ fn field(
         return Err(OutlineError::NothingPainted("the picture has one colour all over"));
     }
     let level = asked.unwrap_or_else(|| otsu(&values, f64::from(most)).max(0.5 * LEAST_CONTRAST));
-    notes.push(format!(
-        "ink is what differs from the background by more than {:.0} of 255 (--threshold sets another value)",
-        255.0 * level
-    ));
+    notes.push(Note::Ink(level));
     Ok(((Field { width, height, values }, level), factor))
 }
 
@@ -174,7 +171,7 @@ fn otsu(values: &[f32], most: f64) -> f64 {
 }
 
 /// The regions at or above the level, without noise.
-fn traced(field: &Field, level: f64, notes: &mut Vec<String>) -> Result<Shapes, OutlineError> {
+fn traced(field: &Field, level: f64, notes: &mut Vec<Note>) -> Result<Shapes, OutlineError> {
     let contours = field.contours(level);
     let areas: Vec<f64> = contours.iter().map(|ring| polygon::signed_area(ring).abs()).collect();
     let least = NOISE_PX2.max(NOISE_FRACTION * areas.iter().copied().fold(0.0, f64::max));
@@ -190,7 +187,7 @@ fn traced(field: &Field, level: f64, notes: &mut Vec<String>) -> Result<Shapes, 
         return Err(OutlineError::NothingPainted("the picture has no area that differs from its background"));
     }
     if noise > 0 {
-        notes.push(format!("{noise} speck(s) of the picture, each under {least:.0} pixels, left out"));
+        notes.push(Note::Specks { count: noise, least });
     }
     regions::resolve(&kept, FillRule::EvenOdd)
 }

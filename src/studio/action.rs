@@ -1,7 +1,8 @@
 //! What panels and viewports ask for. They borrow the session, read only, and return these; the session alone acts.
 
 use super::change::Change;
-use super::files::{ImportChoice, PathDialog};
+use super::files::PathDialog;
+use super::importing::ImportChoice;
 use super::meshing::Resolution;
 use super::session::{Selection, Tool};
 use super::sketching::Sketch;
@@ -10,6 +11,7 @@ use super::viewport::camera::Camera;
 use crate::discovery::Parameters;
 use crate::engine::Quality;
 use crate::mesh::BodyPoint;
+use crate::operations::rig;
 use crate::outline::Point;
 use crate::picture::palette::Theme;
 use crate::picture::scene::Stage;
@@ -64,6 +66,10 @@ pub enum Action {
     /// Makes a mesh of that resolution; one undo step when it is there.
     Remesh,
     CancelRemesh,
+    SetRig(rig::Options),
+    /// Looks for networks for all poses; one undo step when they are there.
+    Rig,
+    CancelRig,
     Propose,
     CancelPropose,
     ShowProposal(Option<usize>),

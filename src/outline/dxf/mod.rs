@@ -11,7 +11,7 @@ mod chain;
 mod curves;
 mod entity;
 
-use super::{Import, OutlineError, Painting, Point, layers, regions};
+use super::{Import, Note, OutlineError, Painting, Point, layers, regions};
 use curves::Curve;
 use entity::{Entity, Tags};
 use i_overlay::core::fill_rule::FillRule;
@@ -109,15 +109,15 @@ pub(super) fn painting(bytes: &[u8], import: &Import) -> Result<Painting, Outlin
     }
     let mut notes = Vec::new();
     if open > 0 {
-        notes.push(format!("{open} open line(s) left out; only closed outlines count"));
+        notes.push(Note::OpenLines(open));
     }
     for (kind, count) in skipped {
-        notes.push(format!("{count} {kind} left out"));
+        notes.push(Note::LeftOut { kind, count });
     }
     let unit_mm = match (import.unit_mm, file.unit_mm) {
         (Some(mm), _) | (None, Some(mm)) => mm,
         (None, None) => {
-            notes.push("the DXF states no unit; a plain number is taken for 1 mm (--unit sets another)".into());
+            notes.push(Note::NoUnit("the DXF"));
             1.0
         }
     };
@@ -350,7 +350,7 @@ mod tests {
         let expected = 5000.0 + pi * 625.0 - pi * 100.0;
         assert!((imported.outline.area() / expected - 1.0).abs() < 1e-3, "{}", imported.outline.area());
         assert_eq!(imported.outline.holes.len(), 1);
-        assert!(imported.changes.notes.iter().any(|n| n.contains("text")), "{:?}", imported.changes.notes);
+        assert!(imported.changes.notes.iter().any(|n| n.to_string().contains("text")), "{:?}", imported.changes.notes);
     }
 
     #[test]

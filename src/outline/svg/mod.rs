@@ -15,7 +15,7 @@ mod render;
 pub(super) use render::texture;
 
 use super::regions::{self, Shapes};
-use super::{Background, Import, Outline, OutlineError, Painting, Point, import, polygon};
+use super::{Background, Import, Note, Outline, OutlineError, Painting, Point, import, polygon};
 use flatten::flatten;
 use i_overlay::core::fill_rule::FillRule;
 use std::sync::{Arc, LazyLock};
@@ -82,7 +82,7 @@ pub(super) fn painting(svg: &[u8], import: &Import) -> Result<Painting, OutlineE
         // Nothing lies on the rectangle: it is the silhouette.
         shapes = std::mem::take(&mut reader.background);
     } else if !reader.background.is_empty() {
-        notes.push("a background rectangle as large as the page was left out (--background keep keeps it)".to_owned());
+        notes.push(Note::BackgroundLeftOut);
     }
     if shapes.is_empty() {
         return Err(nothing(&tree));
@@ -309,21 +309,20 @@ impl Reader {
         Ok(())
     }
 
-    fn describe(&self, notes: &mut Vec<String>, longer: f64, shapes: &Shapes) -> Result<(), OutlineError> {
+    fn describe(&self, notes: &mut Vec<Note>, longer: f64, shapes: &Shapes) -> Result<(), OutlineError> {
         if !self.texts.is_empty() {
-            let texts = self.texts.iter().take(3).map(|t| format!("\"{t}\"")).collect::<Vec<_>>().join(", ");
-            notes.push(format!("text ({texts}) is set in the bundled font Ubuntu Light"));
+            notes.push(Note::TextSet(self.texts.clone()));
         }
         if self.pictures > 0 {
-            notes.push(format!("{} embedded picture(s) left out; only drawn shapes count", self.pictures));
+            notes.push(Note::PicturesLeftOut(self.pictures));
         }
         if self.filters > 0 {
-            notes.push("filter effects (shadows, blurs) left out".to_owned());
+            notes.push(Note::FiltersLeftOut);
         }
         let (low, high) = regions::bounding_box(shapes);
         let off = (-low[0]).max(high[0] - self.page[0]).max(high[1]).max(-low[1] - self.page[1]);
         if off > OFF_PAGE_FRACTION * longer {
-            notes.push("parts of the drawing lie off the page; they count".to_owned());
+            notes.push(Note::OffPage);
         }
         Ok(())
     }

@@ -92,7 +92,7 @@ fn a_rectangle_as_large_as_the_page_is_paper() {
     let body = "<rect width='100' height='100' fill='white'/><circle cx='50' cy='50' r='30' fill='white'/>";
     let dropped = full(body, &Import::default()).unwrap();
     assert!((dropped.outline.area() / (std::f64::consts::PI * 900.0) - 1.0).abs() < 1e-3);
-    assert!(dropped.changes.notes[0].contains("background"), "{:?}", dropped.changes);
+    assert!(dropped.changes.notes[0].to_string().contains("background"), "{:?}", dropped.changes);
     let kept = full(body, &Import { background: Background::Keep, ..Import::default() }).unwrap();
     assert!((kept.outline.area() - 1e4).abs() < 0.1 && kept.changes.notes.is_empty());
     // Something of that size on top of others is no paper.
@@ -117,7 +117,11 @@ fn text_is_set_in_the_bundled_font_or_refused() {
         full(&format!("<text x='10' y='80' font-size='80' font-family='Nowhere'>{t}</text>"), &Import::default())
     };
     let imported = text("S").unwrap();
-    assert!(imported.outline.area() > 100.0 && imported.changes.notes[0].contains("Ubuntu"), "{:?}", imported.changes);
+    assert!(
+        imported.outline.area() > 100.0 && imported.changes.notes[0].to_string().contains("Ubuntu"),
+        "{:?}",
+        imported.changes
+    );
     assert!(matches!(text("i"), Err(OutlineError::Pieces { pieces: 2, .. })));
     assert!(matches!(text("\u{6f22}"), Err(OutlineError::NoFont(_))), "{:?}", text("\u{6f22}"));
 }
@@ -128,9 +132,10 @@ fn what_is_left_out_is_noted() {
     let body = format!("<rect x='20' y='20' width='90' height='40'/><image href='{pixel}' width='10' height='10'/>");
     let notes = full(&body, &Import::default()).unwrap().changes.notes;
     assert!(
-        notes.iter().any(|n| n.contains("picture")) && notes.iter().any(|n| n.contains("off the page")),
+        notes.iter().any(|n| n.to_string().contains("picture"))
+            && notes.iter().any(|n| n.to_string().contains("off the page")),
         "{notes:?}"
     );
     let shadow = "<filter id='f'><feGaussianBlur stdDeviation='2'/></filter><rect x='9' y='9' width='70' height='70' filter='url(#f)'/>";
-    assert!(full(shadow, &Import::default()).unwrap().changes.notes[0].contains("filter"));
+    assert!(full(shadow, &Import::default()).unwrap().changes.notes[0].to_string().contains("filter"));
 }

@@ -1,0 +1,99 @@
+//! What the core has to say, in the words of the window: its controls by name.
+
+use crate::fabrication::ExportError;
+use crate::operations::{key, new_design, remesh, reshape, rig};
+use crate::outline::{Change, Changes, Note, OutlineError};
+
+/// The steps and notes of a clean-up, a line each.
+pub fn changes(changes: &Changes) -> impl Iterator<Item = String> {
+    changes.steps.iter().map(Change::line).chain(changes.notes.iter().map(note))
+}
+
+/// A note of a reader or the clean-up, with the control that would have it otherwise.
+fn note(note: &Note) -> String {
+    match note {
+        Note::BackgroundLeftOut => format!("{note}; “Keep the background” keeps it"),
+        Note::NoUnit(_) => format!("{note}; “Unit” sets another"),
+        Note::Ink(_) => format!("{note}; “Ink from” sets another level"),
+        Note::MostlyHoles => format!("{note}; “Fill holes” makes a solid body of it"),
+        Note::Thin { .. } => format!("{note}; “Least width” widens them"),
+        Note::Small { .. } => format!("{note}; “Height” sets another height"),
+        Note::TextSet(_)
+        | Note::PicturesLeftOut(_)
+        | Note::FiltersLeftOut
+        | Note::OffPage
+        | Note::Unsound
+        | Note::Specks { .. }
+        | Note::OpenLines(_)
+        | Note::LeftOut { .. } => note.to_string(),
+    }
+}
+
+/// Why a file gave no outline, with the control that may help.
+pub fn outline(error: &OutlineError) -> String {
+    match error {
+        OutlineError::Pieces { .. } => format!("{error}; choose “Largest piece only”, or join them in the drawing"),
+        OutlineError::Size(_) => format!("{error}; “Height” sets another height"),
+        _ => error.to_string(),
+    }
+}
+
+/// Why an outline made no design.
+pub fn unmade(error: &new_design::Error) -> String {
+    match error {
+        new_design::Error::Outline(error) => outline(error),
+        new_design::Error::Mesh(_) | new_design::Error::Cancelled(_) => error.to_string(),
+    }
+}
+
+/// Fibres besides those asked for, of an import or of a new body.
+pub fn more_fibers(asked: usize, count: usize) -> String {
+    format!("The outline needs more than {asked} fibres; it has {count}.")
+}
+
+/// Why a design was not given another body.
+pub fn unshaped(error: &reshape::Error) -> String {
+    match error {
+        reshape::Error::Outline(OutlineError::Pieces { .. }) => {
+            format!("{error}: join them, or delete what is too much")
+        }
+        reshape::Error::Outline(_)
+        | reshape::Error::Mesh(_)
+        | reshape::Error::Edit(_)
+        | reshape::Error::Cancelled(_) => error.to_string(),
+    }
+}
+
+/// Why there is no other mesh.
+pub fn unmeshed(error: &remesh::Error) -> String {
+    error.to_string()
+}
+
+/// Why there is no keyframe.
+pub fn unkeyed(error: &key::Error) -> String {
+    match error {
+        key::Error::NoNetworks => {
+            "Without networks there is nothing to animate: propose and accept one first.".to_owned()
+        }
+        error => format!("Add keyframe: {error}"),
+    }
+}
+
+/// Why there is no rig.
+pub fn unrigged(error: &rig::Error) -> String {
+    match error {
+        rig::Error::NoTargets => "No pose has a target yet: drag a point of the body first.".to_owned(),
+        rig::Error::NothingFound => {
+            "No network brings any pose closer to its targets. Try more winches or tendons.".to_owned()
+        }
+        error => format!("Rig: {error}"),
+    }
+}
+
+/// Why there is no blueprint.
+pub fn unexported(error: &ExportError) -> String {
+    match error {
+        ExportError::NoNetworks => format!("{error}: propose and accept one first"),
+        error => error.to_string(),
+    }
+}
