@@ -16,7 +16,8 @@
 //! | [`discovery`] | activation graph to winch-tendon network (Algorithm 2) |
 //! | [`problem`] | the JSON question-and-answer interface of the numerical core |
 //! | [`design`] | the document: design, poses, networks, keyframes, file format, edits, undo |
-//! | [`engine`] | compiles a design into a physics model, poses both plushies, worker thread, rigging |
+//! | [`engine`] | compiles a design into a physics model, poses both plushies, worker thread |
+//! | [`rigging`] | finds winches and tendons: generators of candidates, criteria that judge them, the search |
 //! | [`fabrication`] | patterns, routings, winch tracks, controller programs |
 //! | [`picture`] | a neutral drawing of both plushies, rasterised without a graphics adapter |
 //! | [`operations`] | every use case once: new, remesh, reshape, pose, propose, rig, key, check, export, render |
@@ -58,6 +59,7 @@ pub mod outline;
 pub mod physics;
 pub mod picture;
 pub mod problem;
+pub mod rigging;
 pub mod soft_ik;
 #[cfg(feature = "studio")]
 pub mod studio;

@@ -15,7 +15,7 @@ use crate::operations::new_design::{self, Made};
 use crate::operations::pose::Move;
 use crate::operations::render::{Rendered, What};
 use crate::operations::rig::TendonChoice;
-use crate::operations::{Context, FiberCount};
+use crate::operations::{Context, FiberCount, Progress};
 use crate::outline::Point;
 use crate::picture::palette::{Palette, Theme};
 use crate::picture::{Item, Scene, raster};
@@ -137,9 +137,9 @@ impl Tour<'_> {
         let options = operations::rig::Options { max_winches: 1, tendons, ..Default::default() };
         let mut printed = Ok(());
         let out = &mut *self.out;
-        let mut progress = |line: &str| {
+        let mut progress = |step: &Progress| {
             if printed.is_ok() {
-                printed = say(out, &format!("     {line}"));
+                printed = say(out, &format!("     {}", words::progress(step)));
             }
         };
         let mut context = Context::telling(self.cancel, &mut progress);

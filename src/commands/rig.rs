@@ -1,11 +1,11 @@
 //! `rig`: the design loop over all poses, without a window.
 
-use super::document;
 use super::error::CommandError;
 use super::output::say;
+use super::{document, words};
 use crate::files::shown;
-use crate::operations::Context;
 use crate::operations::rig::{self, Error, Options, TendonChoice};
+use crate::operations::{Context, Progress};
 use clap::Args;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -53,9 +53,9 @@ impl Rig {
             phi: self.phi,
         };
         let mut printed = Ok(());
-        let mut progress = |line: &str| {
+        let mut progress = |step: &Progress| {
             if printed.is_ok() {
-                printed = say(out, line);
+                printed = say(out, &words::progress(step));
             }
         };
         let mut context = Context::telling(cancel, &mut progress);

@@ -2,8 +2,9 @@
 
 use super::error::CommandError;
 use crate::fabrication::ExportError;
-use crate::operations::{Unbalanced, new_design, reshape};
+use crate::operations::{Progress, Unbalanced, new_design, reshape};
 use crate::outline::{Change, Changes, Note, OutlineError};
+use crate::rigging;
 use serde::Serialize;
 use std::path::Path;
 
@@ -40,6 +41,20 @@ pub fn unexported(design: &Path, error: ExportError) -> CommandError {
 pub fn balanced<'a>(unbalanced: impl IntoIterator<Item = &'a Unbalanced>) -> Result<(), CommandError> {
     let told: Vec<String> = unbalanced.into_iter().map(Unbalanced::to_string).collect();
     if told.is_empty() { Ok(()) } else { Err(CommandError::NotConverged(told.join("; "))) }
+}
+
+/// One line about a step of an operation.
+pub fn progress(step: &Progress) -> String {
+    match step {
+        Progress::Rig(rigging::Progress::Candidates { winch, count }) => {
+            format!("winch {}: {count} candidate networks", winch + 1)
+        }
+        Progress::Rig(rigging::Progress::Accepted { winch, tendons, errors }) => {
+            let errors: Vec<String> =
+                errors.iter().map(|(name, error)| format!("{name} {:.1} %", 100.0 * error)).collect();
+            format!("winch {}: {tendons} tendons; {}", winch + 1, errors.join(", "))
+        }
+    }
 }
 
 /// A note of a reader or the clean-up, with the option that would have it otherwise.

@@ -103,6 +103,7 @@ pub fn to_text(design: &Design) -> Result<String, ron::Error> {
         texture,
         texture_box,
         gravity,
+        terms,
         stiffness_map,
     } = design;
     let mut text = String::from("(\n");
@@ -120,6 +121,9 @@ pub fn to_text(design: &Design) -> Result<String, ron::Error> {
     }
     if gravity.is_some() {
         field(out, "gravity", gravity, 0)?;
+    }
+    if !terms.is_empty() {
+        field(out, "terms", terms, 1)?;
     }
     field(out, "fabrication", fabrication, 1)?;
     field(out, "controller", controller, 1)?;

@@ -1,11 +1,18 @@
 //! What an operation runs under.
 
+use crate::rigging;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Takes what an operation says on its way, and tells it when to stop.
 pub struct Context<'a> {
-    progress: Option<&'a mut dyn FnMut(&str)>,
+    progress: Option<&'a mut dyn FnMut(&Progress)>,
     cancel: &'a AtomicBool,
+}
+
+/// A step of an operation that takes long.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Progress {
+    Rig(rigging::Progress),
 }
 
 /// The operation was told to stop; nothing has changed.
@@ -19,8 +26,8 @@ impl<'a> Context<'a> {
         Self { progress: None, cancel }
     }
 
-    /// `progress` is given a line a step.
-    pub fn telling(cancel: &'a AtomicBool, progress: &'a mut dyn FnMut(&str)) -> Self {
+    /// `progress` hears of every step.
+    pub fn telling(cancel: &'a AtomicBool, progress: &'a mut dyn FnMut(&Progress)) -> Self {
         Self { progress: Some(progress), cancel }
     }
 
@@ -30,7 +37,7 @@ impl<'a> Context<'a> {
     }
 
     /// Says that a step is done.
-    pub fn tell(&mut self, step: &str) {
+    pub fn tell(&mut self, step: &Progress) {
         if let Some(progress) = &mut self.progress {
             progress(step);
         }

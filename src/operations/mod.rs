@@ -34,7 +34,7 @@ pub mod render;
 pub mod reshape;
 pub mod rig;
 
-pub use context::{Cancelled, Context};
+pub use context::{Cancelled, Context, Progress};
 pub use fibers::FiberCount;
 pub use posing::{NoSuchPose, Unbalanced, View};
 

@@ -4,7 +4,7 @@ use super::posing::{self, NoSuchPose};
 use super::{Cancelled, Context};
 use crate::design::{Design, Target};
 use crate::discovery::Parameters;
-use crate::engine::{self, Proposal};
+use crate::rigging::{self, Proposal};
 use serde::{Deserialize, Serialize};
 
 /// Which pose is served, and how networks are looked for.
@@ -50,7 +50,7 @@ pub fn for_targets(
     if targets.is_empty() {
         return Err(Error::NoTargets);
     }
-    let proposals = engine::propose(design, targets, parameters, context.cancel());
+    let proposals = rigging::propose(design, targets, parameters, context.cancel());
     context.check()?;
     if proposals.is_empty() { Err(Error::NothingFound) } else { Ok(proposals) }
 }

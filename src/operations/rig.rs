@@ -1,13 +1,13 @@
 //! Winches and tendons for all poses, and the poses on a timeline where there is none.
 
-use super::{Cancelled, Context, key};
+use super::{Cancelled, Context, Progress, key};
 use crate::defaults;
 use crate::design::edit::{self, EditError};
 use crate::design::{Design, Easing, Keyframe, Network};
-use crate::engine::rig::{RigError, rig};
 use crate::mesh::Mesh;
+use crate::rigging::{self, RigError};
 
-pub use crate::engine::rig::{RigOptions as Options, TendonChoice};
+pub use crate::rigging::{RigOptions as Options, TendonChoice};
 
 /// Why there is no rig.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -50,7 +50,8 @@ pub struct Rigged {
 /// There is nothing to rig for, or nothing found; [`Error::Cancelled`].
 pub fn prepare(design: &Design, options: &Options, context: &mut Context) -> Result<Rigged, Error> {
     let cancel = context.cancel();
-    let mut rigged = rig(design, options, &mut |step| context.tell(step), cancel).map_err(|error| match error {
+    let mut progress = |step| context.tell(&Progress::Rig(step));
+    let mut rigged = rigging::rig(design, options, &mut progress, cancel).map_err(|error| match error {
         RigError::NoTargets => Error::NoTargets,
         RigError::NothingFound => Error::NothingFound,
         RigError::Cancelled => Error::Cancelled(Cancelled),

@@ -5,7 +5,7 @@ use super::equilibrium::settle;
 use super::failure::{Failure, Part};
 use super::file::{DragData, Problem, ProblemError};
 use super::frame::Frame;
-use crate::physics::{Body, Cause, Contractile, Element, Energy, Gravity, Model, ModelError, NeoHookean, Pin, Pins};
+use crate::physics::{Body, Cause, Contractile, Element, Energy, Gravity, Ground, Model, ModelError, Pin, Pins};
 use crate::soft_ik::{
     self, Actuation, Budget, Objective, PointTarget, Quality, Question, Tracker, Winch, default_method, newton,
     sensitivity,
@@ -102,9 +102,8 @@ pub fn model(problem: &Problem) -> Result<Model, ProblemError> {
 
 /// The same; takes the routings out of the problem, which has no further use for them.
 pub(super) fn take_model(problem: &mut Problem) -> Result<Model, ProblemError> {
-    let material = NeoHookean { mu: problem.material.mu, kappa: problem.material.kappa };
     let content = |key: String, what: &str| ProblemError::Content { key, what: what.into() };
-    let body = Body::new(&problem.mesh.nodes, &problem.mesh.triangles, Box::new(material), None)
+    let body = Body::new(&problem.mesh.nodes, &problem.mesh.triangles, problem.material.build(), None)
         .map_err(|k| content(format!("mesh.triangles[{k}]"), "has no area"))?;
     let elements = problem.elements.iter_mut().map(|e| Element {
         routing: std::mem::take(&mut e.routing),
@@ -114,16 +113,24 @@ pub(super) fn take_model(problem: &mut Problem) -> Result<Model, ProblemError> {
     });
     let contractile = Contractile::new(elements.collect());
     let pins = Pins { pins: problem.pins.iter().map(|p| Pin::node(p.node, p.target, p.stiffness)).collect() };
-    let mut terms: Vec<Box<dyn Energy>> = Vec::new();
-    if let (Some(acceleration), Some(density)) = (problem.gravity, problem.surface_density) {
-        terms.push(Box::new(Gravity::new(&body.nodal_areas(problem.mesh.nodes.len()), density, acceleration)));
-    }
+    let terms = terms(problem, &body.nodal_areas(problem.mesh.nodes.len()));
     let mut model = Model::new(&problem.mesh.nodes, body, contractile, pins, terms).map_err(|e| match e {
         ModelError::Triangle(k) => content(format!("mesh.triangles[{k}]"), "has no area"),
         ModelError::Memory => content("mesh".into(), "is too large for the memory of this machine"),
     })?;
     model.contractile.set_contractions(&contractions(problem));
     Ok(model)
+}
+
+/// The optional energy terms of a problem.
+fn terms(problem: &Problem, nodal_areas: &[f64]) -> Vec<Box<dyn Energy>> {
+    let ground = Ground { nodes: &problem.mesh.nodes, triangles: &problem.mesh.triangles, nodal_areas };
+    let mut terms: Vec<Box<dyn Energy>> = Vec::new();
+    if let (Some(acceleration), Some(density)) = (problem.gravity, problem.surface_density) {
+        terms.push(Box::new(Gravity::new(nodal_areas, density, acceleration)));
+    }
+    terms.extend(problem.terms.iter().map(|term| term.build(&ground)));
+    terms
 }
 
 fn contractions(problem: &Problem) -> Vec<f64> {

@@ -76,7 +76,8 @@ pub(super) fn settle(
     (answer, state.x)
 }
 
-/// Energy in gravity, J, of the whole mass at the frame's origin.
+/// What terms that depend on where the body is have lost with the move into the frame, J: the energy in gravity of the whole mass at
+/// the frame's origin.
 fn potential_of_origin(problem: &Problem, frame: &Frame) -> f64 {
     let (Some(g), Some(density)) = (problem.gravity, problem.surface_density) else { return 0.0 };
     let area: f64 = problem.mesh.triangles.iter().map(|t| problem.mesh.area(t)).sum();

@@ -1,6 +1,8 @@
 //! What a `plushwright-problem/1` file holds.
 
 use super::checks::finite;
+pub use super::material::MaterialData;
+use crate::physics::{Setting, TermKind};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Display;
@@ -36,6 +38,9 @@ pub struct Problem {
     pub gravity: Option<[f64; 2]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub surface_density: Option<f64>,
+    /// Energy terms beside gravity.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub terms: Vec<Setting<TermKind>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub drag: Option<DragData>,
 }
@@ -44,12 +49,6 @@ pub struct Problem {
 pub struct MeshData {
     pub nodes: Vec<[f64; 2]>,
     pub triangles: Vec<[usize; 3]>,
-}
-
-#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
-pub struct MaterialData {
-    pub mu: f64,
-    pub kappa: f64,
 }
 
 #[derive(Clone, Debug, Deserialize, Serialize)]

@@ -11,6 +11,7 @@ pub mod failure;
 pub mod file;
 mod frame;
 mod limits;
+mod material;
 pub mod network;
 mod reading;
 

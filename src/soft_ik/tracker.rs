@@ -84,7 +84,7 @@ pub struct Frame {
 
 /// Poses one view, frame after frame.
 ///
-/// With free fibres, whatever else pulls, a frame allocates nothing once every stage has run (`tests/allocations.rs`). Winches
+/// With free fibres, whatever else pulls, a frame allocates nothing once every stage has run (`tests/suite/allocations.rs`). Winches
 /// of several elements (Gauss-Newton) allocate in every frame.
 pub struct Tracker {
     posture: Posture,

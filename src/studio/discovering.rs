@@ -3,8 +3,8 @@
 use super::change::Change;
 use super::jobs::{Outcome, Running};
 use super::session::Session;
-use crate::engine::Proposal;
 use crate::picture::scene::Stage;
+use crate::rigging::Proposal;
 use std::sync::Arc;
 
 impl Session {

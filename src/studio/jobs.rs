@@ -3,7 +3,6 @@
 use super::importing::ImportChoice;
 use super::keeping::Kept;
 use crate::design::Design;
-use crate::engine::Proposal;
 use crate::operations::key::{self, Keyed};
 use crate::operations::new_design::Note;
 use crate::operations::remesh::{self, Remeshed};
@@ -11,6 +10,7 @@ use crate::operations::reshape::{self, Reshaped};
 use crate::operations::rig::{self, Rigged};
 use crate::outline::Changes;
 use crate::picture::Texture;
+use crate::rigging::Proposal;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::Arc;

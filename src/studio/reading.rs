@@ -4,7 +4,8 @@ use super::messages::Messages;
 use super::session::{Discovery, Look, Mode, Playback, Selection, Session, Shapes};
 use crate::design::history::History;
 use crate::design::{Design, Target};
-use crate::engine::{Proposal, Quality, Request};
+use crate::engine::{Quality, Request};
+use crate::rigging::Proposal;
 use std::sync::Arc;
 
 impl Session {

@@ -4,7 +4,7 @@ use super::jobs::{Outcome, Running};
 use super::session::Session;
 use super::words;
 use crate::operations::rig::{self, Error, Note, Options, Rigged};
-use crate::operations::{Context, key};
+use crate::operations::{Context, Progress, key};
 use std::sync::{Arc, Mutex};
 
 #[derive(Default)]
@@ -41,9 +41,9 @@ impl Session {
         let (step, wake) = (Arc::new(Mutex::new(String::new())), self.jobs.wake());
         self.rigging.step = step.clone();
         self.rigging.running = Some(self.jobs.start("Rigging", move |cancel| {
-            let mut progress = |line: &str| {
+            let mut progress = |done: &Progress| {
                 if let Ok(mut step) = step.lock() {
-                    line.clone_into(&mut step);
+                    *step = words::progress(done);
                 }
                 wake();
             };

@@ -1,8 +1,9 @@
 //! What the core has to say, in the words of the window: its controls by name.
 
 use crate::fabrication::ExportError;
-use crate::operations::{key, new_design, remesh, reshape, rig};
+use crate::operations::{Progress, key, new_design, remesh, reshape, rig};
 use crate::outline::{Change, Changes, Note, OutlineError};
+use crate::rigging;
 
 /// The steps and notes of a clean-up, a line each.
 pub fn changes(changes: &Changes) -> impl Iterator<Item = String> {
@@ -76,6 +77,19 @@ pub fn unkeyed(error: &key::Error) -> String {
             "Without networks there is nothing to animate: propose and accept one first.".to_owned()
         }
         error => format!("Add keyframe: {error}"),
+    }
+}
+
+/// A step of an operation.
+pub fn progress(step: &Progress) -> String {
+    match step {
+        Progress::Rig(rigging::Progress::Candidates { winch, count }) => {
+            format!("Winch {}: trying {count} networks", winch + 1)
+        }
+        Progress::Rig(rigging::Progress::Accepted { winch, errors, .. }) => {
+            let worst = errors.iter().map(|(_, error)| *error).fold(0.0, f64::max);
+            format!("Winch {}: {:.1} % off at most", winch + 1, 100.0 * worst)
+        }
     }
 }
 

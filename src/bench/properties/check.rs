@@ -142,7 +142,8 @@ fn energy_falls(problem: &Problem, model: &Model, document: &Value) -> Result<()
     let jitter: f64 = rounding.iter().zip(&start).map(|(r, x)| 1e-9 * r * (1e-15 * x.abs())).sum();
     let size = crate::bench::extremes::measure::size(problem);
     // An energy of zero carries the rounding of a body at unit strain.
-    let scale = before.abs().max(reached.abs()) + (problem.material.mu + problem.material.kappa) * size * size * 1e-5;
+    let scale = before.abs().max(reached.abs())
+        + (problem.material.value("mu") + problem.material.value("kappa")) * size * size * 1e-5;
     let weight = gravity_rounding(problem, &start);
     if reached > before + ENERGY_ROUNDING * scale + jitter + weight {
         return Err(format!("energy rose from {before:e} to {reached:e}"));

@@ -1,8 +1,8 @@
 //! Proposing networks: parameters, progress, the proposals and their stages (fig. 6).
 
 use super::{Actions, State, heading, primary, wide};
-use crate::engine::Proposal;
 use crate::picture::scene::Stage;
+use crate::rigging::Proposal;
 use crate::studio::action::Action;
 use crate::studio::session::Session;
 use crate::studio::style;

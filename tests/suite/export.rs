@@ -1,0 +1,467 @@
+//! The blueprint, read back with other parsers and compared with closed forms.
+
+use crate::support::{Random, rectangle, rigged};
+use plushwright::design::{Design, Easing, Keyframe, Network, Tendon, animation};
+use plushwright::fabrication::{ExportError, Manifest, blueprint, export, routing};
+use roxmltree::{Document, Node};
+use sha2::{Digest, Sha256};
+use std::f64::consts::PI;
+use std::fs;
+use std::path::Path;
+
+/// A file of a blueprint as text.
+fn text(design: &Design, name: &str) -> String {
+    let (files, _) = blueprint(design).expect("a blueprint");
+    let file = files.into_iter().find(|f| f.name == name).expect(name);
+    String::from_utf8(file.bytes).expect("text")
+}
+
+fn group<'a>(svg: &'a Document, id: &str) -> Node<'a, 'a> {
+    svg.descendants().find(|n| n.attribute("id") == Some(id)).unwrap_or_else(|| panic!("no group {id}"))
+}
+
+fn figure(node: Node, name: &str) -> f64 {
+    node.attribute(name).and_then(|v| v.parse().ok()).unwrap_or_else(|| panic!("{name} of {node:?}"))
+}
+
+/// Points of a path of straight lines, and whether it is closed.
+fn path(node: Node) -> (Vec<[f64; 2]>, bool) {
+    let d = node.attribute("d").expect("a path");
+    let numbers: Vec<f64> =
+        d.split(['M', 'L', 'Z', ' ']).filter(|s| !s.is_empty()).map(|s| s.parse().expect("a number")).collect();
+    (numbers.chunks(2).map(|p| [p[0], p[1]]).collect(), d.ends_with('Z'))
+}
+
+fn paths(group: Node) -> Vec<(Vec<[f64; 2]>, bool)> {
+    group.children().filter(|n| n.has_tag_name("path")).map(path).collect()
+}
+
+fn area(p: &[[f64; 2]]) -> f64 {
+    let n = p.len();
+    (0..n).map(|i| 0.5 * (p[i][0] * p[(i + 1) % n][1] - p[(i + 1) % n][0] * p[i][1])).sum::<f64>().abs()
+}
+
+fn length(p: &[[f64; 2]]) -> f64 {
+    p.windows(2).map(|s| (s[1][0] - s[0][0]).hypot(s[1][1] - s[0][1])).sum()
+}
+
+fn words(group: Node) -> String {
+    group.descendants().filter_map(|n| n.text()).collect::<Vec<_>>().join("|")
+}
+
+#[test]
+fn sheets_are_in_mm_with_a_reference_line() {
+    for name in ["pattern.svg", "routing.svg"] {
+        let xml = text(&rigged(), name);
+        let svg = Document::parse(&xml).expect("XML");
+        let root = svg.root_element();
+        let view: Vec<f64> =
+            root.attribute("viewBox").expect("a view box").split(' ').map(|v| v.parse().unwrap()).collect();
+        let mm = |name| root.attribute(name).and_then(|v| v.strip_suffix("mm")).and_then(|v| v.parse().ok());
+        assert_eq!(view, [0.0, 0.0, mm("width").expect("mm"), mm("height").expect("mm")]);
+        let lines = paths(group(&svg, "reference"));
+        assert_eq!(lines.len(), 1);
+        let (line, closed) = &lines[0];
+        assert!(!closed && line.len() == 2 && line[0][1] == line[1][1]);
+        assert_eq!(line[1][0] - line[0][0], 100.0);
+
+        // The same with usvg, which works in pixels of 1/96 inch.
+        let tree = usvg::Tree::from_str(&xml, &usvg::Options::default()).expect("SVG");
+        let px_per_mm = 96.0 / 25.4;
+        assert!((f64::from(tree.size().width()) / px_per_mm - view[2]).abs() < 1e-3);
+        let Some(usvg::Node::Group(reference)) = tree.node_by_id("reference") else { panic!("no reference group") };
+        let width = f64::from(reference.abs_bounding_box().width()) / px_per_mm;
+        assert!((width - 100.0).abs() < 1e-3, "{width} mm");
+        let all = tree.root().abs_bounding_box();
+        assert!(all.left() >= 0.0 && all.top() >= 0.0);
+        assert!(all.right() <= tree.size().width() && all.bottom() <= tree.size().height(), "{name} leaves its sheet");
+    }
+}
+
+#[test]
+fn the_pattern_has_two_pieces_in_the_order_of_the_laser() {
+    let design = rigged();
+    let xml = text(&design, "pattern.svg");
+    let svg = Document::parse(&xml).expect("XML");
+    let groups: Vec<_> =
+        svg.root_element().children().filter(|n| n.has_tag_name("g")).filter_map(|n| n.attribute("id")).collect();
+    assert_eq!(groups, ["cut", "stitch", "note", "reference"]);
+    let cut = group(&svg, "cut");
+    assert_eq!((cut.attribute("stroke"), cut.attribute("fill")), (Some("#FF0000"), Some("none")));
+    assert_eq!(figure(cut, "stroke-width"), 0.01);
+    assert_eq!(group(&svg, "stitch").attribute("stroke"), Some("#0000FF"));
+
+    // Seven nodes carry cables, on both faces; every hole is cut before any outline.
+    let kinds: Vec<_> = cut.children().filter(Node::is_element).map(|n| n.tag_name().name()).collect();
+    assert_eq!(kinds, [["circle"; 14].as_slice(), &["path"; 2]].concat());
+    let holes: Vec<Node> = cut.children().filter(|n| n.has_tag_name("circle")).collect();
+    assert!(holes.iter().all(|h| figure(*h, "r") == 0.75));
+
+    // The outline grows by Steiner's formula: A + P a + pi a^2.
+    let outlines = paths(cut);
+    let allowance = design.fabrication.seam_allowance_mm;
+    let grown = 120.0 * 80.0 + 400.0 * allowance + PI * allowance * allowance;
+    for (points, closed) in &outlines {
+        assert!(*closed && (area(points) - grown).abs() < 1.0, "{} instead of {grown}", area(points));
+    }
+
+    // The seam is the silhouette itself, less the turning gap.
+    let seams = paths(group(&svg, "stitch"));
+    assert_eq!(seams.len(), 2);
+    for (points, closed) in &seams {
+        assert!(!closed && (length(points) - 350.0).abs() < 0.01, "{}", length(points));
+        assert!((area(points) - 120.0 * 80.0).abs() < 0.1);
+        let bottom = points.iter().map(|p| p[1]).fold(0.0, f64::max);
+        assert!((points[0][1] - bottom).abs() < 1e-9 && (points[points.len() - 1][1] - bottom).abs() < 1e-9);
+    }
+
+    // Front: a hole lies where its node is. Back: its mirror image.
+    let low = |points: &[[f64; 2]], k: usize| points.iter().map(|p| p[k]).fold(f64::INFINITY, f64::min);
+    let high = |points: &[[f64; 2]], k: usize| points.iter().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max);
+    let (front, back) = (&seams[0].0, &seams[1].0);
+    for (i, node) in routing::holes(&design).into_iter().enumerate() {
+        let [x, y] = design.mesh.nodes[node];
+        let (a, b) = (holes[i], holes[i + 7]);
+        assert!((figure(a, "cx") - low(front, 0) - x).abs() < 1e-3);
+        assert!((high(back, 0) - figure(b, "cx") - x).abs() < 1e-3);
+        assert!((high(front, 1) - figure(a, "cy") - y).abs() < 1e-3);
+        assert_eq!(figure(a, "cy"), figure(b, "cy"));
+    }
+    let words = words(group(&svg, "note"));
+    for word in ["FRONT", "BACK (mirrored)", "pin 1", "leave 50 mm open", "7"] {
+        assert!(words.contains(word), "{words}");
+    }
+}
+
+#[test]
+fn inner_holes_are_sewn_and_cut_smaller_before_the_outline() {
+    let mut design = rigged();
+    design.outline.holes = vec![vec![[40.0, 20.0], [40.0, 60.0], [80.0, 60.0], [80.0, 20.0]]];
+    let xml = text(&design, "pattern.svg");
+    let svg = Document::parse(&xml).expect("XML");
+    let areas: Vec<f64> = paths(group(&svg, "cut")).iter().map(|(p, _)| area(p)).collect();
+    assert_eq!(areas.len(), 4);
+    assert!((areas[0] - 24.0 * 24.0).abs() < 0.01 && (areas[1] - 24.0 * 24.0).abs() < 0.01 && areas[2] > 12800.0);
+    assert_eq!(paths(group(&svg, "stitch")).iter().filter(|(p, closed)| *closed && area(p) == 1600.0).count(), 2);
+}
+
+#[test]
+fn a_narrow_notch_is_remarked() {
+    let mut design = rigged();
+    // A slot of 10 mm between two legs, wider at its end: the allowances of 8 mm meet over it.
+    design.outline.outer = vec![
+        [0.0, 0.0],
+        [55.0, 0.0],
+        [55.0, 30.0],
+        [40.0, 30.0],
+        [40.0, 60.0],
+        [80.0, 60.0],
+        [80.0, 30.0],
+        [65.0, 30.0],
+        [65.0, 0.0],
+        [120.0, 0.0],
+        [120.0, 80.0],
+        [0.0, 80.0],
+    ];
+    let (_, manifest) = blueprint(&design).expect("a blueprint");
+    assert!(manifest.remarks.iter().any(|r| r.contains("narrow notch")), "{:?}", manifest.remarks);
+}
+
+#[test]
+fn holes_on_the_seam_are_remarked() {
+    let mut design = rigged();
+    let (_, manifest) = blueprint(&design).expect("a blueprint");
+    assert!(!manifest.remarks.iter().any(|r| r.contains("seam or next")), "{:?}", manifest.remarks);
+    design.networks[0].tendons[0].routing = vec![10, 0];
+    let (_, manifest) = blueprint(&design).expect("a blueprint");
+    assert!(manifest.remarks.iter().any(|r| r.contains("next to it: hole 2.")), "{:?}", manifest.remarks);
+}
+
+#[test]
+fn routings_are_drawn_and_tabled() {
+    let mut design = rigged();
+    design.networks[1].tendons[0].slack_mm = 2.5;
+    let csv = text(&design, "routing.csv");
+    let lines: Vec<&str> = csv.lines().collect();
+    assert_eq!(lines[0], "winch,tendon,length_mm,points");
+    assert_eq!(lines[1], "left,1,40.000000,60.000000 20.000000;40.000000 20.000000;20.000000 20.000000");
+    let fields: Vec<Vec<&str>> = lines[1..].iter().map(|l| l.split(',').collect()).collect();
+    assert_eq!(fields.iter().map(|f| (f[0], f[1])).collect::<Vec<_>>(), [("left", "1"), ("left", "2"), ("right", "1")]);
+    for f in &fields {
+        let points: Vec<[f64; 2]> = f[3]
+            .split(';')
+            .map(|p| p.split_once(' ').expect("x y"))
+            .map(|(x, y)| [x.parse().expect("x"), y.parse().expect("y")])
+            .collect();
+        let slack = if f[0] == "right" { 2.5 } else { 0.0 };
+        assert!((length(&points) + slack - f[2].parse::<f64>().expect("a length")).abs() < 1e-5);
+    }
+
+    let xml = text(&design, "routing.svg");
+    let svg = Document::parse(&xml).expect("XML");
+    let tendons = ["tendon-1-1", "tendon-1-2", "tendon-2-1"].map(|id| group(&svg, id));
+    let mut colors: Vec<_> = tendons.iter().filter_map(|g| g.attribute("stroke")).collect();
+    colors.dedup();
+    assert_eq!(colors.len(), 3);
+    assert!((length(&paths(tendons[0])[0].0) - 40.0).abs() < 1e-3);
+    let winches: Vec<Node> = group(&svg, "winch").children().filter(|n| n.has_tag_name("circle")).collect();
+    assert_eq!((winches.len(), group(&svg, "winch").attribute("fill")), (2, Some("#FFD400")));
+    assert_eq!(group(&svg, "holes").children().filter(|n| n.has_tag_name("circle")).count(), 7);
+    assert!(words(group(&svg, "note")).contains("1: 40.0 mm, holes 1-2-3"), "{}", words(group(&svg, "note")));
+}
+
+/// Comment settings, header and rows of `tracks.csv`.
+fn tracks(csv: &str) -> (Vec<f64>, Vec<String>, Vec<Vec<String>>) {
+    let settings = ["encoder_lines", "gear_ratio", "spool_radius_mm"]
+        .iter()
+        .zip(csv.lines())
+        .map(|(key, line)| line.strip_prefix(&format!("# {key}=")).expect(key).parse().expect("a number"))
+        .collect();
+    let mut rows = csv.lines().skip(3).map(|l| l.split(',').map(String::from).collect());
+    (settings, rows.next().expect("a header"), rows.collect())
+}
+
+#[test]
+fn tracks_follow_the_animation_and_the_counts_formula() {
+    let mut design = rigged();
+    design.controller.gear_ratio = 43.2;
+    design.fabrication.spool_radius_mm = 9.75;
+    let (settings, header, rows) = tracks(&text(&design, "tracks.csv"));
+    assert_eq!(settings, [512.0, 43.2, 9.75]);
+    assert_eq!(header, ["time_s", "left_mm", "left_counts", "right_mm", "right_counts"]);
+    assert_eq!(rows.len(), 77, "0, 0.02, ... 1.50 and the last keyframe at 1.51 s");
+    for (i, row) in rows.iter().enumerate() {
+        let time: f64 = row[0].parse().expect("a time");
+        let expected = if i == 76 { 1.51 } else { i as f64 / 50.0 };
+        assert!((time - expected).abs() < 1e-9);
+        let activations = animation::activations_at(&design, time);
+        for winch in 0..2 {
+            let printed = &row[1 + 2 * winch];
+            assert_eq!(printed.split_once('.').expect("decimals").1.len(), 6);
+            let mm: f64 = printed.parse().expect("a length");
+            assert!((mm - activations[winch]).abs() < 1e-6);
+            let counts = 4.0 * 512.0 * 43.2 * mm / (2.0 * PI * 9.75);
+            assert_eq!(row[2 + 2 * winch].parse::<i64>().expect("integer counts"), counts.round() as i64);
+        }
+    }
+    assert_eq!(rows[0][1..], ["0.000000", "0", "0.000000", "0"], "slack is zero");
+    assert_eq!(rows[50][1], "10.000000");
+}
+
+#[test]
+fn without_keyframes_the_tracks_rest() {
+    let mut design = rigged();
+    design.keyframes.clear();
+    let (_, _, rows) = tracks(&text(&design, "tracks.csv"));
+    assert_eq!(rows, [["0.000000", "0.000000", "0", "0.000000", "0"]]);
+}
+
+#[test]
+fn the_controller_program_is_valid_commands_for_one_node_a_winch() {
+    let design = rigged();
+    let program = text(&design, "controller-ascii.txt");
+    assert!(program.ends_with('\r') && !program.contains('\n') && program.is_ascii());
+    let commands: Vec<(usize, &str, Option<i64>)> = program
+        .trim_end_matches('\r')
+        .split('\r')
+        .map(|line| {
+            let letters = line.find(|c: char| !c.is_ascii_digit()).expect("a command");
+            let argument = line.rfind(|c: char| c.is_ascii_alphabetic()).expect("a command") + 1;
+            let value = (argument < line.len()).then(|| line[argument..].parse().expect("a number"));
+            (line[..letters].parse().expect("a node"), &line[letters..argument], value)
+        })
+        .collect();
+    let prologue = |node: usize| {
+        commands.iter().filter(|c| c.0 == node).take(11).map(|&(_, name, value)| (name, value)).collect::<Vec<_>>()
+    };
+    let counts = |mm: f64| (4.0 * 512.0 * 43.0 * mm / (2.0 * PI * 10.0)).round() as i64;
+    for (node, farthest) in [(1, counts(10.0)), (2, counts(4.0))] {
+        assert_eq!(
+            prologue(node),
+            [
+                ("DI", None),
+                ("ANSW", Some(2)),
+                ("ENCRES", Some(2048)),
+                ("SP", Some(5000)),
+                ("AC", Some(200)),
+                ("DEC", Some(200)),
+                ("LL", Some(farthest + 1)),
+                ("LL", Some(-1)),
+                ("APL", Some(1)),
+                ("HO", Some(0)),
+                ("EN", None),
+            ]
+        );
+    }
+    // Every step of the track: targets of all nodes in order, then their starts.
+    let (_, _, rows) = tracks(&text(&design, "tracks.csv"));
+    let steps = &commands[22..];
+    assert_eq!(steps.len(), 4 * rows.len());
+    for (step, row) in steps.chunks(4).zip(&rows) {
+        let target = |i: usize| row[2 + 2 * i].parse().ok();
+        assert_eq!(step, [(1, "LA", target(0)), (2, "LA", target(1)), (1, "M", None), (2, "M", None)]);
+    }
+}
+
+#[test]
+fn winch_names_cannot_break_a_table() {
+    let mut design = rigged();
+    let tendon = Tendon { routing: vec![3, 4], ratio: 1.0, slack_mm: 0.0 };
+    design.networks = ["left", "left", " a,b\"c|d;#é ", "", "-1+cmd", "left (2)"]
+        .map(|name| Network { name: name.into(), tendons: vec![tendon.clone()] })
+        .to_vec();
+    design.keyframes.clear();
+    let labels = routing::winch_labels(&design);
+    assert_eq!(labels, ["left", "left (2)", "a_b_c_d__é", "winch 4", "1_cmd", "left (2) (2)"]);
+    let (_, header, rows) = tracks(&text(&design, "tracks.csv"));
+    assert_eq!((header.len(), rows[0].len()), (13, 13));
+    design.name = "</svg> & \"friends\"".into();
+    for name in ["pattern.svg", "routing.svg"] {
+        Document::parse(&text(&design, name)).expect("names are escaped");
+    }
+}
+
+#[test]
+fn what_cannot_be_made_is_refused() {
+    let fails = |spoil: &dyn Fn(&mut Design)| {
+        let mut design = rigged();
+        spoil(&mut design);
+        blueprint(&design).map(drop).expect_err("refused")
+    };
+    let key = |time_s, mm| Keyframe { time_s, activations_mm: vec![mm; 2], pose: None, easing: Easing::Linear };
+    let none = fails(&|d| {
+        d.networks.clear();
+        d.keyframes.clear();
+    });
+    assert!(matches!(none, ExportError::NoNetworks) && none.is_input());
+    assert!(matches!(fails(&|d| d.pins[0].stiffness = -1.0), ExportError::Invalid(_)));
+    assert!(matches!(fails(&|d| d.keyframes.push(key(1e300, 0.0))), ExportError::TooLong { .. }));
+    assert!(matches!(fails(&|d| d.keyframes.push(key(2.0, 1e9))), ExportError::TooFar { .. }));
+    assert!(matches!(fails(&|d| d.controller.encoder_lines = 16384), ExportError::EncoderTooFine { lines: 16384 }));
+    let many = fails(&|d| {
+        d.keyframes.clear();
+        d.networks = vec![d.networks[0].clone(); 256];
+    });
+    assert!(matches!(many, ExportError::TooManyWinches { winches: 256 }));
+}
+
+fn listing(dir: &Path) -> Vec<String> {
+    let mut names: Vec<String> =
+        fs::read_dir(dir).expect("a folder").flatten().map(|e| e.file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn the_manifest_lists_every_other_file() {
+    let parent = tempfile::tempdir().expect("a folder");
+    let dir = parent.path().join("new/blueprint");
+    let manifest = export(&rigged(), &dir).expect("exported");
+    let json: serde_json::Value =
+        serde_json::from_slice(&fs::read(dir.join("manifest.json")).expect("a manifest")).expect("JSON");
+    assert_eq!(serde_json::from_value::<Manifest>(json.clone()).expect("a manifest"), manifest);
+    let mut listed = vec!["manifest.json".to_string()];
+    for file in json["files"].as_array().expect("a list") {
+        let name = file["name"].as_str().expect("a name");
+        let bytes = fs::read(dir.join(name)).expect(name);
+        assert_eq!(file["bytes"].as_u64(), Some(bytes.len() as u64));
+        let digest: String = Sha256::digest(&bytes).iter().map(|b| format!("{b:02x}")).collect();
+        assert_eq!(file["sha256"].as_str(), Some(digest.as_str()));
+        listed.push(name.into());
+    }
+    listed.sort();
+    assert_eq!(listing(&dir), listed);
+    for name in ["pattern.svg", "routing.svg", "routing.csv", "tracks.csv", "controller-ascii.txt"] {
+        assert!(listed.contains(&name.to_string()), "{name} is missing");
+    }
+    // The check value of the SHA-256 standard (FIPS 180-2, "abc").
+    let abc = plushwright::fabrication::sha256(b"abc");
+    assert_eq!(abc, "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+}
+
+#[test]
+fn the_folder_appears_whole_or_not_at_all() {
+    let parent = tempfile::tempdir().expect("a folder");
+    let dir = parent.path().join("blueprint");
+    let mut design = rigged();
+    design.networks[0].tendons[0].routing = vec![10, 10];
+    assert!(export(&design, &dir).is_err());
+    assert!(listing(parent.path()).is_empty(), "a refused design leaves nothing");
+
+    let design = rigged();
+    export(&design, &dir).expect("exported");
+    let first = fs::read(dir.join("tracks.csv")).expect("tracks");
+    let mut slower = design.clone();
+    slower.controller.track_rate_hz = 10.0;
+    export(&slower, &dir).expect("an earlier export is replaced");
+    assert_ne!(fs::read(dir.join("tracks.csv")).expect("tracks"), first);
+    export(&design, &dir).expect("and again");
+    assert_eq!(fs::read(dir.join("tracks.csv")).expect("tracks"), first, "the same design gives the same bytes");
+    assert_eq!(listing(parent.path()), ["blueprint"]);
+
+    fs::write(dir.join("my notes.txt"), "mine").expect("written");
+    let refused = export(&design, &dir).expect_err("somebody's file is in it");
+    assert!(matches!(&refused, ExportError::NotOurs { found, .. } if found == "my notes.txt"), "{refused}");
+    assert_eq!(fs::read_to_string(dir.join("my notes.txt")).expect("still there"), "mine");
+
+    let other = parent.path().join("other");
+    fs::create_dir(&other).expect("a folder");
+    export(&design, &other).expect("an empty folder is fine");
+    let file = parent.path().join("file");
+    fs::write(&file, "text").expect("written");
+    assert!(export(&design, &file).is_err_and(|e| e.is_input()));
+    assert!(export(&design, &file.join("below")).is_err());
+    assert_eq!(listing(parent.path()), ["blueprint", "file", "other"]);
+}
+
+#[test]
+fn any_valid_design_makes_a_blueprint() {
+    let mut random = Random(11);
+    for _ in 0..30 {
+        let mut design = rectangle(random.between(10.0, 600.0), random.between(10.0, 600.0), 4, 3);
+        let size = design.outline.outer.iter().flatten().copied().fold(0.0, f64::max);
+        design.fabrication.seam_allowance_mm = random.between(0.0, 0.1 * size);
+        design.fabrication.turning_gap_mm = random.between(0.0, 200.0);
+        design.networks = (0..1 + random.below(6)).map(|_| random.network(&design.mesh)).collect();
+        design.keyframes = (0..random.below(4))
+            .map(|i| {
+                let activations_mm = design.networks.iter().map(|_| random.between(0.0, 50.0)).collect();
+                Keyframe {
+                    time_s: i as f64 + random.between(0.0, 0.9),
+                    activations_mm,
+                    pose: None,
+                    easing: Easing::Smooth,
+                }
+            })
+            .collect();
+        for name in ["pattern.svg", "routing.svg"] {
+            let xml = text(&design, name);
+            assert!(!xml.contains("NaN") && !xml.contains("inf"), "{name}");
+            Document::parse(&xml).expect("XML");
+        }
+    }
+}
+
+#[test]
+fn the_bundled_outlines_make_good_patterns() {
+    for name in ["e", "pig", "puppy", "robot", "s", "squid"] {
+        let svg = fs::read(format!("assets/{name}.svg")).expect(name);
+        let outline = plushwright::outline::svg::read(&svg, Some(250.0)).expect(name);
+        let mesh = plushwright::mesh::generate(&outline, 300).expect(name);
+        let mut design = Design::new(name, outline, mesh);
+        let mut random = Random(5);
+        design.networks = vec![random.network(&design.mesh), random.network(&design.mesh)];
+        let xml = text(&design, "pattern.svg");
+        let svg = Document::parse(&xml).expect("XML");
+        let outlines = paths(group(&svg, "cut"));
+        let largest = outlines.iter().map(|(p, _)| area(p)).fold(0.0, f64::max);
+        assert!(largest > design.outline.area(), "{name}");
+        let seams = paths(group(&svg, "stitch"));
+        let (first, last) = (seams[0].0[0], *seams[0].0.last().expect("points"));
+        let opening = (last[0] - first[0]).hypot(last[1] - first[1]);
+        assert!((49.0..50.001).contains(&opening), "{name}: the gap's ends are {opening} mm apart");
+        if let Ok(dir) = std::env::var("PLUSHWRIGHT_KEEP_BLUEPRINTS") {
+            export(&design, &Path::new(&dir).join(name)).expect("exported");
+        }
+    }
+}

@@ -1,0 +1,33 @@
+//! The integration tests, one module a subject, in one binary: the crate is linked once.
+
+mod allocations;
+mod architecture;
+mod budgets;
+mod circles;
+mod cli;
+mod document;
+mod drag;
+mod export;
+mod extremes;
+#[cfg(unix)]
+mod files;
+mod hostile;
+mod import;
+mod layers;
+mod mesh;
+mod minimum;
+mod networks;
+mod networks_reference;
+mod outlines;
+mod physics;
+mod problems;
+mod properties;
+#[cfg(all(feature = "studio", unix))]
+mod recovery;
+mod soft_ik;
+#[cfg(feature = "studio")]
+mod studio;
+mod support;
+mod texture;
+mod tracker;
+mod winding;

@@ -1,0 +1,440 @@
+//! The window loses nothing: closing asks, work that is not saved comes back, files of others are not replaced without a question.
+
+use eframe::egui::{self, Key, Modifiers, ViewportEvent, ViewportId, vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use plushwright::design::{Design, bundled, edit, file};
+use plushwright::studio::app::Studio;
+use plushwright::studio::session::{Services, Session};
+use plushwright::studio::store::Store;
+use std::fs;
+use std::os::unix::fs::symlink;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+type Window = Harness<'static, Option<Studio>>;
+
+fn pig() -> Design {
+    bundled::ALL[0].design().unwrap()
+}
+
+fn services() -> Services {
+    Services { propose: Arc::new(|_, _, _, _| Vec::new()), export: Arc::new(|_, _| Ok(())) }
+}
+
+/// A window on a design, and on a file where it has one, that keeps its state in `state`.
+fn window(design: Design, path: Option<&Path>, state: &Path) -> Window {
+    let mut given = Some((design, path.map(Path::to_path_buf), Store::at(state)));
+    let mut window = Harness::builder().with_max_steps(32).with_size(vec2(1280.0, 800.0)).build_ui_state(
+        move |ui, studio: &mut Option<Studio>| {
+            let studio = studio.get_or_insert_with(|| {
+                let (design, path, store) = given.take().expect("made once");
+                Studio::new(ui.ctx(), design, path, services()).with_store(ui.ctx(), store)
+            });
+            studio.update(ui);
+        },
+        None,
+    );
+    // The views need not be solved for any of this.
+    steps(&mut window);
+    window
+}
+
+fn session(window: &Window) -> &Session {
+    window.state().as_ref().expect("made in the first frame").session()
+}
+
+fn steps(window: &mut Window) {
+    (0..4).for_each(|_| window.step());
+}
+
+fn click(window: &mut Window, name: &str) {
+    window.get_by_label(name).click();
+    steps(window);
+}
+
+fn press(window: &mut Window, modifiers: Modifiers, key: Key) {
+    window.key_press_modifiers(modifiers, key);
+    steps(window);
+}
+
+fn type_path(window: &mut Window, path: &Path) {
+    window.get_by_label("Path").focus();
+    window.step();
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.step();
+    window.get_by_label("Path").type_text(&path.to_string_lossy());
+    steps(window);
+}
+
+/// The desktop asks the window to close.
+fn close(window: &mut Window) {
+    window.input_mut().viewports.get_mut(&ViewportId::ROOT).unwrap().events.push(ViewportEvent::Close);
+    steps(window);
+}
+
+fn change(window: &mut Window) {
+    press(window, Modifiers::COMMAND | Modifiers::SHIFT, Key::N);
+    assert!(session(window).history().is_modified());
+}
+
+fn is_asked(window: &Window) -> bool {
+    window.query_by_label("Discard changes").is_some()
+}
+
+/// Frames until the work is on the disk.
+fn kept(window: &mut Window, state: &Path) {
+    let started = Instant::now();
+    let poses = session(window).design().poses.len();
+    let is_kept = || {
+        let folders = fs::read_dir(state.join("work")).into_iter().flatten().flatten();
+        let mut designs = folders.map(|entry| file::read(&entry.path().join("work.plush")));
+        designs.any(|design| design.is_ok_and(|design| design.poses.len() == poses))
+    };
+    while !is_kept() {
+        assert!(started.elapsed() < Duration::from_secs(30), "nothing was kept");
+        window.step();
+        std::thread::sleep(Duration::from_millis(20));
+    }
+}
+
+fn messages(window: &Window) -> String {
+    session(window).messages().list().iter().map(|message| message.text.clone() + "\n").collect()
+}
+
+#[test]
+fn closing_twice_asks_twice() {
+    let state = tempfile::tempdir().unwrap();
+    let mut window = window(pig(), None, state.path());
+    change(&mut window);
+    for _ in 0..3 {
+        close(&mut window);
+        assert!(is_asked(&window) && !session(&window).is_closing());
+    }
+    click(&mut window, "Cancel");
+    for _ in 0..3 {
+        press(&mut window, Modifiers::COMMAND, Key::Q);
+        assert!(is_asked(&window) && !session(&window).is_closing());
+    }
+    click(&mut window, "Cancel");
+    // Over any dialog, one that was opened past a question too.
+    let open: [&dyn Fn(&mut Window); 4] = [
+        &|window| press(window, Modifiers::COMMAND | Modifiers::SHIFT, Key::S),
+        &|window| press(window, Modifiers::COMMAND, Key::E),
+        &|window| {
+            press(window, Modifiers::COMMAND, Key::N);
+            click(window, "Discard changes");
+        },
+        &|window| {
+            press(window, Modifiers::COMMAND, Key::O);
+            click(window, "Discard changes");
+        },
+    ];
+    for open in open {
+        open(&mut window);
+        assert!(window.query_by_label("Path").is_some());
+        close(&mut window);
+        assert!(is_asked(&window) && !session(&window).is_closing());
+        click(&mut window, "Cancel");
+    }
+    close(&mut window);
+    click(&mut window, "Discard changes");
+    assert!(session(&window).is_closing());
+    let left = fs::read_dir(state.path().join("work")).unwrap().count();
+    assert_eq!(left, 0, "nothing is left of what was not wanted");
+}
+
+#[test]
+fn saving_on_the_way_out_closes_and_leaves_nothing() {
+    let (state, folder) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    let mut window = window(pig(), None, state.path());
+    change(&mut window);
+    close(&mut window);
+    click(&mut window, "Save changes");
+    type_path(&mut window, &folder.path().join("pig.plush"));
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    assert!(session(&window).is_closing());
+    assert_eq!(file::read(&folder.path().join("pig.plush")).unwrap().poses.len(), pig().poses.len() + 1);
+    assert_eq!(fs::read_dir(state.path().join("work")).unwrap().count(), 0);
+}
+
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        fs::read(&self.0).map_err(|error| error.to_string())
+    }
+}
+
+#[test]
+fn a_file_dropped_on_a_dialog_replaces_nothing() {
+    let (state, folder) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    let other = folder.path().join("other.plush");
+    file::write(&other, &bundled::ALL[1].design().unwrap()).unwrap();
+    let mut window = window(pig(), None, state.path());
+    let drop = |window: &mut Window| {
+        window.input_mut().dropped_files.push(Arc::new(Dropped(other.clone())));
+        steps(window);
+    };
+    change(&mut window);
+    press(&mut window, Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
+    drop(&mut window);
+    assert!(session(&window).design().name == "pig" && messages(&window).contains("answer the dialog first"));
+    click(&mut window, "Cancel");
+    drop(&mut window);
+    assert!(is_asked(&window) && session(&window).design().name == "pig");
+    click(&mut window, "Discard changes");
+    assert_eq!(session(&window).design().name, "robot");
+}
+
+#[test]
+fn work_that_was_not_saved_is_offered_by_the_next_window() {
+    let (state, folder) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    let path = folder.path().join("pig.plush");
+    file::write(&path, &pig()).unwrap();
+    let before = fs::read(&path).unwrap();
+    let mut first = window(pig(), Some(&path), state.path());
+    change(&mut first);
+    kept(&mut first, state.path());
+    let work = session(&first).design().clone();
+    // As after a kill: it neither asked nor saved.
+    drop(first);
+    assert_eq!(fs::read(&path).unwrap(), before);
+    let mut second = window(bundled::ALL[1].design().unwrap(), None, state.path());
+    assert!(second.query_by_label_contains("Recover “pig”").is_some());
+    // Not now: it is offered again.
+    click(&mut second, "Not now");
+    drop(second);
+    let mut third = window(bundled::ALL[1].design().unwrap(), None, state.path());
+    click(&mut third, "Recover");
+    assert_eq!(**session(&third).design(), *work);
+    assert!(session(&third).history().is_modified());
+    // It is not lost by being recovered either.
+    drop(third);
+    let mut fourth = window(bundled::ALL[1].design().unwrap(), None, state.path());
+    click(&mut fourth, "Recover");
+    press(&mut fourth, Modifiers::COMMAND, Key::S);
+    assert_eq!(file::read(&path).unwrap(), *work);
+    close(&mut fourth);
+    assert!(session(&fourth).is_closing());
+    drop(fourth);
+    let fifth = window(pig(), None, state.path());
+    assert!(fifth.query_by_label_contains("Recover").is_none());
+}
+
+#[test]
+fn a_line_that_is_only_being_drawn_is_kept_too() {
+    let state = tempfile::tempdir().unwrap();
+    let mut first = window(pig(), None, state.path());
+    press(&mut first, Modifiers::COMMAND | Modifiers::SHIFT, Key::O);
+    press(&mut first, Modifiers::NONE, Key::P);
+    let center = first.get_by_label("Drawing sheet").rect().center();
+    for corner in [vec2(-80.0, -60.0), vec2(80.0, -60.0), vec2(0.0, 70.0)] {
+        first.hover_at(center + corner);
+        first.step();
+        first.drag_at(center + corner);
+        first.step();
+        first.drop_at(center + corner);
+        steps(&mut first);
+    }
+    assert_eq!(session(&first).drawing().parts.len(), 0, "it is not closed yet");
+    let started = Instant::now();
+    while started.elapsed() < Duration::from_secs(4) {
+        first.step();
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    drop(first);
+    let mut second = window(pig(), None, state.path());
+    click(&mut second, "Recover");
+    let drawing = session(&second).design().drawing.clone().unwrap();
+    assert_eq!((drawing.parts.len(), drawing.parts[0].primitive.handles().len()), (1, 3));
+}
+
+#[test]
+fn a_file_that_was_changed_is_not_replaced_in_silence() {
+    let (state, folder) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    let path = folder.path().join("pig.plush");
+    file::write(&path, &pig()).unwrap();
+    let mut window = window(pig(), Some(&path), state.path());
+    let mut theirs = pig();
+    edit::rename(&mut theirs, "theirs").unwrap();
+    file::write(&path, &theirs).unwrap();
+    change(&mut window);
+    press(&mut window, Modifiers::COMMAND, Key::S);
+    assert!(window.query_by_label_contains("was changed by another program").is_some());
+    assert_eq!(file::read(&path).unwrap().name, "theirs");
+    click(&mut window, "Cancel");
+    assert!(session(&window).history().is_modified());
+    press(&mut window, Modifiers::COMMAND, Key::S);
+    click(&mut window, "Replace it");
+    assert_eq!(file::read(&path).unwrap().name, "pig");
+    // Now it is ours again.
+    change(&mut window);
+    press(&mut window, Modifiers::COMMAND, Key::S);
+    assert!(!session(&window).history().is_modified());
+}
+
+#[test]
+fn saving_over_another_file_is_a_question() {
+    let (state, folder) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    let [notes, other] = ["notes.txt", "other.plush"].map(|name| folder.path().join(name));
+    fs::write(&notes, "mine").unwrap();
+    file::write(&other, &bundled::ALL[1].design().unwrap()).unwrap();
+    let mut window = window(pig(), None, state.path());
+    for (path, said) in [(&notes, "That file is no plushie"), (&other, "Another plushie has that name")] {
+        let before = fs::read(path).unwrap();
+        press(&mut window, Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
+        type_path(&mut window, path);
+        press(&mut window, Modifiers::NONE, Key::Enter);
+        assert!(window.query_by_label_contains(said).is_some(), "{said}");
+        click(&mut window, "Cancel");
+        assert_eq!(fs::read(path).unwrap(), before);
+    }
+    press(&mut window, Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
+    type_path(&mut window, &notes);
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    click(&mut window, "Replace it");
+    assert_eq!(file::read(&notes).unwrap(), pig());
+    // A read-only file says so, and what was to follow does not.
+    let mut permissions = fs::metadata(&notes).unwrap().permissions();
+    permissions.set_readonly(true);
+    fs::set_permissions(&notes, permissions).unwrap();
+    change(&mut window);
+    close(&mut window);
+    click(&mut window, "Save changes");
+    assert!(messages(&window).contains("read-only") && !session(&window).is_closing());
+}
+
+#[test]
+fn two_windows_on_one_file_are_told_and_settings_are_remembered() {
+    let (state, folder) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    let path = folder.path().join("pig.plush");
+    file::write(&path, &pig()).unwrap();
+    let mut first = window(pig(), Some(&path), state.path());
+    assert!(messages(&first).is_empty());
+    let second = window(pig(), Some(&path), state.path());
+    assert!(messages(&second).contains("open in another window"));
+    drop(second);
+    let theme = session(&first).look().theme;
+    press(&mut first, Modifiers::NONE, Key::T);
+    press(&mut first, Modifiers::NONE, Key::M);
+    close(&mut first);
+    drop(first);
+    let third = window(pig(), None, state.path());
+    assert_ne!(session(&third).look().theme, theme);
+    assert!(!session(&third).look().fibers);
+    assert_eq!(session(&third).recent(), [path]);
+}
+
+/// Files that are no designs, or mean harm.
+const HOSTILE: [&str; 8] = [
+    "late.plush",
+    "name.plush",
+    "lines.plush",
+    "long.plush",
+    "deep.plush",
+    "large.plush",
+    "pipe.plush",
+    "device.plush",
+];
+
+fn hostile_files() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let text = bundled::ALL[0].text;
+    fs::write(at("late.plush"), text.replacen("time_s: 2.0", "time_s: 1e9", 1)).unwrap();
+    fs::write(at("name.plush"), text.replacen("ear-and-leg", "a\\u{1b}[2J", 1)).unwrap();
+    fs::write(at("lines.plush"), text.replacen("ear-and-leg", "a\\nplushwright: done", 1)).unwrap();
+    fs::write(at("long.plush"), text.replacen("ear-and-leg", &"x".repeat(65_536), 1)).unwrap();
+    fs::write(at("deep.plush"), format!("(version: 1, name: {}", "[".repeat(1_000_000))).unwrap();
+    fs::File::create(at("large.plush")).unwrap().set_len(1 << 30).unwrap();
+    Command::new("mkfifo").arg(at("pipe.plush")).status().unwrap();
+    symlink("/dev/zero", at("device.plush")).unwrap();
+    folder
+}
+
+#[test]
+fn a_hostile_file_is_refused_and_the_document_stays() {
+    let (state, folder) = (tempfile::tempdir().unwrap(), hostile_files());
+    let mut window = window(pig(), None, state.path());
+    for name in HOSTILE {
+        press(&mut window, Modifiers::COMMAND, Key::O);
+        type_path(&mut window, &folder.path().join(name));
+        press(&mut window, Modifiers::NONE, Key::Enter);
+        let said = messages(&window);
+        assert!(said.contains(name) && said.len() < 4000 && !said.contains('\u{1b}'), "{name}: {said}");
+        assert_eq!(**session(&window).design(), pig());
+        click(&mut window, "Cancel");
+    }
+    // By its size, before a byte of it is read.
+    assert!(messages(&window).contains("larger than"));
+}
+
+#[test]
+fn a_hostile_file_on_the_command_line_is_refused_before_a_window_opens() {
+    let folder = hostile_files();
+    for name in HOSTILE {
+        // Less memory, in KiB, than any of them would take that is read whole and worked on.
+        let shell = ["ulimit -v 500000; exec \"$0\" \"$@\"", env!("CARGO_BIN_EXE_plushwright"), name];
+        let mut program = Command::new("sh");
+        program.arg("-c").args(shell).current_dir(folder.path()).env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
+        let output = program.output().unwrap();
+        let line = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{name}: {line}");
+        assert!(line.lines().count() == 1 && line.contains(name) && line.len() < 300, "{line}");
+        assert!(!line.contains('\u{1b}'), "{line}");
+    }
+}
+
+/// A PNG of a few bytes that claims to be of that many pixels each way.
+fn bomb(pixels: u32) -> Vec<u8> {
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    image::RgbImage::new(1, 1).write_to(&mut bytes, image::ImageFormat::Png).unwrap();
+    let mut bytes = bytes.into_inner();
+    bytes[16..20].copy_from_slice(&pixels.to_be_bytes());
+    bytes[20..24].copy_from_slice(&pixels.to_be_bytes());
+    let crc = !bytes[12..29].iter().fold(u32::MAX, |crc, &byte| {
+        (0..8).fold(crc ^ u32::from(byte), |crc, _| if crc & 1 == 1 { 0xedb8_8320 ^ (crc >> 1) } else { crc >> 1 })
+    });
+    bytes[29..33].copy_from_slice(&crc.to_be_bytes());
+    bytes
+}
+
+#[test]
+fn a_hostile_texture_is_left_out_and_said() {
+    let (state, folder) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    let at = |name: &str| folder.path().join(name);
+    Command::new("mkfifo").arg(at("pipe.png")).status().unwrap();
+    symlink("/dev/zero", at("device.png")).unwrap();
+    fs::write(at("bomb.png"), bomb(60_000)).unwrap();
+    fs::File::create(at("large.png")).unwrap().set_len(1 << 30).unwrap();
+    let mut window = window(bundled::ALL[1].design().unwrap(), None, state.path());
+    let textures =
+        ["pipe.png", "device.png", "bomb.png", "large.png", "/dev/zero", "../../../../../../etc/passwd", "none.png"];
+    for (k, texture) in textures.into_iter().enumerate() {
+        let mut design = pig();
+        design.texture = Some(texture.into());
+        let path = at(&format!("{k}.plush"));
+        fs::write(&path, file::to_text(&design).unwrap()).unwrap();
+        press(&mut window, Modifiers::COMMAND, Key::O);
+        type_path(&mut window, &path);
+        press(&mut window, Modifiers::NONE, Key::Enter);
+        let started = Instant::now();
+        let is_told = |window: &Window| {
+            messages(window).lines().any(|line| line.contains(texture) && line.contains("cannot be shown"))
+        };
+        while !is_told(&window) {
+            assert!(started.elapsed() < Duration::from_secs(30), "{texture}: {}", messages(&window));
+            window.step();
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        assert!(session(&window).texture().is_none() && session(&window).design().name == "pig", "{texture}");
+    }
+}
