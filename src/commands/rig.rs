@@ -25,7 +25,7 @@ pub struct Rig {
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..=64))]
     pub max_winches: u16,
     /// Tendons of each winch: one number for all, a list winch by winch, or a range to choose from
-    #[arg(long, value_name = "N[,N...]|A..B", default_value = "1..4", value_parser = parse_tendons)]
+    #[arg(long, value_name = "N[,N...]|A..B", default_value = "1..4")]
     pub tendons: TendonChoice,
     /// Fibers that seed a network (SEED_NUM of Algorithm 2) [default: several are tried]
     #[arg(long, value_name = "N")]
@@ -77,39 +77,9 @@ pub fn failed(path: &Path, error: Error) -> CommandError {
     }
 }
 
-/// Most tendons of one winch: a spool does not hold more.
-const MAX_TENDONS: usize = 16;
-
-/// Reads `N`, `N,N,...` or `A..B` (both ends included).
-fn parse_tendons(text: &str) -> Result<TendonChoice, String> {
-    let explain = || format!("expected N, N,N,... or A..B with numbers from 1 to {MAX_TENDONS}, found `{text}`");
-    let number =
-        |part: &str| part.trim().parse::<usize>().ok().filter(|n| (1..=MAX_TENDONS).contains(n)).ok_or_else(explain);
-    if let Some((low, high)) = text.split_once("..") {
-        let (low, high) = (number(low)?, number(high)?);
-        return if low <= high { Ok(TendonChoice::Between(low, high)) } else { Err(explain()) };
-    }
-    Ok(TendonChoice::PerWinch(text.split(',').map(number).collect::<Result<_, _>>()?))
-}
-
 fn parse_phi(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(phi) if (0.0..=1.0).contains(&phi) => Ok(phi),
         _ => Err(format!("expected a number from 0 to 1, found `{text}`")),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn tendon_choices_read_back() {
-        assert_eq!(parse_tendons("2"), Ok(TendonChoice::PerWinch(vec![2])));
-        assert_eq!(parse_tendons("1,2,3"), Ok(TendonChoice::PerWinch(vec![1, 2, 3])));
-        assert_eq!(parse_tendons("1..3"), Ok(TendonChoice::Between(1, 3)));
-        for bad in ["", "0", "3..1", "1,,2", "a", "1..", "99"] {
-            assert!(parse_tendons(bad).unwrap_err().contains(&format!("`{bad}`")), "{bad}");
-        }
     }
 }

@@ -16,6 +16,9 @@ pub enum ProblemError {
     Json(String),
     #[error("{key}: {what}")]
     Content { key: String, what: String },
+    /// The method asked for cannot answer this problem.
+    #[error("method: {0}")]
+    Method(String),
 }
 
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]

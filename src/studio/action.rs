@@ -4,6 +4,7 @@ use super::change::Change;
 use super::files::PathDialog;
 use super::importing::ImportChoice;
 use super::meshing::Resolution;
+use super::rigging::RigChoice;
 use super::session::{Selection, Tool};
 use super::sketching::Sketch;
 use super::viewport::Plushie;
@@ -11,7 +12,6 @@ use super::viewport::camera::Camera;
 use crate::discovery::Parameters;
 use crate::engine::Quality;
 use crate::mesh::BodyPoint;
-use crate::operations::rig;
 use crate::outline::Point;
 use crate::picture::palette::Theme;
 use crate::picture::scene::Stage;
@@ -66,7 +66,7 @@ pub enum Action {
     /// Makes a mesh of that resolution; one undo step when it is there.
     Remesh,
     CancelRemesh,
-    SetRig(rig::Options),
+    SetRig(RigChoice),
     /// Looks for networks for all poses; one undo step when they are there.
     Rig,
     CancelRig,

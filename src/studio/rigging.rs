@@ -3,13 +3,47 @@
 use super::jobs::{Outcome, Running};
 use super::session::Session;
 use super::words;
+use crate::discovery::Parameters;
 use crate::operations::rig::{self, Error, Note, Options, Rigged};
 use crate::operations::{Context, Progress, key};
+use crate::rigging::BadTendons;
 use std::sync::{Arc, Mutex};
+
+/// What may be built, as the panel has it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RigChoice {
+    pub max_winches: usize,
+    /// Tendons of each winch, as they are typed: `2`, `3,2` winch by winch, or `1..4` to choose from.
+    pub tendons: String,
+    /// Whether the parameters of discovery hold; otherwise several are tried.
+    pub hold: bool,
+}
+
+impl Default for RigChoice {
+    fn default() -> Self {
+        let Options { max_winches, tendons, .. } = Options::default();
+        Self { max_winches, tendons: tendons.to_string(), hold: false }
+    }
+}
+
+impl RigChoice {
+    /// With the parameters of discovery.
+    fn options(&self, parameters: &Parameters) -> Result<Options, BadTendons> {
+        let held = |value: usize| self.hold.then_some(value);
+        Ok(Options {
+            max_winches: self.max_winches,
+            tendons: self.tendons.trim().parse()?,
+            seed_num: held(parameters.seed_num),
+            join_depth: held(parameters.join_depth),
+            join_len: held(parameters.join_len),
+            phi: self.hold.then_some(parameters.phi),
+        })
+    }
+}
 
 #[derive(Default)]
 pub struct Rigging {
-    pub options: Options,
+    pub choice: RigChoice,
     pub running: Option<Running>,
     /// What was done last, from the thread.
     step: Arc<Mutex<String>>,
@@ -37,7 +71,11 @@ impl Session {
         if self.rigging.running.is_some() {
             return;
         }
-        let (design, options) = (self.design().clone(), self.rigging.options.clone());
+        let options = match self.rigging.choice.options(&self.discovery.parameters) {
+            Ok(options) => options,
+            Err(error) => return self.messages.warning(format!("Tendons of each winch: {error}")),
+        };
+        let design = self.design().clone();
         let (step, wake) = (Arc::new(Mutex::new(String::new())), self.jobs.wake());
         self.rigging.step = step.clone();
         self.rigging.running = Some(self.jobs.start("Rigging", move |cancel| {

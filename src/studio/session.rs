@@ -289,7 +289,7 @@ impl Session {
             Action::SetResolution(resolution) => self.meshing.wanted = Some(resolution),
             Action::Remesh => self.start_remesh(),
             Action::CancelRemesh => self.cancel_remesh(),
-            Action::SetRig(options) => self.rigging.options = options,
+            Action::SetRig(choice) => self.rigging.choice = choice,
             Action::Rig => self.start_rig(),
             Action::CancelRig => self.cancel_rig(),
             Action::Propose => self.start_propose(),

@@ -8,7 +8,7 @@ use crate::studio::session::Session;
 use crate::studio::style;
 use eframe::egui::{
     Align2, Button, CollapsingHeader, DragValue, FontId, Grid, ProgressBar, Rect, Response, RichText, Role, ScrollArea,
-    Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2,
+    Sense, Spinner, Stroke, StrokeKind, TextEdit, Ui, WidgetInfo, vec2,
 };
 use std::time::Duration;
 
@@ -19,6 +19,7 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Act
         None => propose(ui, session, actions),
     }
     parameters(ui, session, actions);
+    rig(ui, session, actions);
     if session.discovery.proposals.is_empty() {
         return;
     }
@@ -87,6 +88,56 @@ fn parameters(ui: &mut Ui, session: &Session, actions: &mut Actions) {
             actions.push(Action::SetParameters(p));
         }
     });
+}
+
+/// Networks for all poses at once.
+fn rig(ui: &mut Ui, session: &Session, actions: &mut Actions) {
+    CollapsingHeader::new("All poses").id_salt("rig").show(ui, |ui| {
+        let mut choice = session.rigging().choice.clone();
+        Grid::new("rig").num_columns(2).spacing([8.0, 4.0]).show(ui, |ui| {
+            let tip = "Winches that the plushie may have in the end";
+            let label = ui.label("Most winches").on_hover_text(tip);
+            ui.add(DragValue::new(&mut choice.max_winches).range(1..=64).speed(0.1)).labelled_by(label.id);
+            ui.end_row();
+            let tip = "One number for all (2), winch by winch (3,2), or what to choose from (1..4)";
+            let label = ui.label("Tendons of each winch").on_hover_text(tip);
+            let field = TextEdit::singleline(&mut choice.tendons).desired_width(70.0);
+            ui.add(field).labelled_by(label.id).on_hover_text(tip);
+            ui.end_row();
+        });
+        ui.checkbox(&mut choice.hold, "Hold the parameters").on_hover_text("Otherwise several are tried");
+        if choice != session.rigging().choice {
+            actions.push(Action::SetRig(choice));
+        }
+        match &session.rigging().running {
+            Some(running) => rigging(ui, running.started.elapsed(), &session.rigging().step(), actions),
+            None => {
+                let why_not = session.cannot_rig();
+                let response = primary(ui, why_not.is_none(), "Rig all poses", ui.available_width());
+                let response = response
+                    .on_hover_text(
+                        "Look for winches and tendons that serve all poses, and lay the poses on an empty timeline",
+                    )
+                    .on_disabled_hover_text(why_not.unwrap_or_default());
+                if response.clicked() {
+                    actions.push(Action::Rig);
+                }
+            }
+        }
+    });
+}
+
+fn rigging(ui: &mut Ui, elapsed: Duration, step: &str, actions: &mut Actions) {
+    ui.horizontal(|ui| {
+        ui.add(Spinner::new());
+        ui.label(format!("{} s", elapsed.as_secs()));
+        if ui.button("Cancel rigging").on_hover_text("Keep the plushie as it is").clicked() {
+            actions.push(Action::CancelRig);
+        }
+    });
+    ui.label(RichText::new(step).small().weak());
+    // The seconds go on counting.
+    ui.ctx().request_repaint_after(Duration::from_millis(200));
 }
 
 fn row(ui: &mut Ui, session: &Session, index: usize, proposal: &Proposal, actions: &mut Actions) {
