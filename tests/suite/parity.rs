@@ -137,7 +137,10 @@ fn posed() -> (tempfile::TempDir, Window) {
     click(&mut window, "Pin tool");
     for p in [[5.0, 10.0], [5.0, 30.0]] {
         let p = on_screen(&window, p);
-        drag(&mut window, p, p);
+        window.hover_at(p);
+        window.drag_at(p);
+        window.drop_at(p);
+        settle(&mut window);
     }
     click(&mut window, "Drag tool");
     let [from, to] = [[112.0, 20.0], [106.3, 37.7]].map(|p| on_screen(&window, p));
