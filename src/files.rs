@@ -8,6 +8,7 @@
 //! | [`Hold`] | keeps other processes off a file between reading and writing it |
 //! | [`Stamp`] | tells whether a file is still what was read |
 //! | [`same`] | whether two paths are one file |
+//! | [`marked_png`], [`is_marked_png`] | tells our pictures from those of others |
 //!
 //! A file is written in full beside its place, flushed, and then takes the name. On Linux it has no name until then, so that even a
 //! process that is killed leaves nothing behind. A symbolic link is followed; mode, owner, group and access lists of what is replaced
@@ -16,12 +17,14 @@
 mod draft;
 pub mod folder;
 mod hold;
+mod mark;
 mod place;
 mod signals;
 mod stamp;
 mod sweep;
 
 pub use hold::Hold;
+pub use mark::{is_marked_png, marked_png};
 pub use place::same;
 pub use signals::{before_exit, survive_size_limits};
 pub use stamp::{Stamp, sha256};
@@ -151,8 +154,15 @@ fn open_at_once(path: &Path) -> io::Result<fs::File> {
     options.open(path)
 }
 
+/// Writes to what is no file. A pipe that nobody reads is refused: it would keep the program waiting.
 fn stream(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let mut stream = fs::OpenOptions::new().write(true).open(path)?;
+    let mut options = fs::OpenOptions::new();
+    options.write(true);
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::custom_flags(&mut options, rustix::fs::OFlags::NONBLOCK.bits() as i32);
+    let mut stream = options.open(path)?;
+    #[cfg(unix)]
+    rustix::fs::fcntl_setfl(&stream, rustix::fs::fcntl_getfl(&stream)? - rustix::fs::OFlags::NONBLOCK)?;
     stream.write_all(bytes)?;
     stream.flush()
 }

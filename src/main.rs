@@ -5,6 +5,7 @@ use plushwright::files;
 use std::io::Write;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 /// Raised by the first interrupt; every solver checks it.
 static CANCEL: AtomicBool = AtomicBool::new(false);
@@ -41,13 +42,24 @@ fn run(cli: &Cli) -> Result<(), CommandError> {
     }
 }
 
+/// How long an interrupted command may take to stop by itself: a pipe that nobody serves stops never.
+const PATIENCE: Duration = Duration::from_secs(3);
+
 /// The first interrupt, or request to end, asks the solvers to stop, so that nothing is left half written; the second one does not wait.
 fn catch_interrupts() -> Result<(), CommandError> {
-    ctrlc::set_handler(|| {
+    let end = || {
+        files::before_exit();
+        let _ = writeln!(std::io::stderr(), "plushwright: {}", CommandError::Cancelled.line());
+        std::process::exit(i32::from(CommandError::Cancelled.code()));
+    };
+    ctrlc::set_handler(move || {
         if CANCEL.swap(true, Ordering::SeqCst) {
-            files::before_exit();
-            std::process::exit(i32::from(CommandError::Cancelled.code()));
+            end();
         }
+        std::thread::spawn(move || {
+            std::thread::sleep(PATIENCE);
+            end();
+        });
     })
     .map_err(|e| CommandError::Failed(format!("cannot listen for interrupts: {e}")))
 }

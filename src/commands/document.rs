@@ -19,7 +19,7 @@ pub struct Target {
     /// Design file to write; may be the one read
     #[arg(short, long, value_name = "DESIGN")]
     pub output: PathBuf,
-    /// Replace a file that is no design, or the design of another plushie
+    /// Replace a file that is no design, or a design that holds other work
     #[arg(long)]
     pub force: bool,
 }
@@ -28,9 +28,15 @@ pub struct Target {
 pub struct Edit<'a> {
     from: &'a Path,
     to: &'a Path,
-    /// What was read, where that is what is written to.
-    seen: Option<Stamp>,
-    _held: Option<Hold>,
+    place: Place,
+}
+
+/// Where an edited design goes.
+enum Place {
+    /// Back to where it was read: what was read, held.
+    Back { seen: Stamp, _held: Hold },
+    /// To another file: the design that was read, whether what is there may be lost.
+    Away(Box<Design>, bool),
 }
 
 pub fn load(path: &Path) -> Result<Design, CommandError> {
@@ -49,14 +55,15 @@ impl Target {
             refuse_foreign(to, self.force)?;
             let design = load(from)?;
             refuse_another(to, &design, self.force)?;
-            return Ok((design, Edit { from, to, seen: None, _held: None }));
+            let place = Place::Away(Box::new(design.clone()), self.force);
+            return Ok((design, Edit { from, to, place }));
         }
         let held = Hold::of(from, |waited| wait(from, waited, cancel)).map_err(|e| match e.kind() {
             io::ErrorKind::WouldBlock => CommandError::Cancelled,
             _ => CommandError::input(from, e),
         })?;
         let (design, seen) = file::read_stamped(from).map_err(unread)?;
-        Ok((design, Edit { from, to, seen: Some(seen), _held: Some(held) }))
+        Ok((design, Edit { from, to, place: Place::Back { seen, _held: held } }))
     }
 }
 
@@ -64,44 +71,82 @@ impl Edit<'_> {
     /// Writes the design whole or not at all, and not once `cancel` is raised. Its texture goes with it to another folder.
     ///
     /// # Errors
-    /// The file that it goes back to is not the one any more that was read.
+    /// The file that it goes back to is not the one any more that was read; another one holds work that would be lost.
     pub fn save(&self, design: &Design, cancel: &AtomicBool) -> Result<(), CommandError> {
         check_cancel(cancel)?;
-        file::save(design, Some(self.from), self.to, self.seen.as_ref()).map(drop).map_err(unwritten)
+        let save = |seen| file::save(design, Some(self.from), self.to, seen).map(drop).map_err(unwritten);
+        match &self.place {
+            Place::Back { seen, .. } => save(Some(seen)),
+            Place::Away(read, force) => alone_in(self.to, cancel, || {
+                refuse_lost(self.to, &[read, design], *force)?;
+                save(None)
+            }),
+        }
     }
 }
 
+/// Does what looks at a place and then writes to it while no other command of ours does so in the same folder.
+///
+/// # Errors
+/// Those of `work`; the waiting was interrupted.
+pub fn alone_in<T>(
+    path: &Path,
+    cancel: &AtomicBool,
+    work: impl FnOnce() -> Result<T, CommandError>,
+) -> Result<T, CommandError> {
+    // Where the folder cannot be held the look alone has to do.
+    let held = Hold::of(files::parent(path), |waited| wait(path, waited, cancel));
+    check_cancel(cancel)?;
+    let done = work();
+    drop(held);
+    done
+}
+
+/// Whether there is anything in the place of a design.
+fn is_taken(path: &Path) -> bool {
+    std::fs::metadata(path).is_ok_and(|found| found.is_file() && found.len() > 0)
+}
+
 /// Refuses to replace what is no design, without force.
-fn refuse_foreign(path: &Path, force: bool) -> Result<(), CommandError> {
-    let there = std::fs::metadata(path).is_ok_and(|found| found.is_file() && found.len() > 0);
-    if force || !there || is_design(path) {
+///
+/// # Errors
+/// It is there.
+pub fn refuse_foreign(path: &Path, force: bool) -> Result<(), CommandError> {
+    if force || !is_taken(path) || is_design(path) {
         return Ok(());
     }
     let path = shown(path);
     Err(CommandError::Usage(format!("{path} exists and is no design; --force replaces it")))
 }
 
-/// Refuses to replace a design of another name that somebody has worked on, without force. One of the same name is an earlier output of
-/// the same plushie, as where a script goes through settings.
+/// Refuses to replace a design of another name that somebody has worked on, without force. One of the same name may be what the same
+/// command wrote before, which [`refuse_lost`] tells when its work is done.
 fn refuse_another(path: &Path, design: &Design, force: bool) -> Result<(), CommandError> {
-    let there = std::fs::metadata(path).is_ok_and(|found| found.is_file() && found.len() > 0);
     let may_go = |other: Design| other.is_bare() || other.name == design.name;
-    if force || !there || file::read(path).is_ok_and(may_go) {
+    if force || !is_taken(path) || file::read(path).is_ok_and(may_go) {
         return Ok(());
     }
     let path = shown(path);
     Err(CommandError::Usage(format!("{path} exists and holds the work on another plushie; --force replaces it")))
 }
 
-/// Refuses to replace a design that somebody has worked on, or what is no design, without force.
-pub fn refuse_finished(path: &Path, force: bool) -> Result<(), CommandError> {
+/// Refuses to replace a design that somebody has worked on, without force, unless it is one of those that are `kept`.
+///
+/// # Errors
+/// It is there, or what is no design.
+pub fn refuse_lost(path: &Path, kept: &[&Design], force: bool) -> Result<(), CommandError> {
     refuse_foreign(path, force)?;
-    let there = std::fs::metadata(path).is_ok_and(|found| found.is_file() && found.len() > 0);
-    if force || !there || file::read(path).is_ok_and(|design| design.is_bare()) {
+    // A texture is called after its file.
+    let but_texture = |design: &Design| Design { texture: None, ..design.clone() };
+    let may_go = |other: Design| {
+        let other = but_texture(&other);
+        other.is_bare() || kept.iter().any(|design| but_texture(design) == other)
+    };
+    if force || !is_taken(path) || file::read(path).is_ok_and(may_go) {
         return Ok(());
     }
     let path = shown(path);
-    Err(CommandError::Usage(format!("{path} exists and holds more than an outline; --force replaces it")))
+    Err(CommandError::Usage(format!("{path} exists and holds work that would be lost; --force replaces it")))
 }
 
 /// What is wrong with a design that cannot be written.

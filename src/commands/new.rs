@@ -163,7 +163,7 @@ impl New {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
         refuse_input(&self.output, &self.outline)?;
         files::check(&self.output).map_err(|e| CommandError::write(&self.output, e))?;
-        document::refuse_finished(&self.output, self.force)?;
+        document::refuse_foreign(&self.output, self.force)?;
         let options = Options {
             name: new_design::name_of(&self.output),
             import: self.reading.import(),
@@ -175,15 +175,16 @@ impl New {
         let name = if self.texture { Some(self.texture_name()?) } else { None };
         let made = new_design::run(&file, &options, &Context::new(cancel)).map_err(failed)?;
         let Made { mut design, changes, texture, notes } = made;
-        // It may have come up in the meantime.
-        document::refuse_finished(&self.output, self.force)?;
         let beside = name.zip(texture).map(|(name, png)| {
             let path = self.output.with_file_name(&name);
             design.texture = Some(name);
             (path, png)
         });
         check_cancel(cancel)?;
-        file::write_with(&self.output, &design, beside).map_err(document::unwritten)?;
+        document::alone_in(&self.output, cancel, || {
+            document::refuse_lost(&self.output, &[&design], self.force)?;
+            file::write_with(&self.output, &design, beside).map_err(document::unwritten)
+        })?;
         self.report(out, &design, CleanUp::new(&changes, &notes))
     }
 
@@ -193,9 +194,9 @@ impl New {
         if files::same(&path, &self.outline) {
             return Err(CommandError::Usage(format!("the texture would replace {}", shown(&self.outline))));
         }
-        if !self.force && !is_picture_or_none(&path) {
+        if !self.force && !is_ours_or_none(&path) {
             let path = shown(&path);
-            return Err(CommandError::Usage(format!("{path} exists and is no picture; --force replaces it")));
+            return Err(CommandError::Usage(format!("{path} exists and is no texture of ours; --force replaces it")));
         }
         let name = path.file_name().and_then(|name| name.to_str());
         name.map(str::to_owned)
@@ -232,14 +233,16 @@ impl New {
     }
 }
 
-/// Whether a file may be replaced by a picture without asking: there is none, or it is a PNG, or empty.
-fn is_picture_or_none(path: &Path) -> bool {
+/// Whether a file may be replaced by a texture without asking: there is none, or it was written here, or is empty.
+fn is_ours_or_none(path: &Path) -> bool {
+    /// Enough to know a picture, bytes.
+    const HEAD: u64 = 512;
     use std::io::Read;
     let mut head = Vec::new();
     match std::fs::metadata(path) {
         Ok(found) if found.is_file() => {
-            let read = std::fs::File::open(path).and_then(|file| file.take(4).read_to_end(&mut head));
-            read.is_ok() && (head.is_empty() || head == b"\x89PNG")
+            let read = std::fs::File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
+            read.is_ok() && (head.is_empty() || files::is_marked_png(&head))
         }
         // What else stands there is told when it is written.
         _ => true,

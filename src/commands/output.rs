@@ -4,7 +4,6 @@ use super::error::{CommandError, check_cancel};
 use crate::design::file::is_design;
 use crate::files::folder::{self, FolderError, MANIFEST, Manifest};
 use crate::files::{self, printable, shown};
-use crate::picture::raster;
 use clap::Args;
 use serde::Deserialize;
 use std::io::{Read, Write};
@@ -109,7 +108,7 @@ impl Kind {
         let known = match self {
             Self::Picture => {
                 let picture = head.starts_with(b"\x89PNG") || head.starts_with(b"\xff\xd8");
-                picture.then(|| raster::is_ours(&head))
+                picture.then(|| files::is_marked_png(&head))
             }
             Self::Answer => json_format(path).map(|format| format.starts_with("plushwright-answer/")),
             Self::Drawing => {

@@ -3,7 +3,7 @@
 use super::error::CommandError;
 use crate::fabrication::ExportError;
 use crate::operations::{Progress, Unbalanced, new_design, reshape};
-use crate::outline::{Change, Changes, Note, OutlineError};
+use crate::outline::{Change, Changes, Note, OutlineError, Remedy};
 use crate::rigging;
 use serde::Serialize;
 use std::path::Path;
@@ -57,55 +57,51 @@ pub fn progress(step: &Progress) -> String {
     }
 }
 
-/// A note of a reader or the clean-up, with the option that would have it otherwise.
+/// A note of a reader or the clean-up, and the option that would have it otherwise.
 fn note(note: &Note) -> String {
-    match note {
-        Note::BackgroundLeftOut => format!("{note} (--background keep keeps it)"),
-        Note::NoUnit(_) => format!("{note} (--unit sets another)"),
-        Note::Ink(_) => format!("{note} (--threshold sets another value)"),
-        Note::MostlyHoles => format!("{note}; --holes fill makes a solid body of it"),
-        Note::Thin { .. } => format!("{note}; --min-width widens them"),
-        Note::Small { .. } => format!("{note}; --height sets another height"),
-        Note::TextSet(_)
-        | Note::PicturesLeftOut(_)
-        | Note::FiltersLeftOut
-        | Note::OffPage
-        | Note::Unsound
-        | Note::Specks { .. }
-        | Note::OpenLines(_)
-        | Note::LeftOut { .. } => note.to_string(),
+    match note.remedy() {
+        Some(remedy @ (Remedy::Unit | Remedy::Threshold | Remedy::Background)) => {
+            format!("{note} ({})", option(remedy))
+        }
+        Some(remedy) => format!("{note}; {}", option(remedy)),
+        None => note.to_string(),
     }
 }
 
-/// Why a file gave no outline, with the option that may help.
+/// Why there is no outline, and the option that may help.
 fn outline(error: &OutlineError) -> String {
-    match error {
-        OutlineError::Pieces { .. } => format!("{error}; choose --pieces largest, or join them in the drawing"),
-        OutlineError::Size(_) => format!("{error}; --height sets another height"),
-        _ => error.to_string(),
+    error.remedy().map_or_else(|| error.to_string(), |remedy| format!("{error}; {}", option(remedy)))
+}
+
+fn option(remedy: Remedy) -> &'static str {
+    match remedy {
+        Remedy::Height => "--height sets another height",
+        Remedy::Unit => "--unit sets another",
+        Remedy::Threshold => "--threshold sets another value",
+        Remedy::Background => "--background keep keeps it",
+        Remedy::Holes => "--holes fill makes a solid body of it",
+        Remedy::MinWidth => "--min-width widens them",
+        Remedy::Pieces => "choose --pieces largest, or join them in the drawing",
     }
 }
 
-/// [`Changes`] as they are printed as JSON.
+/// The report of a clean-up as it is printed.
 #[derive(Serialize)]
 pub struct CleanUp<'a> {
-    painted_mm2: f64,
-    outline_mm2: f64,
-    unasked: f64,
-    steps: &'a [Change],
+    #[serde(flatten)]
+    changes: &'a Changes,
     notes: Vec<String>,
 }
 
 impl<'a> CleanUp<'a> {
     /// `more`: what the operation has to say besides.
     pub fn new<N: ToString>(changes: &'a Changes, more: &[N]) -> Self {
-        let &Changes { painted_mm2, outline_mm2, unasked, ref steps, ref notes } = changes;
-        let notes = notes.iter().map(note).chain(more.iter().map(N::to_string)).collect();
-        Self { painted_mm2, outline_mm2, unasked, steps, notes }
+        let notes = changes.notes.iter().map(note).chain(more.iter().map(N::to_string)).collect();
+        Self { changes, notes }
     }
 
     /// A line for each step and note.
     pub fn lines(&self) -> impl Iterator<Item = String> {
-        self.steps.iter().map(Change::line).chain(self.notes.iter().cloned())
+        self.changes.steps.iter().map(Change::line).chain(self.notes.iter().cloned())
     }
 }

@@ -196,14 +196,17 @@ impl Design {
         }
     }
 
-    /// Whether nobody has worked on it yet: all there is follows from its outline.
+    /// Whether nobody has worked on it yet: all there is follows from an outline that was read.
     pub fn is_bare(&self) -> bool {
         let Self { pins, poses, networks, keyframes, stiffness_map, material, fibers, tendons, .. } = self;
         let lists = pins.is_empty() && poses.is_empty() && networks.is_empty() && keyframes.is_empty();
         let physics = *material == Material::default() && *fibers == FiberSettings::default();
         let made =
             self.fabrication == FabricationSettings::default() && self.controller == ControllerSettings::default();
-        let others = self.all_terms().is_empty() && stiffness_map.is_none() && *tendons == TendonSettings::default();
+        let others = self.all_terms().is_empty()
+            && stiffness_map.is_none()
+            && self.drawing.is_none()
+            && *tendons == TendonSettings::default();
         lists && physics && made && others
     }
 

@@ -97,11 +97,10 @@ impl Paper {
         if let Some(file) = unnamed(folder) {
             return Ok(Self::Unnamed(file));
         }
-        let mut builder = temporary();
-        // A temporary file is private by default; what is written gets what the user's umask says.
-        #[cfg(unix)]
-        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        Ok(Self::Named(builder.tempfile_in(folder)?))
+        // Made here, as what `tempfile` makes is private and its errors state the temporary name.
+        temporary()
+            .make_in(folder, |path| File::options().read(true).write(true).create_new(true).open(path))
+            .map(Self::Named)
     }
 
     fn file(&mut self) -> &mut File {

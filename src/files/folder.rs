@@ -5,7 +5,7 @@
 //! Anything else that is in there, or was changed by hand, is somebody's work, and the folder is refused.
 
 use super::stamp::sha256;
-use super::{absolute, parent, read, signals, sweep, sync_folder, temporary};
+use super::{parent, place, read, signals, sweep, sync_folder, temporary};
 use serde::{Deserialize, Serialize};
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -74,7 +74,7 @@ pub fn write(dir: &Path, format: &str, files: &[(&str, &[u8])]) -> Result<(), Fo
     let _writing = signals::writing();
     let failed = |source| FolderError::Write { path: dir.into(), source };
     // A link stays a link: the folder that it leads to is exchanged.
-    let place = fs::canonicalize(dir).or_else(|_| absolute(dir)).map_err(failed)?;
+    let place = fs::canonicalize(dir).or_else(|_| place::end_of_links(dir)).map_err(failed)?;
     check(dir, format)?;
     let made = make_folders(parent(&place)).map_err(failed)?;
     let done = fill_and_name(dir, &place, format, files);
@@ -189,13 +189,15 @@ fn fresh_beside(place: &Path) -> io::Result<(TempDir, Option<File>)> {
     // A temporary folder is private by default; a result gets what the user's umask says.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o777));
-    let mut fresh = builder.tempdir_in(parent(place))?;
+    // Without the temporary name that the error states.
+    let make = || builder.tempdir_in(parent(place)).map_err(|error| io::Error::from(error.kind()));
+    let mut fresh = make()?;
     for _ in 0..TRIES {
         let held = File::open(fresh.path()).ok().filter(|file| file.try_lock().is_ok());
         if fresh.path().exists() {
             return Ok((fresh, held));
         }
-        fresh = builder.tempdir_in(parent(place))?;
+        fresh = make()?;
     }
     Err(io::Error::other("others keep changing it"))
 }

@@ -9,11 +9,11 @@ use std::time::{Duration, Instant};
 /// How often a file that another process holds is asked for again: soon after it is free for a person, seldom for the machine.
 const AGAIN: Duration = Duration::from_millis(20);
 
-/// An exclusive lock on a file, for processes that ask for one. It ends when it is dropped or its process ends.
+/// An exclusive lock on a file or a folder, for processes that ask for one. It ends when it is dropped or its process ends.
 pub struct Hold(#[allow(dead_code, reason = "held, not used")] Option<File>);
 
 impl Hold {
-    /// Waits for the file as long as `wait` says so, given how long it has been.
+    /// Waits for the file or folder as long as `wait` says so, given how long it has been.
     ///
     /// Where a system or a file system has no such locks the file is not held: a [`super::Stamp`] still tells of changes.
     ///
@@ -21,7 +21,9 @@ impl Hold {
     /// [`io::ErrorKind::WouldBlock`] when the waiting was given up; what the system says of a file that cannot be opened.
     pub fn of(path: &Path, mut wait: impl FnMut(Duration) -> bool) -> io::Result<Self> {
         // Elsewhere a lock keeps others from reading too.
-        if !cfg!(unix) || !fs::metadata(path)?.is_file() {
+        let found = fs::metadata(path)?;
+        // Another thing may hang when it is opened.
+        if !cfg!(unix) || !(found.is_file() || found.is_dir()) {
             return Ok(Self(None));
         }
         let since = Instant::now();

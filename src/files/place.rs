@@ -52,12 +52,20 @@ pub fn same(a: &Path, b: &Path) -> bool {
 
 /// Where a path leads at which nothing is: through links that dangle.
 fn free(path: &Path) -> io::Result<Place> {
+    end_of_links(path).map(Place::Free)
+}
+
+/// The absolute path that a name stands for when the links in its last place are followed, though nothing is there.
+///
+/// # Errors
+/// It has no last part, or leads in a circle.
+pub(super) fn end_of_links(path: &Path) -> io::Result<PathBuf> {
     let mut path = super::absolute(path)?;
     for _ in 0..MOST_LINKS {
         match fs::read_link(&path) {
             Ok(target) => path = parent(&path).join(target),
             Err(_) if path.file_name().is_none() => break,
-            Err(_) => return Ok(Place::Free(path)),
+            Err(_) => return Ok(path),
         }
     }
     Err(refused(io::ErrorKind::InvalidInput, "that is no name for a file"))

@@ -4,11 +4,9 @@ use super::posing::{self, solve};
 use super::{Cancelled, Context, NoSuchPose, Unbalanced};
 use crate::design::animation::activations_at;
 use crate::design::texture::find;
-use crate::design::{Design, Target, file};
+use crate::design::{Design, file};
 use crate::engine::{Question, Shape};
-use crate::picture::palette::Palette;
-use crate::picture::scene::{self, Options as Look};
-use crate::picture::{Texture, raster};
+use crate::picture::{self, Texture};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -103,7 +101,8 @@ pub fn run(design: &Design, from: &Path, options: &Options, context: &Context) -
     };
     let shapes = solve(design, question, [true, true], context)?;
     let texture = if options.texture { texture(design, from, &mut notes) } else { None };
-    let png = picture(design, &shapes, &targets, texture.as_ref(), options.size)?;
+    let png = picture::png(design, &shapes, &targets, texture.as_ref(), options.size)
+        .map_err(|error| Error::Picture(error.to_string()))?;
     notes.extend(Unbalanced::of(&place, &shapes).into_iter().map(Note::Unbalanced));
     Ok(Rendered { png, shapes, notes })
 }
@@ -121,23 +120,6 @@ fn texture(design: &Design, from: &Path, notes: &mut Vec<Note>) -> Option<Arc<Te
     };
     notes.push(Note::NoTexture { path, why });
     None
-}
-
-/// Both plushies side by side as PNG.
-fn picture(
-    design: &Design,
-    [idealized, realizable]: &[Shape; 2],
-    targets: &[Target],
-    texture: Option<&Arc<Texture>>,
-    size: (u32, u32),
-) -> Result<Vec<u8>, Error> {
-    let left = Look { targets, texture, ..Look::default() };
-    // The realizable plushie has no fibres.
-    let right = Look { fibers: false, ..left };
-    let background = Palette::of(left.theme).background;
-    let left = scene::scene(design, idealized, &left);
-    let right = scene::scene(design, realizable, &right);
-    raster::png(&left, &right, size, background).map_err(|e| Error::Picture(e.to_string()))
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! What the clean-up of a silhouette changed.
 
-use super::Note;
+use super::notes::Note;
 use serde::Serialize;
 
 /// A step of the clean-up that changed something.
@@ -36,7 +36,7 @@ pub struct Change {
 }
 
 /// What lies between the painted areas and the outline.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Changes {
     /// Area of all that is painted, mm^2.
     pub painted_mm2: f64,
@@ -45,7 +45,8 @@ pub struct Changes {
     /// Area that the clean-up added or removed without being asked, as a part of the silhouette's area: at most 2 %.
     pub unasked: f64,
     pub steps: Vec<Change>,
-    /// What the reader and the clean-up have to say besides.
+    /// What the reader and the clean-up have to say besides. Whoever writes this down words them.
+    #[serde(skip)]
     pub notes: Vec<Note>,
 }
 

@@ -1,6 +1,6 @@
 //! The colours of a drawing, in a light and a dark theme.
 
-use super::Color;
+use super::scene::Color;
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Theme {

@@ -1,7 +1,8 @@
 //! Scenes to PNG, without a graphics adapter.
 
+use super::scene::{Color, Item, Scene};
 use super::textured::{self, Corner};
-use super::{Color, Item, Scene};
+use crate::files::marked_png;
 use crate::outline::Point;
 use tiny_skia::{
     FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, PixmapMut, Rect, Stroke, StrokeDash, Transform,
@@ -23,12 +24,10 @@ pub enum RasterError {
     Encode(String),
 }
 
-/// The chunk that says who made a picture: length, kind, keyword and text, CRC-32.
-const MARK: &[u8] = b"\0\0\0\x14tEXtSoftware\0plushwright\x0f\x01\x4b\xb4";
-/// Where it stands: after the signature (8 bytes) and the header (25).
-const MARK_AT: usize = 33;
-
 /// Two views side by side as PNG, `size` in pixels. Both have the same scale and the same place in their half.
+///
+/// # Errors
+/// A size that is empty or does not fit in memory, or a picture that cannot be encoded.
 pub fn png(left: &Scene, right: &Scene, size: (u32, u32), background: Color) -> Result<Vec<u8>, RasterError> {
     let mut pixmap = Pixmap::new(size.0, size.1).ok_or(RasterError::Size(size.0, size.1))?;
     pixmap.fill(color(background));
@@ -40,13 +39,7 @@ pub fn png(left: &Scene, right: &Scene, size: (u32, u32), background: Color) -> 
     }
     paint_divider(&mut pixmap.as_mut(), size);
     let bytes = pixmap.encode_png().map_err(|e| RasterError::Encode(e.to_string()))?;
-    let (start, rest) = bytes.split_at(MARK_AT.min(bytes.len()));
-    Ok([start, MARK, rest].concat())
-}
-
-/// Whether a file that begins like this is a picture of ours ([`png`]).
-pub fn is_ours(head: &[u8]) -> bool {
-    head.starts_with(b"\x89PNG") && head.get(MARK_AT..).is_some_and(|rest| rest.starts_with(MARK))
+    Ok(marked_png(&bytes))
 }
 
 /// The box around everything that is drawn, mm.
@@ -226,7 +219,8 @@ mod tests {
     #[test]
     fn both_views_fill_their_half_and_nothing_else() {
         let bytes = png(&square(), &Scene::default(), (400, 200), WHITE).unwrap();
-        assert!(is_ours(&bytes) && !is_ours(&Pixmap::decode_png(&bytes).unwrap().encode_png().unwrap()));
+        use crate::files::is_marked_png;
+        assert!(is_marked_png(&bytes) && !is_marked_png(&Pixmap::decode_png(&bytes).unwrap().encode_png().unwrap()));
         for (x, y) in [(100, 100), (30, 20), (170, 180), (60, 140), (140, 60)] {
             assert_eq!(pixel(&bytes, x, y), [255, 0, 0], "{x} {y}");
         }

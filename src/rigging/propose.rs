@@ -7,6 +7,7 @@ use super::trial::{Scrutiny, Trial};
 use crate::design::{Design, Network, Target};
 use crate::discovery::{Parameters, Stages};
 use crate::engine::Shape;
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 /// Proposals returned.
@@ -20,9 +21,9 @@ pub struct Proposal {
     pub network: Network,
     pub parameters: Parameters,
     /// The stages of discovery, to be shown (fig. 6).
-    pub stages: Stages,
+    pub stages: Arc<Stages>,
     /// The realizable plushie with this network added, posed towards the same targets.
-    pub preview: Shape,
+    pub preview: Arc<Shape>,
     /// Target error before and after, in body lengths.
     pub error_before: f64,
     pub error_after: f64,
@@ -48,8 +49,8 @@ pub fn propose(design: &Design, targets: &[Target], base: &Parameters, cancel: &
         out.push(Proposal {
             network,
             parameters: candidate.parameters,
-            stages: candidate.stages,
-            preview: trial.shape(&with, targets, &reached),
+            stages: Arc::new(candidate.stages),
+            preview: Arc::new(trial.shape(&with, targets, &reached)),
             error_before: before.error,
             error_after: reached.error,
         });

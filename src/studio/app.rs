@@ -6,7 +6,7 @@ use super::pacing::Pacing;
 use super::panels::{self, Tab};
 use super::session::{Services, Session};
 use super::store::Store;
-use super::{paper, safety, shortcuts, style, viewport};
+use super::{keys, paper, safety, style, viewport};
 use crate::design::Design;
 use crate::picture::palette::{Palette, Theme};
 use eframe::egui::{self, CentralPanel, Frame, Margin, Panel, ViewportCommand};
@@ -73,18 +73,19 @@ impl Studio {
         self.session.tick(now_s, passed_s, hands_off && !typing);
 
         let mut actions = Vec::new();
-        shortcuts::collect(&ctx, &self.session, &mut self.panels, typing, &mut actions);
+        keys::collect(&ctx, &self.session, &mut actions);
         self.layout(ui, &mut actions);
         if ctx.input(|i| i.viewport().close_requested()) && !self.session.files.quit {
             actions.push(Action::File(FileAction::Quit));
         }
         self.paper.finish_before(&self.session, &mut actions);
         let changed = !actions.is_empty();
+        let theme = self.session.look.theme;
         for action in actions {
-            if let Action::SetTheme(theme) = action {
-                style::set_theme(&ctx, theme);
-            }
             self.session.apply(action);
+        }
+        if self.session.look.theme != theme {
+            style::set_theme(&ctx, self.session.look.theme);
         }
         if changed && hands_off {
             self.session.remember();
@@ -100,6 +101,7 @@ impl Studio {
     }
 
     fn layout(&mut self, ui: &mut egui::Ui, actions: &mut Vec<Action>) {
+        self.overlays(ui.ctx(), actions);
         let session = &self.session;
         let bar = Frame::new().inner_margin(Margin::symmetric(6, 4));
         Panel::top("toolbar").frame(bar).exact_size(42.0).resizable(false).show(ui, |ui| {
@@ -126,7 +128,7 @@ impl Studio {
             panels::timeline::show(ui, session, &mut self.panels.timeline, actions);
         });
         let poses = Panel::left("poses").frame(panels::frame()).default_size(204.0).size_range(160.0..=360.0);
-        poses.show(ui, |ui| panels::poses::show(ui, session, &mut self.panels, actions));
+        poses.show(ui, |ui| panels::poses::show(ui, session, actions));
         let inspector = Panel::right("inspector").frame(panels::frame()).default_size(288.0).size_range(288.0..=420.0);
         inspector.show(ui, |ui| inspect(ui, session, &mut self.panels, actions));
         CentralPanel::no_frame().show(ui, |ui| {
@@ -135,6 +137,11 @@ impl Studio {
         let above = status.response.rect.height() + timeline.response.rect.height();
         panels::messages::show(ui.ctx(), session, above, actions);
         panels::dialogs::show(ui.ctx(), session, actions);
+    }
+
+    fn overlays(&mut self, ctx: &egui::Context, actions: &mut Vec<Action>) {
+        panels::palette::show(ctx, &self.session, &mut self.panels.palette, actions);
+        panels::shortcuts::show(ctx, &self.session, actions);
     }
 
     /// Asks for the next frame where something moves by itself; otherwise nothing is drawn until something happens.
@@ -195,7 +202,7 @@ fn inspect(ui: &mut egui::Ui, session: &Session, state: &mut panels::State, acti
     match state.tab {
         Tab::Networks => {
             egui::ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
-                panels::networks::show(ui, session, state, actions);
+                panels::networks::show(ui, session, actions);
                 ui.add_space(12.0);
                 panels::discovery::show(ui, session, state, actions);
             });

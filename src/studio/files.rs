@@ -277,7 +277,7 @@ impl Session {
             let dialog = rfd::FileDialog::new().set_title(purpose.title()).set_directory(folder);
             let path = match purpose {
                 Purpose::Open => dialog.add_filter("Plushies", &["plush"]).pick_file(),
-                Purpose::Import => dialog.add_filter("Outlines", &outline::EXTENSIONS).pick_file(),
+                Purpose::Import => dialog.add_filter("Outlines", &outline::extensions()).pick_file(),
                 Purpose::SaveAs => dialog.add_filter("Plushies", &["plush"]).set_file_name(name).save_file(),
                 Purpose::Export => dialog.pick_folder(),
             };
@@ -286,7 +286,7 @@ impl Session {
     }
 
     fn open_path(&mut self, path: PathBuf) {
-        if outline::EXTENSIONS.iter().any(|known| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(known))) {
+        if outline::extensions().iter().any(|known| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(known))) {
             self.show_path_dialog(Purpose::Import);
             if let Some(Dialog::Path(dialog)) = &mut self.files.dialog {
                 dialog.path = path.to_string_lossy().into_owned();

@@ -1,7 +1,8 @@
 //! What panels, viewports and tests may read of the session.
 
 use super::messages::Messages;
-use super::session::{Discovery, Look, Mode, Playback, Selection, Session, Shapes};
+use super::session::{Discovery, Look, Mode, Overlay, Playback, Renamed, Selection, Session, Shapes};
+use super::viewport::hit::Hit;
 use crate::design::history::History;
 use crate::design::{Design, Target};
 use crate::engine::{Quality, Request};
@@ -21,6 +22,25 @@ impl Session {
     /// The current pose; `None` is the rest shape.
     pub fn pose(&self) -> Option<usize> {
         self.pose
+    }
+
+    /// What stands over the window.
+    pub fn overlay(&self) -> Option<Overlay> {
+        self.overlay
+    }
+
+    /// A name that is being typed.
+    pub fn renaming(&self) -> Option<&(Renamed, String)> {
+        self.renaming.as_ref()
+    }
+
+    /// What commands are about when nothing is pointed at.
+    pub fn selected(&self) -> Hit {
+        match self.selection {
+            Selection::Target(index) => Hit::Target(index),
+            Selection::Pin(index) => Hit::Pin(index),
+            _ => Hit::Nothing,
+        }
     }
 
     pub fn selection(&self) -> Selection {

@@ -63,6 +63,9 @@ impl Session {
 
     /// Why no rig can be looked for now, if so.
     pub fn cannot_rig(&self) -> Option<&'static str> {
+        if self.rigging.running.is_some() {
+            return Some("A rig is being looked for");
+        }
         let posed = self.design().poses.iter().any(|pose| !pose.targets.is_empty());
         (!posed).then_some("Pose the plushie first: drag a point of the body")
     }

@@ -21,7 +21,7 @@ use crate::engine::{Quality, Request, Shape};
 use crate::files::Stamp;
 use crate::outline::Point;
 use crate::picture::palette::Theme;
-use crate::picture::scene::Stage;
+use crate::picture::{Shown, Stage};
 use crate::rigging::Proposal;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -45,6 +45,23 @@ pub enum Selection {
     Network(usize),
 }
 
+/// What stands over the window for the keyboard's sake.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Overlay {
+    /// Every command by name.
+    Palette,
+    /// What every key does.
+    Shortcuts,
+}
+
+/// What gets another name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Renamed {
+    Pose(usize),
+    Network(usize),
+    Plushie,
+}
+
 /// Whether the views show a pose or the animation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
@@ -60,12 +77,13 @@ pub struct Playback {
 
 pub struct Look {
     pub theme: Theme,
-    pub texture: bool,
-    pub fibers: bool,
-    pub networks: bool,
+    /// Which layers of the pictures.
+    pub shown: Shown,
     pub views: Views,
     /// `None`: fits the body.
     pub camera: Option<Camera>,
+    /// Times which the scale shall change about the middle, as soon as a view knows what it shows.
+    pub zoom: Option<f32>,
 }
 
 /// Which views are shown: one at least. What is hidden is not solved.
@@ -81,6 +99,10 @@ impl Views {
             Self::Both => true,
             Self::Only(shown) => shown == plushie,
         }
+    }
+
+    pub fn toggled(self, plushie: Plushie) -> Self {
+        self.with(plushie, !self.shows(plushie))
     }
 
     /// With one of them shown or hidden. Where that leaves none, the other one comes back.
@@ -142,6 +164,9 @@ pub struct Session {
     pub(super) pose: Option<usize>,
     pub(super) selection: Selection,
     pub(super) tool: Tool,
+    pub(super) overlay: Option<Overlay>,
+    /// A name that is being typed.
+    pub(super) renaming: Option<(Renamed, String)>,
     pub(super) mode: Mode,
     pub(super) playback: Playback,
     pub(super) look: Look,
@@ -184,16 +209,11 @@ impl Session {
             texturing: Texturing::default(),
             selection: Selection::Nothing,
             tool: Tool::Drag,
+            overlay: None,
+            renaming: None,
             mode: Mode::Pose,
             playback: Playback { time_s: 0.0, playing: false, looping: true },
-            look: Look {
-                theme: Theme::Light,
-                texture: true,
-                fibers: true,
-                networks: true,
-                views: Views::Both,
-                camera: None,
-            },
+            look: Look { theme: Theme::Light, shown: Shown::default(), views: Views::Both, camera: None, zoom: None },
             quality: Quality::Balanced,
             discovery: Discovery {
                 parameters: Parameters::default(),
@@ -256,48 +276,33 @@ impl Session {
         match action {
             Action::Change(change) => self.change(change),
             Action::Live(change) => self.live(change),
-            Action::Undo => self.travel("Undone", History::undo),
-            Action::Redo => self.travel("Redone", History::redo),
+            Action::Run(command, at) => match command.refused(self, at) {
+                None => (command.run)(self, at),
+                Some(why) => self.messages.info(why),
+            },
+            Action::Overlay(overlay) => self.overlay = overlay,
+            Action::Typed(renaming) => self.renaming = renaming,
             Action::Grab { what, pointer } => self.grab(what, pointer),
             Action::DragTo(pointer) => self.drag_to(pointer),
             Action::Release => self.release(),
-            Action::Escape => self.escape(),
             Action::SelectPose(pose) => self.select_pose(pose),
             Action::Select(selection) => self.selection = selection,
-            Action::DeleteSelected => self.delete_selected(),
-            Action::SetTool(tool) => self.tool = tool,
-            Action::SetTheme(theme) => self.look.theme = theme,
-            Action::ShowTexture(shown) => self.look.texture = shown,
-            Action::ShowFibers(shown) => self.look.fibers = shown,
-            Action::ShowNetworks(shown) => self.look.networks = shown,
-            Action::ShowView(plushie, shown) => self.look.views = self.look.views.with(plushie, shown),
             Action::SetQuality(quality) => self.quality = quality,
-            Action::SetCamera(camera) => self.look.camera = Some(camera),
+            Action::SetCamera(camera) => {
+                self.look.camera = Some(camera);
+                self.look.zoom = None;
+            }
             Action::Pan { from, delta, always } => {
                 if always || self.drag.is_none() {
                     self.look.camera = Some(from.panned(delta));
                 }
             }
-            Action::Fit if self.sketching.open => self.sketching.camera = None,
-            Action::Fit => self.look.camera = None,
-            Action::Play => self.play(),
-            Action::Pause => self.playback.playing = false,
-            Action::SetLooping(looping) => self.playback.looping = looping,
             Action::Scrub(time_s) => self.scrub(time_s),
-            Action::AddKeyframe => self.add_keyframe(),
             Action::SetParameters(parameters) => self.discovery.parameters = parameters,
             Action::SetResolution(resolution) => self.meshing.wanted = Some(resolution),
-            Action::Remesh => self.start_remesh(),
-            Action::CancelRemesh => self.cancel_remesh(),
             Action::SetRig(choice) => self.rigging.choice = choice,
-            Action::Rig => self.start_rig(),
-            Action::CancelRig => self.cancel_rig(),
-            Action::Propose => self.start_propose(),
-            Action::CancelPropose => self.cancel_propose(),
             Action::ShowProposal(index) => self.discovery.shown = index,
             Action::ShowStage(stage) => self.discovery.stage = stage,
-            Action::Accept(index) => self.accept(index),
-            Action::Reject(index) => self.reject(index),
             Action::Sketch(sketch) => self.sketch(sketch),
             Action::File(action) => self.file(action),
             Action::DismissMessage(id) => self.messages.dismiss(id),
@@ -361,6 +366,42 @@ impl Session {
         self.clamp();
     }
 
+    pub(super) fn undo(&mut self) {
+        self.travel("Undone", History::undo);
+    }
+
+    pub(super) fn redo(&mut self) {
+        self.travel("Redone", History::redo);
+    }
+
+    /// Shows all of the body, or of the drawing.
+    pub(super) fn fit(&mut self) {
+        if self.sketching.open {
+            self.sketching.camera = None;
+        } else {
+            self.look.camera = None;
+        }
+    }
+
+    pub(super) fn zoom(&mut self, factor: f32) {
+        self.look.zoom = Some(self.look.zoom.unwrap_or(1.0) * factor);
+    }
+
+    pub(super) fn next_quality(&mut self) {
+        self.quality = match self.quality {
+            Quality::Draft => Quality::Balanced,
+            Quality::Balanced => Quality::Accurate,
+            Quality::Accurate => Quality::Draft,
+        };
+    }
+
+    /// Starts to edit the name of the current pose.
+    pub(super) fn rename_pose(&mut self) {
+        if let Some((index, pose)) = self.pose.and_then(|index| Some((index, self.design().poses.get(index)?))) {
+            self.renaming = Some((Renamed::Pose(index), pose.name.clone()));
+        }
+    }
+
     fn travel(&mut self, done: &str, step: impl FnOnce(&mut History) -> Option<String>) {
         self.drag = None;
         if let Some(label) = step(&mut self.history) {
@@ -400,10 +441,7 @@ impl Session {
         self.clamp();
     }
 
-    fn delete_selected(&mut self) {
-        if self.sketching.open {
-            return self.delete_drawn();
-        }
+    pub(super) fn delete_selected(&mut self) {
         match (self.selection, self.pose) {
             (Selection::Target(index), Some(pose)) => self.change(Change::RemoveTarget { pose, index }),
             (Selection::Pin(index), _) => self.change(Change::RemovePin(index)),
@@ -414,7 +452,10 @@ impl Session {
         self.selection = Selection::Nothing;
     }
 
-    fn escape(&mut self) {
+    pub(super) fn escape(&mut self) {
+        if self.discovery.running.is_some() && self.drag.is_none() && !self.sketching.open {
+            return self.cancel_propose();
+        }
         if self.drag.take().is_some() || self.history.in_gesture() {
             self.history.cancel();
         } else if self.files.dialog.is_some() {

@@ -87,7 +87,10 @@ impl Session {
                 self.sketching.point = point;
                 self.clamp_sketch();
             }
-            Sketch::Camera(camera) => self.sketching.camera = camera,
+            Sketch::Camera(camera) => {
+                self.sketching.camera = camera;
+                self.look.zoom = None;
+            }
             Sketch::MakeBody => self.start_body(),
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::fabrication::ExportError;
 use crate::operations::{Progress, key, new_design, remesh, reshape, rig};
-use crate::outline::{Change, Changes, Note, OutlineError};
+use crate::outline::{Change, Changes, Note, OutlineError, Remedy};
 use crate::rigging;
 
 /// The steps and notes of a clean-up, a line each.
@@ -10,32 +10,26 @@ pub fn changes(changes: &Changes) -> impl Iterator<Item = String> {
     changes.steps.iter().map(Change::line).chain(changes.notes.iter().map(note))
 }
 
-/// A note of a reader or the clean-up, with the control that would have it otherwise.
+/// A note of a reader or the clean-up, and the control that would have it otherwise.
 fn note(note: &Note) -> String {
-    match note {
-        Note::BackgroundLeftOut => format!("{note}; “Keep the background” keeps it"),
-        Note::NoUnit(_) => format!("{note}; “Unit” sets another"),
-        Note::Ink(_) => format!("{note}; “Ink from” sets another level"),
-        Note::MostlyHoles => format!("{note}; “Fill holes” makes a solid body of it"),
-        Note::Thin { .. } => format!("{note}; “Least width” widens them"),
-        Note::Small { .. } => format!("{note}; “Height” sets another height"),
-        Note::TextSet(_)
-        | Note::PicturesLeftOut(_)
-        | Note::FiltersLeftOut
-        | Note::OffPage
-        | Note::Unsound
-        | Note::Specks { .. }
-        | Note::OpenLines(_)
-        | Note::LeftOut { .. } => note.to_string(),
-    }
+    note.remedy().map_or_else(|| note.to_string(), |remedy| format!("{note}; {}", control(remedy)))
 }
 
-/// Why a file gave no outline, with the control that may help.
+/// Why a file gave no outline, and the control that may help.
 pub fn outline(error: &OutlineError) -> String {
-    match error {
-        OutlineError::Pieces { .. } => format!("{error}; choose “Largest piece only”, or join them in the drawing"),
-        OutlineError::Size(_) => format!("{error}; “Height” sets another height"),
-        _ => error.to_string(),
+    error.remedy().map_or_else(|| error.to_string(), |remedy| format!("{error}; {}", control(remedy)))
+}
+
+/// What the dialog of the import has.
+fn control(remedy: Remedy) -> &'static str {
+    match remedy {
+        Remedy::Height => "“Height” sets another height",
+        Remedy::Unit => "“Unit” sets another",
+        Remedy::Threshold => "“Ink from” sets another level",
+        Remedy::Background => "“Keep the background” keeps it",
+        Remedy::Holes => "“Fill holes” makes a solid body of it",
+        Remedy::MinWidth => "“Least width” widens them",
+        Remedy::Pieces => "choose “Largest piece only”, or join them in the drawing",
     }
 }
 

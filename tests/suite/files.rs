@@ -10,9 +10,9 @@ use std::time::{Duration, Instant};
 /// A bar that is wide enough for a few dozen fibres.
 const OUTLINE: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" width="120mm" height="40mm" viewBox="0 0 120 40">
 <rect width="120" height="40" fill="red"/></svg>"#;
-const PROBLEM: &str = r#"{"format": "plushwright-problem/1",
+pub const PROBLEM: &str = r#"{"format": "plushwright-problem/1",
   "mesh": {"nodes": [[0,0],[1,0],[0,1]], "triangles": [[0,1,2]]}, "material": {"mu": 1.0, "kappa": 1.0}, "contractions": []}"#;
-const NETWORK: &str = r#"{"format": "plushwright-network/1", "nodes": [[0,0],[1,0],[0,1],[-1,0]],
+pub const NETWORK: &str = r#"{"format": "plushwright-network/1", "nodes": [[0,0],[1,0],[0,1],[-1,0]],
   "edges": [[0,1],[0,2],[0,3]], "weights": [0.3,0.2,0.1],
   "parameters": {"SEED_NUM": 3, "JOIN_DEPTH": 0, "JOIN_LEN": 1, "TENDON_NUM": 2, "PHI": 1.0}}"#;
 
@@ -31,32 +31,32 @@ const COMMANDS: [(&[&str], &str); 11] = [
     (&["discover", "network.json", "-o"], "out.json"),
 ];
 
-fn program(folder: &Path) -> Command {
+pub fn program(folder: &Path) -> Command {
     let mut program = Command::new(env!("CARGO_BIN_EXE_plushwright"));
     program.current_dir(folder).env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
     program
 }
 
-fn run(folder: &Path, args: &[&str]) -> Output {
+pub fn run(folder: &Path, args: &[&str]) -> Output {
     program(folder).args(args).output().unwrap()
 }
 
 #[track_caller]
-fn succeed(folder: &Path, args: &[&str]) {
+pub fn succeed(folder: &Path, args: &[&str]) {
     let output = run(folder, args);
     assert!(output.status.success(), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
 }
 
 /// The one line on standard error of a command that is refused; it names the place that was asked for.
 #[track_caller]
-fn refused(output: &Output, place: &str) -> String {
+pub fn refused(output: &Output, place: &str) -> String {
     let line = String::from_utf8(output.stderr.clone()).unwrap();
     assert!(matches!(output.status.code(), Some(1 | 2)), "{:?}: {line}", output.status);
     assert!(line.lines().count() == 1 && line.contains(place) && !line.contains(".plushwright-"), "{line}");
     line
 }
 
-fn names(folder: &Path) -> Vec<String> {
+pub fn names(folder: &Path) -> Vec<String> {
     let mut names: Vec<String> =
         fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().to_string_lossy().into_owned()).collect();
     names.sort();
@@ -64,7 +64,7 @@ fn names(folder: &Path) -> Vec<String> {
 }
 
 /// A folder with an outline, a design with a winch, a problem and a network.
-fn place() -> tempfile::TempDir {
+pub fn place() -> tempfile::TempDir {
     static RIGGED: OnceLock<String> = OnceLock::new();
     let folder = tempfile::tempdir().unwrap();
     let f = folder.path();
@@ -158,167 +158,33 @@ fn a_read_only_file_a_folder_and_a_full_disk_leave_what_is_there() {
 }
 
 #[test]
-fn what_is_read_is_never_replaced() {
+fn a_place_that_cannot_be_is_named_as_it_was_asked_for() {
     let folder = place();
     let f = folder.path();
-    fs::hard_link(f.join("bar.svg"), f.join("also.svg")).unwrap();
-    let before = names(f);
-    for (args, input) in [
-        (&["new", "bar.svg", "-o", "bar.svg"][..], "bar.svg"),
-        (&["new", "bar.svg", "-o", "bar.svg", "--force"], "bar.svg"),
-        (&["new", "bar.svg", "-o", "./also.svg", "--force"], "bar.svg"),
-        (&["render", "bar.plush", "-o", "bar.plush"], "bar.plush"),
-        (&["mesh", "bar.plush", "-o", "bar.plush"], "bar.plush"),
-        (&["drawing", "bar.plush", "-o", "bar.plush"], "bar.plush"),
-        (&["export", "bar.plush", "-o", "bar.plush"], "bar.plush"),
-        (&["reshape", "bar.plush", "bar.svg", "-o", "bar.svg", "--force"], "bar.svg"),
-        (&["solve", "problem.json", "-o", "problem.json"], "problem.json"),
-        (&["discover", "network.json", "-o", "network.json"], "network.json"),
-    ] {
-        let old = fs::read(f.join(input)).unwrap();
-        let output = run(f, args);
-        assert_eq!(output.status.code(), Some(2), "{args:?}");
-        refused(&output, args.iter().find(|arg| arg.contains('.') && **arg != args[1]).unwrap_or(&input));
-        assert_eq!(fs::read(f.join(input)).unwrap(), old, "{args:?}");
+    Command::new("mkfifo").arg(f.join("pipe")).status().unwrap();
+    symlink("nowhere", f.join("link")).unwrap();
+    for (args, _) in COMMANDS {
+        for out in ["none/out", "pipe"] {
+            if args.contains(&"--texture") {
+                continue;
+            }
+            let output = run(f, &[args, &[out][..]].concat());
+            assert!(refused(&output, out).contains("cannot write"), "{args:?}");
+        }
     }
-    assert_eq!(names(f), before);
+    succeed(f, &["export", "bar.plush", "-o", "link"]);
+    assert!(f.join("link").is_symlink() && f.join("nowhere/manifest.json").is_file());
 }
 
 #[test]
-fn the_work_of_others_is_not_replaced_without_force() {
+fn an_interrupt_ends_a_command_that_waits_for_a_pipe() {
     let folder = place();
     let f = folder.path();
-    fs::write(f.join("notes.txt"), "mine").unwrap();
-    fs::write(f.join("newer.plush"), "(version: 999)").unwrap();
-    let old = fs::read(f.join("bar.plush")).unwrap();
-    let new =
-        |out: &str, force: &[&str]| run(f, &[&["new", "bar.svg", "--fibers", "60", "-o", out][..], force].concat());
-    for out in ["bar.plush", "notes.txt", "newer.plush"] {
-        assert!(refused(&new(out, &[]), out).contains("--force"));
-    }
-    let pose = ["pose", "bar.plush", "--name", "p", "-o", "notes.txt"];
-    assert!(refused(&run(f, &pose), "notes.txt").contains("--force"));
-    // A picture does not replace a design at all.
-    refused(&run(f, &["render", "bar.plush", "-o", "newer.plush"]), "newer.plush");
-    assert_eq!(fs::read(f.join("bar.plush")).unwrap(), old);
-    assert_eq!(fs::read(f.join("notes.txt")).unwrap(), b"mine");
-    assert!(new("notes.txt", &["--force"]).status.success());
-    assert!(new("bar.plush", &["--force"]).status.success());
-    // What follows from its outline alone can be had again, so it may go.
-    assert!(new("bar.plush", &[]).status.success());
-}
-
-#[test]
-fn another_plushie_is_not_replaced_without_force() {
-    let folder = place();
-    let f = folder.path();
-    let pose = ["--name", "p", "--pin", "5,5"];
-    succeed(f, &["new", "bar.svg", "--fibers", "60", "-o", "other.plush"]);
-    succeed(f, &[&["pose", "other.plush", "-o", "other.plush"][..], &pose].concat());
-    let old = fs::read(f.join("other.plush")).unwrap();
-    let commands: [&[&str]; 5] = [
-        &[&["pose", "bar.plush"][..], &pose].concat(),
-        &["key", "bar.plush", "--pose", "bend", "--time", "9"],
-        &["rig", "bar.plush"],
-        &["remesh", "bar.plush", "--fibers", "80"],
-        &["reshape", "bar.plush", "bar.svg"],
-    ];
-    for args in commands {
-        let args = [args, &["-o", "other.plush"][..]].concat();
-        assert!(refused(&run(f, &args), "other.plush").contains("--force"), "{args:?}");
-        assert_eq!(fs::read(f.join("other.plush")).unwrap(), old, "{args:?}");
-    }
-    let key = |time: &str, rest: &[&str]| {
-        run(f, &[&["key", "bar.plush", "--pose", "bend", "--time", time, "-o", "other.plush"][..], rest].concat())
-    };
-    assert!(key("9", &["--force"]).status.success());
-    // What was made of the same plushie before is replaced without a word; so is a bare outline.
-    assert!(key("8", &[]).status.success());
-    succeed(f, &["new", "bar.svg", "--fibers", "60", "-o", "other.plush", "--force"]);
-    assert!(key("9", &[]).status.success());
-}
-
-#[test]
-fn an_answer_or_a_picture_does_not_replace_what_is_none() {
-    let folder = place();
-    let f = folder.path();
-    let photograph = || {
-        let mut bytes = std::io::Cursor::new(Vec::new());
-        image::RgbImage::new(2, 2).write_to(&mut bytes, image::ImageFormat::Png).unwrap();
-        bytes.into_inner()
-    };
-    let jpeg = || b"\xff\xd8\xff\xe0 and so on".to_vec();
-    for (name, bytes) in [
-        ("photo.png", photograph()),
-        ("photo.jpg", jpeg()),
-        ("notes.txt", b"mine".to_vec()),
-        ("other.json", PROBLEM.as_bytes().to_vec()),
-        ("network2.json", NETWORK.as_bytes().to_vec()),
-    ] {
-        fs::write(f.join(name), bytes).unwrap();
-    }
-    let render: &[&str] = &["render", "bar.plush", "--size", "64x32", "-o"];
-    let mesh: &[&str] = &["mesh", "bar.plush", "--size", "64x32", "-o"];
-    let (solve, discover, drawing) =
-        (["solve", "problem.json", "-o"], ["discover", "network.json", "-o"], ["drawing", "bar.plush", "-o"]);
-    for (args, out) in [
-        (render, "photo.png"),
-        (render, "photo.jpg"),
-        (render, "notes.txt"),
-        (mesh, "photo.png"),
-        (&solve, "other.json"),
-        (&solve, "notes.txt"),
-        (&discover, "network2.json"),
-        (&discover, "photo.png"),
-        (&drawing, "bar.svg"),
-        (&drawing, "notes.txt"),
-    ] {
-        let (args, old) = ([args, &[out][..]].concat(), fs::read(f.join(out)).unwrap());
-        assert!(refused(&run(f, &args), out).contains("--force"), "{args:?}");
-        assert_eq!(fs::read(f.join(out)).unwrap(), old, "{args:?}");
-    }
-    succeed(f, &[render, &["photo.png", "--force"]].concat());
-    succeed(f, &[&solve[..], &["notes.txt", "--force"]].concat());
-    // From now on these are ours, by whatever name.
-    for (args, out) in [(mesh, "photo.png"), (render, "photo.png"), (&solve, "notes.txt"), (&discover, "notes.txt")] {
-        succeed(f, &[args, &[out]].concat());
-    }
-}
-
-#[test]
-fn a_folder_with_anything_foreign_in_it_stays() {
-    let folder = place();
-    let f = folder.path();
-    for dir in ["photos", "figures"] {
-        fs::create_dir(f.join(dir)).unwrap();
-        fs::write(f.join(dir).join("figures.json"), "{}").unwrap();
-        fs::write(f.join(dir).join("holiday.jpg"), "mine").unwrap();
-    }
-    let bench = |out: &'static str| ["bench", "import", ".", "--fibers", "0", "--out", out];
-    let commands: [&[&str]; 4] = [
-        &["export", "bar.plush", "-o", "photos"],
-        &["demo", "--out", "photos"],
-        &bench("photos"),
-        &["bench", "extremes", "--short", "--only", "none", "--scenes", "photos"],
-    ];
-    for args in commands {
-        refused(&run(f, args), "photos");
-        assert_eq!(fs::read(f.join("photos/holiday.jpg")).unwrap(), b"mine", "{args:?}");
-    }
-    // Results of their own are replaced, until somebody puts something in, below them too.
-    for (args, out) in [(&["export", "bar.plush", "-o", "mine"][..], "mine"), (&bench("figs"), "figs")] {
-        succeed(f, args);
-        succeed(f, args);
-        fs::write(f.join(out).join("notes.txt"), "mine").unwrap();
-        assert!(refused(&run(f, args), out).contains("notes.txt"));
-        fs::remove_file(f.join(out).join("notes.txt")).unwrap();
-        succeed(f, args);
-        let (listed, _) = names(&f.join(out)).split_first().map(|(a, b)| (a.clone(), b.len())).unwrap();
-        fs::write(f.join(out).join(&listed), "changed by hand").unwrap();
-        assert!(refused(&run(f, args), out).contains(&listed));
-    }
-    refused(&run(f, &["export", "bar.plush", "-o", "figs"]), "figs");
-    assert!(names(f).iter().all(|name| !name.starts_with('.')), "{:?}", names(f));
+    Command::new("mkfifo").arg(f.join("pipe")).status().unwrap();
+    let mut child = program(f).args(["solve", "pipe"]).stderr(Stdio::null()).spawn().unwrap();
+    std::thread::sleep(Duration::from_millis(500));
+    Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(130));
 }
 
 #[test]

@@ -20,12 +20,15 @@ mod networks;
 mod networks_reference;
 mod outlines;
 #[cfg(feature = "studio")]
+mod palette;
 mod parity;
 mod physics;
 mod problems;
 mod properties;
 #[cfg(all(feature = "studio", unix))]
 mod recovery;
+#[cfg(unix)]
+mod replacing;
 mod soft_ik;
 #[cfg(feature = "studio")]
 mod studio;

@@ -5,9 +5,11 @@ use crate::outline::drawing::{Item, Part, PathPoint, Primitive};
 use crate::outline::{Drawing, Point, polygon};
 use crate::studio::action::Action;
 use crate::studio::change::Change;
+use crate::studio::commands::document::ESCAPE;
 use crate::studio::panels::Actions;
 use crate::studio::session::Session;
 use crate::studio::sketching::{Pencil, Sketch};
+use crate::studio::viewport::hit::Hit;
 use eframe::egui::{CursorIcon, Event, Key, Modifiers, PointerButton, Popup, Response, Ui};
 
 /// How near the pointer must be to a handle, logical pixels.
@@ -103,7 +105,7 @@ pub fn act(ui: &mut Ui, sheet: &Sheet<'_>, hand: &mut Hand, response: &Response,
     if !Popup::is_any_open(ui.ctx()) && key(Key::Escape) {
         // What is only being drawn is not in the document yet.
         if matches!(std::mem::take(hand), Hand::Holds { .. } | Hand::Nothing) {
-            actions.push(Action::Escape);
+            actions.push(Action::Run(&ESCAPE, Hit::Nothing));
         }
     }
     let ends = match hand {

@@ -6,6 +6,7 @@ mod surface;
 
 use super::action::{Action, FileAction};
 use super::change::Change;
+use super::commands::command::Scope;
 use super::panels::Actions;
 use super::session::Session;
 use super::sketching::Sketch;
@@ -34,11 +35,12 @@ impl State {
             return;
         }
         let ends = |action: &Action| match action {
-            Action::Sketch(Sketch::Open(false) | Sketch::MakeBody) => true,
+            Action::Run(command, _) => {
+                command.ends_drawing && !(command.scope == Scope::Outline && command.is_on(session))
+            }
             // What was drawn is part of what is saved, or asked about.
             Action::File(FileAction::EditDialog(_) | FileAction::CloseDialog | FileAction::Browse) => false,
             Action::File(_) => true,
-            Action::Sketch(Sketch::Take(pencil)) => *pencil != session.sketching().pencil,
             _ => false,
         };
         let is_open = matches!(self.hand, hand::Hand::Corners(_) | hand::Hand::Track(_));
@@ -126,6 +128,9 @@ fn navigate(ui: &Ui, sheet: &Sheet<'_>, response: &eframe::egui::Response, actio
     if response.dragged_by(eframe::egui::PointerButton::Middle) {
         let moved = camera.panned(response.drag_delta());
         actions.push(Action::Sketch(Sketch::Camera(Some(moved))));
+    }
+    if let Some(factor) = sheet.session.look().zoom {
+        actions.push(Action::Sketch(Sketch::Camera(Some(camera.zoomed(rect, rect.center(), factor)))));
     }
     if let Some(pointer) = response.hover_pos() {
         let (scroll, pinch) = ui.input(|i| (i.smooth_scroll_delta.y, i.zoom_delta()));

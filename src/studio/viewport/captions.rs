@@ -2,7 +2,7 @@
 
 use super::camera::Camera;
 use super::{Pane, Plushie};
-use crate::picture::scene::Stage;
+use crate::picture::Stage;
 use crate::studio::session::Session;
 use eframe::egui::{Align2, FontId, Pos2, Rect, Stroke, Ui, Vec2};
 

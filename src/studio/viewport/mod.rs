@@ -129,12 +129,12 @@ fn solved(session: &Session, plushie: Plushie) -> Option<&Arc<Shape>> {
 }
 
 /// The shape that a view shows now.
-fn displayed(session: &Session, plushie: Plushie) -> Option<&Shape> {
+fn displayed(session: &Session, plushie: Plushie) -> Option<&Arc<Shape>> {
     let preview = session.shown_proposal().map(|proposal| &proposal.preview);
     let preview = preview.filter(|shape| shape.nodes.len() == session.design().mesh.nodes.len());
     match plushie {
         Plushie::Realizable if preview.is_some() => preview,
-        _ => solved(session, plushie).map(Arc::as_ref),
+        _ => solved(session, plushie),
     }
 }
 

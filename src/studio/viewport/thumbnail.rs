@@ -5,8 +5,9 @@ use super::geometry::Geometry;
 use super::renderer::ViewCallback;
 use crate::design::Design;
 use crate::engine::Shape;
+use crate::picture::layers::{Layer, Pins};
 use crate::picture::palette::Theme;
-use crate::picture::scene::{Options, Stage, scene};
+use crate::picture::{Layers, Shown, Stage, Subject};
 use crate::rigging::Proposal;
 use crate::studio::session::Session;
 use eframe::egui::{Rect, Ui};
@@ -56,10 +57,12 @@ impl Thumbnails {
 }
 
 /// The rest shape with the stage on it.
-fn picture(design: &Design, proposal: &Proposal, theme: Theme, stage: Stage) -> Geometry {
-    let rest = Shape { nodes: design.mesh.nodes.clone(), ..Shape::default() };
-    let options = Options { theme, pins: false, stage: Some((stage, &proposal.stages)), ..Options::default() };
-    let mut geometry = Geometry::of(&scene(design, &rest, &options));
+fn picture(design: &Arc<Design>, proposal: &Proposal, theme: Theme, stage: Stage) -> Geometry {
+    let rest = Arc::new(Shape { nodes: design.mesh.nodes.clone(), ..Shape::default() });
+    let shown = Shown::default().with(Pins::NAME, false);
+    let stage = Some((stage, &proposal.stages));
+    let subject = Subject { theme, shown: &shown, stage, ..Subject::new(design, &rest) };
+    let mut geometry = Geometry::of(&Layers::of(&subject).scene());
     for capsule in &mut geometry.capsules {
         capsule.radius *= THINNER;
         capsule.inner *= THINNER;

@@ -7,10 +7,12 @@ use crate::mesh::BodyPoint;
 use crate::outline::Point;
 use crate::studio::action::{Action, Grab};
 use crate::studio::change::Change;
-use crate::studio::panels::Actions;
+use crate::studio::commands::view::FIT;
+use crate::studio::commands::{self, Place};
+use crate::studio::panels::{Actions, buttons};
 use crate::studio::session::{Selection, Session, Tool};
 use crate::studio::style;
-use eframe::egui::{CursorIcon, Key, PointerButton, Response, Stroke, Ui, Vec2};
+use eframe::egui::{CursorIcon, PointerButton, Response, Stroke, Ui, Vec2};
 
 /// Drags, clicks and the context menu; what lies under the pointer. `menu_at`: where the menu was opened, mm.
 pub fn interact(
@@ -87,27 +89,9 @@ fn click(session: &Session, hit: Hit, actions: &mut Actions) {
 
 fn menu(ui: &mut Ui, session: &Session, hit: Hit, actions: &mut Actions) {
     ui.set_min_width(170.0);
-    let mut entry = |ui: &mut Ui, name: &str, action: Action| {
-        if ui.button(name).clicked() {
-            actions.push(action);
-            ui.close();
-        }
-    };
-    match (hit, session.pose) {
-        (Hit::Target(index), Some(pose)) => {
-            entry(ui, "Remove target", Action::Change(Change::RemoveTarget { pose, index }));
-            if let Some(target) = session.targets().get(index) {
-                entry(ui, "Pin this point", Action::Change(Change::AddPin(target.at)));
-            }
-        }
-        (Hit::Pin(index), _) => entry(ui, "Unpin", Action::Change(Change::RemovePin(index))),
-        (Hit::Body(at), _) => entry(ui, "Pin this point", Action::Change(Change::AddPin(at))),
-        _ => {}
+    for command in commands::at(Place::ContextMenu).filter(|command| command.refused(session, hit).is_none()) {
+        buttons::entry(ui, session, command, hit, actions);
     }
-    if let Some(pose) = session.pose.filter(|_| !session.targets().is_empty()) {
-        entry(ui, "Remove all targets", Action::Change(Change::ClearTargets(pose)));
-    }
-    entry(ui, "Fit view", Action::Fit);
 }
 
 /// A ring around what the pointer is on, in both views.
@@ -146,7 +130,7 @@ pub fn highlight(ui: &Ui, pane: &Pane<'_>, hovered: Option<Hit>, shape: &Shape) 
 pub fn navigate(ui: &Ui, pane: &Pane<'_>, response: &Response, actions: &mut Actions) {
     /// Logical pixels of scrolling that double the scale.
     const SCROLL_TO_DOUBLE: f32 = 260.0;
-    let Pane { rect, camera, .. } = *pane;
+    let Pane { session, rect, camera, .. } = *pane;
     let dragging_view = response.dragged_by(PointerButton::Middle) || response.dragged_by(PointerButton::Primary);
     let delta = response.drag_delta();
     if dragging_view && delta != Vec2::ZERO {
@@ -161,15 +145,9 @@ pub fn navigate(ui: &Ui, pane: &Pane<'_>, response: &Response, actions: &mut Act
         }
     }
     if response.double_clicked() {
-        actions.push(Action::Fit);
+        actions.push(Action::Run(&FIT, Hit::Nothing));
     }
-    if response.has_focus() {
-        let factor = ui.input(|i| {
-            let key = |key| i32::from(i.key_pressed(key));
-            key(Key::Plus) + key(Key::Equals) - key(Key::Minus)
-        });
-        if factor != 0 {
-            actions.push(Action::SetCamera(camera.zoomed(rect, rect.center(), 1.25_f32.powi(factor))));
-        }
+    if let Some(factor) = session.look.zoom {
+        actions.push(Action::SetCamera(camera.zoomed(rect, rect.center(), factor)));
     }
 }
