@@ -4,7 +4,7 @@ use super::error::CommandError;
 use super::key::{self, solve};
 use super::output::say;
 use crate::design::{Design, Pose};
-use crate::engine::solver::target_error;
+use crate::engine::target_error;
 use crate::engine::{Question, Warning};
 use serde::Serialize;
 use std::io::Write;
