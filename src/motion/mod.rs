@@ -1,4 +1,4 @@
-//! What motors are told: where each winch is over time, the commands that take it there, and the lines that carry them.
+//! Motors and their commands: where each winch is over time, the commands that take it there, and the lines that carry them.
 //!
 //! A [`Trajectory`] samples the animation: cable wound by each winch, in mm and encoder counts. A dialect turns it into a
 //! [`Program`] of timed commands ([`classic`]: the ASCII family of Faulhaber controllers). [`transmit`] plays a program over a
@@ -19,7 +19,7 @@
 //! let program = classic::program(&design, &trajectory)?;
 //! let mut drives = SimulatedLink::new(trajectory.winches.len());
 //! motion::transmit(&program, &mut drives, motion::PATIENCE_S)?;
-//! drives.settle();
+//! assert!(drives.settle(10.0));
 //! assert_eq!(drives.position(1), trajectory.counts.last().map(|row| row[0]));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

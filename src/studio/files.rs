@@ -8,7 +8,7 @@ use super::jobs::{New, Refused, Report};
 use super::keeping::Kept;
 use super::meshing::Resolution;
 use super::session::Session;
-use super::sketching::{self, Pencil, Sketch};
+use super::sketching::{self, Sketch};
 use crate::defaults;
 use crate::design::{Design, FileError, bundled, file};
 use crate::files;
@@ -169,7 +169,7 @@ impl Session {
                 self.sketching.fresh = true;
                 self.meshing.wanted = Some(Resolution { fibers: defaults::FIBERS, finer: 1 });
                 self.sketch(Sketch::Open(true));
-                self.sketch(Sketch::Take(Pencil::Sketch));
+                self.tools[1] = sketching::FREEHAND;
             }
             FileAction::SaveAs => self.ask_path(Purpose::SaveAs),
             FileAction::Export if self.design().networks.is_empty() => {

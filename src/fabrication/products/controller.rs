@@ -35,7 +35,7 @@ fn guide(design: &Design, trajectory: &Trajectory) -> String {
     )
 }
 
-/// Where the motor settings cannot follow the trajectory.
+/// Remarks where the motor settings cannot follow the trajectory.
 fn remarks(design: &Design, trajectory: &Trajectory) -> Vec<String> {
     let motor = &design.controller;
     let mut remarks = Vec::new();
