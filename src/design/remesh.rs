@@ -61,6 +61,9 @@ pub fn remesh(design: &mut Design, request: &Request, finer: usize) -> Result<Re
 
 /// A mesh, and the fibres on it: one on every edge, or (`finer` above 1) those of a coarse mesh on one that is so many times
 /// finer (section 8.2 of the paper).
+///
+/// # Errors
+/// [`MeshError`] where the outline has no such mesh.
 pub fn body(outline: &Outline, request: &Request, finer: usize) -> Result<(Mesh, FiberSet), MeshError> {
     let coarse = mesh::build(outline, request)?.mesh;
     if finer <= 1 {
