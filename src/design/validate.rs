@@ -25,6 +25,9 @@ pub const WEIGHT_TOLERANCE: f64 = 1e-9;
 
 impl Design {
     /// Checks the whole document; the first fault found, the body first. The cost is that of [`Mesh::validate`].
+    ///
+    /// # Errors
+    /// [`DesignError`]: the place of the first fault, and what is wrong there.
     pub fn validate(&self) -> Result<(), DesignError> {
         if self.version == 0 || self.version > FORMAT_VERSION {
             return fail("version", Problem::Version { found: self.version });

@@ -30,6 +30,9 @@ pub struct Statics {
 }
 
 /// Solves the statics of a problem. `stop` is asked before every factorisation.
+///
+/// # Errors
+/// [`ProblemError`] where no model can be made.
 pub fn equilibrium(problem: &Problem, stop: &dyn Fn() -> bool) -> Result<Statics, ProblemError> {
     let frame = Frame::of(problem);
     let mut inner = frame.inside(problem);

@@ -5,6 +5,9 @@ use super::file::Problem;
 use crate::physics::{Body, Contractile, Element, Energy, Gravity, Ground, Model, ModelError, Pin, Pins};
 
 /// The physics model of a problem, at its `contractions` (zero if absent).
+///
+/// # Errors
+/// [`ProblemError`]: a triangle without area, or a mesh beyond the memory.
 pub fn model(problem: &Problem) -> Result<Model, ProblemError> {
     take_model(&mut problem.clone())
 }

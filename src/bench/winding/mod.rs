@@ -14,7 +14,7 @@ use super::statistics::Summary;
 use super::{BenchError, Cell, Report, Session, Table};
 use crate::design::Target;
 use crate::engine::compile::{Plushie, View, compile, objective};
-use crate::engine::solver::target_error;
+use crate::engine::target_error;
 use crate::engine::{Effort, Quality, Question as Asked, Request, Shape, Solver};
 use crate::soft_ik::contraction::GaussNewton;
 use crate::soft_ik::winding::{self, Care, Search};
