@@ -117,7 +117,7 @@ impl Crate {
                 at.pop();
                 continue;
             }
-            let child = [at.as_slice(), &[segment.clone()]].concat();
+            let child = [at.as_slice(), std::slice::from_ref(segment)].concat();
             if self.modules.contains_key(&child) {
                 at = child;
                 continue;
