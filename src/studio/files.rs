@@ -238,7 +238,6 @@ impl Session {
     }
 
     pub(super) fn take_export(&mut self, folder: &Path, result: Result<(), String>) {
-        self.files.working = None;
         match result {
             Ok(()) => self.messages.info(format!("The blueprint is in {}", files::shown(folder))),
             Err(why) => self.messages.error(format!("The export failed: {why}")),

@@ -43,7 +43,6 @@ impl Session {
     }
 
     pub(super) fn take_import(&mut self, result: Result<Box<New>, Box<Refused>>) {
-        self.files.working = None;
         match result {
             Ok(imported) => {
                 self.files.imported = Some(imported);

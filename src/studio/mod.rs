@@ -18,6 +18,7 @@ pub mod change;
 pub mod commands;
 mod discovering;
 pub mod files;
+mod finishing;
 pub mod icons;
 pub mod importing;
 pub mod jobs;

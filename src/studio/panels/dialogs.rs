@@ -2,6 +2,7 @@
 
 use super::{Actions, primary};
 use crate::files::shown;
+use crate::mesh::MAX_FIBERS;
 use crate::operations::FiberCount;
 use crate::outline::{Background, Holes, Import, Pieces};
 use crate::studio::action::{Action, FileAction};
@@ -16,7 +17,7 @@ use std::path::Path;
 
 /// What can be typed for the silhouette's height, mm, and for the number of fibres; 0 for what is usual.
 const HEIGHTS_MM: RangeInclusive<f64> = 0.0..=5000.0;
-const FIBERS: RangeInclusive<f64> = 0.0..=20_000.0;
+const FIBERS: RangeInclusive<f64> = 0.0..=MAX_FIBERS as f64;
 /// The largest length of the clean-up, mm.
 const LARGEST_MM: f64 = 1000.0;
 
@@ -194,7 +195,8 @@ fn import_settings(ui: &mut Ui, edited: &mut PathDialog) {
             FiberCount::AtLeast(fibers) | FiberCount::Exactly(fibers) => fibers as f64,
         };
         or_usual(ui, ("Muscle fibres", tip), &mut fibers, ("as usual", ""), FIBERS);
-        options.fibers = FiberCount::asked((fibers > 0.0).then_some(fibers as usize));
+        let fibers = fibers.round() as usize;
+        options.fibers = FiberCount::asked((fibers > 0).then_some(fibers));
     });
     ui.horizontal(|ui| {
         let mut largest = options.import.pieces == Pieces::Largest;
