@@ -12,13 +12,16 @@
 //! | [`outline`] | a silhouette: reading, clean-up, polygons |
 //! | [`mesh`] | outline to triangle mesh, points of the body, quality |
 //! | [`physics`] | what a plushie is made of: energies, materials, contractile elements, pins, statics |
+//! | [`sewing`] | rules that a hand with a needle can keep, and where routings break them |
 //! | [`soft_ik`] | targets to contractions: objective, sensitivities, actuation, solvers |
 //! | [`discovery`] | activation graph to winch-tendon network (Algorithm 2) |
 //! | [`problem`] | the JSON question-and-answer interface of the numerical core |
 //! | [`design`] | the document: design, poses, networks, keyframes, file format, edits, undo |
-//! | [`engine`] | compiles a design into a physics model, poses both plushies, worker thread, rigging |
-//! | [`fabrication`] | patterns, routings, winch tracks, controller programs |
-//! | [`picture`] | a neutral drawing of both plushies, rasterised without a graphics adapter |
+//! | [`engine`] | compiles a design into a physics model, poses both plushies, worker thread |
+//! | [`rigging`] | finds winches and tendons: generators of candidates, criteria that judge them, the search |
+//! | [`motion`] | what motors are told: trajectories of winches, programs, links that carry them |
+//! | [`fabrication`] | the blueprint: products (patterns, routings, tracks, programs) and the writers of their files |
+//! | [`picture`] | pictures of both plushies in layers, rasterised without a graphics adapter |
 //! | [`bench`] | whole studies of the solvers, repeatable from a seed |
 //! | [`commands`] | the headless commands |
 //! | `studio` | the window (feature `studio`) |
@@ -35,7 +38,9 @@
 //! has wound; the contraction of its tendons is `Z beta` (*winch synergy*). *Tension* `tau = dU/dGamma`, with the
 //! *deformation* `Gamma = length - alpha`. *Idealized plushie*: a fibre on every mesh edge beside the accepted
 //! networks. *Realizable plushie*: the accepted winch-tendon networks alone. *Track* of a drawing: a line along which mesh edges
-//! run; of a winch: its cable over time. *Texture*: the picture on the felt, in a box of rest coordinates.
+//! run. *Trajectory* of a winch: its cable over time (the file `tracks.csv`). *Texture*: the picture on the felt, in a box of rest
+//! coordinates. *Sheet*: a page in mm to be cut or looked at. *Program*: timed commands to motors. *Link*: the line that carries
+//! them. *Layer*: a part of a picture, drawn from its own inputs.
 //!
 //! # Invariants
 //! - The core never imports the window: `cargo build --no-default-features` builds everything but `studio`.
@@ -52,10 +57,13 @@ pub mod engine;
 pub mod fabrication;
 pub mod files;
 pub mod mesh;
+pub mod motion;
 pub mod outline;
 pub mod physics;
 pub mod picture;
 pub mod problem;
+pub mod rigging;
+pub mod sewing;
 pub mod soft_ik;
 #[cfg(feature = "studio")]
 pub mod studio;

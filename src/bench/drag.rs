@@ -3,11 +3,11 @@
 
 use super::baseline::{Comparison, EQUAL_ERROR, End, follow};
 use super::drags::{Path, goals, places, points, towards};
+use super::figures::significant;
 use super::linear::Unit;
 use super::plot::{Plot, Series};
 use super::posing::{at_rest, distance_from_equilibrium, free_fibers, may_be_shown, optimum};
 use super::random::Random;
-use super::report::significant;
 use super::shapes::Subject;
 use super::statistics::{Summary, growth_exponent};
 use super::{BenchError, Cell, Quality, Report, Session, Table, Tracker};
@@ -54,6 +54,10 @@ struct Measured {
 }
 
 impl Drag {
+    /// Runs the study.
+    ///
+    /// # Errors
+    /// A shape that cannot be meshed, or the study was cancelled.
     pub fn run(&self, session: &Session) -> Result<Report, BenchError> {
         let key = ["shape", "fibres", "targets", "path"];
         let time = [

@@ -8,9 +8,10 @@
 use super::plot::{Plot, Series};
 use super::shapes::Subject;
 use super::{BenchError, Session, Table};
-use crate::design::{Design, FiberSet, Gravity, Material, Pin};
+use crate::design::{Design, FiberSet, Gravity, Pin};
 use crate::mesh;
 use crate::outline::Outline;
+use crate::physics::NeoHookean;
 
 /// Ratios `kappa/mu`; 1.5 is the default material.
 const RATIOS: [f64; 7] = [0.5, 1.5, 5.0, 10.0, 30.0, 100.0, 1000.0];
@@ -31,6 +32,10 @@ pub struct Locking {
 }
 
 impl Locking {
+    /// Runs the study.
+    ///
+    /// # Errors
+    /// A mesh without equilibrium, or the study was cancelled.
     pub fn run(&self, session: &Session) -> Result<(Table, Plot), BenchError> {
         let mut table = Table::new(
             "locking",
@@ -88,7 +93,7 @@ fn relative_deflection(edges: usize, ratio: f64, session: &Session) -> Result<(u
     let mut design = Design::new("bar", outline, mesh);
     design.pins = pins;
     design.fibers.set = FiberSet::Routings(Vec::new());
-    design.material = Material::NeoHookean { mu: MU, kappa: ratio * MU };
+    design.material = NeoHookean { mu: MU, kappa: ratio * MU }.into();
     let surface_density = load() / (height * ACCELERATION);
     design.gravity = Some(Gravity { acceleration: [0.0, -ACCELERATION], surface_density });
     let clamped = design.pins.len();

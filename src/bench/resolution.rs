@@ -12,8 +12,8 @@ use super::trade::{Common, first_pose, rms};
 use super::{BenchError, Cell, Report, Session, Table};
 use crate::design::{Design, FiberSet};
 use crate::discovery::Parameters;
-use crate::engine;
 use crate::outline::Point;
+use crate::rigging;
 use crate::soft_ik::{Posture, Question};
 
 /// Radius over which activations are averaged, in body lengths.
@@ -53,6 +53,10 @@ struct Network {
 }
 
 impl Resolution {
+    /// Runs the study.
+    ///
+    /// # Errors
+    /// A shape that cannot be meshed or posed, or the study was cancelled.
     pub fn run(&self, session: &Session) -> Result<Report, BenchError> {
         let mut table = Table::new(
             "resolution",
@@ -164,7 +168,7 @@ impl Resolution {
     fn network(&self, subject: &Subject, session: &Session) -> Option<Network> {
         let targets = &subject.design.poses.first()?.targets;
         let best =
-            engine::propose(&subject.design, targets, &Parameters::default(), session.cancel).into_iter().next()?;
+            rigging::propose(&subject.design, targets, &Parameters::default(), session.cancel).into_iter().next()?;
         let winch = subject.design.mesh.nodes[best.network.winch_node()?];
         Some(Network { score: best.stages.score, before: best.error_before, after: best.error_after, winch })
     }

@@ -9,11 +9,11 @@ use super::random::Random;
 use super::shapes::{Subject, original};
 use super::statistics::Summary;
 use super::{BenchError, Quality, Report, Session, Table, Tracker};
-use crate::design::{Design, Gravity, Material, Target};
+use crate::design::{Design, Gravity, Target};
 use crate::engine::{self, Request, Solver};
 use crate::mesh::BodyPoint;
 use crate::outline::Point;
-use crate::physics::{StaticsSettings, statics};
+use crate::physics::{StVenantKirchhoff, StaticsSettings, statics};
 use crate::soft_ik::{Actuation, Question};
 use std::sync::Arc;
 use std::time::Instant;
@@ -43,6 +43,10 @@ struct Run<'a> {
 }
 
 impl Scene {
+    /// Runs the study.
+    ///
+    /// # Errors
+    /// A shape that cannot be meshed, or the study was cancelled.
     pub fn run(&self, session: &Session) -> Result<Report, BenchError> {
         let mut table = Table::new(
             "scene",
@@ -95,10 +99,8 @@ fn scenes<'a>(
     session: &'a Session,
 ) -> Result<Vec<Run<'a>>, BenchError> {
     let heavy = Design { gravity: Some(gravity(bare)), ..bare.clone() };
-    let mu = match bare.material {
-        Material::NeoHookean { mu, .. } | Material::StVenantKirchhoff { mu, .. } => mu,
-    };
-    let other = Design { material: Material::StVenantKirchhoff { mu, lambda: mu }, ..bare.clone() };
+    let mu = bare.material.shear_modulus();
+    let other = Design { material: StVenantKirchhoff { mu, lambda: mu }.into(), ..bare.clone() };
     let tracked = |what, design: &Design| tracked(what, shape, design.clone(), at, session);
     Ok(vec![
         tracked("fibres, no gravity, no winches", bare)?,
@@ -179,9 +181,7 @@ fn viewed<'a>(what: &'static str, design: &Design, show: [bool; 2], at: &'a [Bod
 
 /// Gravity across the body that gives it [`WEIGHT`].
 fn gravity(design: &Design) -> Gravity {
-    let mu = match design.material {
-        Material::NeoHookean { mu, .. } | Material::StVenantKirchhoff { mu, .. } => mu,
-    };
+    let mu = design.material.shear_modulus();
     let surface_density = WEIGHT * mu * design.body_length_mm() / (STANDARD_GRAVITY * design.mesh.area());
     Gravity { acceleration: [0.0, -STANDARD_GRAVITY], surface_density }
 }

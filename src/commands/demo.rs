@@ -3,18 +3,17 @@
 use super::error::CommandError;
 use super::output::{check_folder, json, say, write_folder};
 use super::place::Move;
-use super::render::picture;
 use super::{key, new, pose, rig, table};
 use crate::design::animation::{activations_at, duration_s};
 use crate::design::{Design, Target, file};
-use crate::engine::rig::{RigOptions, TendonChoice};
 use crate::engine::{Question, Shape};
 use crate::fabrication;
 use crate::files::shown;
 use crate::mesh::Mesh;
 use crate::outline::{self, Import, Point};
 use crate::picture::palette::{Palette, Theme};
-use crate::picture::{Item, Scene, raster};
+use crate::picture::{self, Item, Scene, raster};
+use crate::rigging::{Progress, RigOptions, TendonChoice};
 use clap::Args;
 use serde::Serialize;
 use std::io::Write;
@@ -133,9 +132,9 @@ impl Tour<'_> {
         };
         let mut printed = Ok(());
         let out = &mut *self.out;
-        let mut progress = |line: &str| {
+        let mut progress = |step: Progress| {
             if printed.is_ok() {
-                printed = say(out, &format!("     {line}"));
+                printed = say(out, &format!("     {}", rig::worded(&step)));
             }
         };
         let rigged = rig::rigged(design, &options, &mut progress, self.cancel)?;
@@ -169,7 +168,8 @@ impl Tour<'_> {
             Question::Activations(_) => Vec::new(),
         };
         let shapes = key::solve(design, question, [true, true], self.cancel)?;
-        let bytes = picture(design, &shapes, &targets, None, SIZE)?;
+        let bytes =
+            picture::png(design, &shapes, &targets, None, SIZE).map_err(|e| CommandError::Failed(e.to_string()))?;
         let text = if targets.is_empty() { text.to_owned() } else { errors(&shapes) };
         self.save(title, &bytes, &text)
     }

@@ -6,7 +6,7 @@ use super::{document, render};
 use crate::design::MeshFigures;
 use crate::mesh::quality::HISTOGRAM_STEP_DEG;
 use crate::picture::palette::{Palette, Theme};
-use crate::picture::{quality, raster};
+use crate::picture::{element_quality, raster};
 use clap::Args;
 use std::io::Write;
 use std::path::PathBuf;
@@ -45,7 +45,7 @@ impl MeshCommand {
         let design = document::load(&self.design)?;
         let figures = MeshFigures::of(&design);
         if let Some(output) = output {
-            let [left, right] = quality::scenes(&design.mesh, Theme::Light);
+            let [left, right] = element_quality::scenes(&design.mesh, Theme::Light);
             let background = Palette::of(Theme::Light).background;
             let bytes =
                 raster::png(&left, &right, self.size, background).map_err(|e| CommandError::Failed(e.to_string()))?;

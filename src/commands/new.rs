@@ -3,12 +3,13 @@
 use super::document;
 use super::error::{CommandError, check_cancel};
 use super::output::{refuse_input, say, say_json};
+use super::words::{self, CleanUp};
 use crate::defaults;
 use crate::design::file;
 use crate::design::{Design, MAX_NAME_CHARS};
 use crate::files::{self, is_hidden, shown};
 use crate::mesh::{self, Mesh, MeshError, Request};
-use crate::outline::{self, Background, Changes, Holes, Import, Imported, OutlineError, Pieces};
+use crate::outline::{self, Background, Changes, Holes, Import, Imported, Note, OutlineError, Pieces};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 use std::io::Write;
@@ -156,7 +157,7 @@ struct Summary<'a> {
     height_mm: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     texture: Option<&'a str>,
-    clean_up: &'a Changes,
+    clean_up: CleanUp<'a>,
 }
 
 impl New {
@@ -166,7 +167,7 @@ impl New {
         document::refuse_foreign(&self.output, self.force)?;
         let import = self.reading.import();
         let refuse = |reason: String| CommandError::input(&self.outline, reason);
-        let unread = |error: OutlineError| refuse(error.to_string());
+        let unread = |error: OutlineError| refuse(words::outline_error(&error));
         let file = outline::read_file(&self.outline).map_err(unread)?;
         let imported = outline::import(&file, &import).map_err(unread)?;
         let texture = match self.texture {
@@ -212,7 +213,7 @@ impl New {
             body_length_mm: design.body_length_mm(),
             height_mm: high[1] - low[1],
             texture: design.texture.as_deref(),
-            clean_up: changes,
+            clean_up: CleanUp::of(changes),
         };
         if self.json {
             return say_json(out, &summary);
@@ -225,7 +226,7 @@ impl New {
         if let Some(name) = texture {
             say(out, &format!("texture: {name}"))?;
         }
-        for line in changes.lines() {
+        for line in changes.lines(words::note) {
             say(out, &format!("note: {line}"))?;
         }
         Ok(())
@@ -249,7 +250,7 @@ pub fn design(imported: Imported, fibers: Option<usize>, name: &str) -> Result<(
         if fibers.is_some() {
             return Err(MeshError::Unreachable { asked, nearest: count }.to_string());
         }
-        changes.notes.push(format!("the outline needs more than {asked} fibers; it has {count}"));
+        changes.notes.push(Note::MoreFibers { asked, count });
     }
     Ok((Design { drawing, ..Design::new(name, outline, meshed.mesh) }, changes))
 }

@@ -5,12 +5,10 @@ use super::output::{Kind, Output, Replace, say};
 use super::{document, key};
 use crate::design::animation::activations_at;
 use crate::design::texture::find;
-use crate::design::{Design, Target, file};
-use crate::engine::{Question, Shape};
+use crate::design::{Design, file};
+use crate::engine::Question;
 use crate::files::shown;
-use crate::picture::palette::Palette;
-use crate::picture::scene::{self, Options};
-use crate::picture::{Texture, raster};
+use crate::picture::{self, Texture};
 use clap::Args;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -70,7 +68,8 @@ impl Render {
         };
         let shapes = key::solve(&design, question, [true, true], cancel)?;
         let texture = if self.no_texture { None } else { texture(&design, &self.design, out)? };
-        let bytes = picture(&design, &shapes, &targets, texture.as_ref(), self.size)?;
+        let bytes = picture::png(&design, &shapes, &targets, texture.as_ref(), self.size)
+            .map_err(|e| CommandError::Failed(e.to_string()))?;
         output.write(&bytes, cancel)?;
         say(out, &format!("{}: {} x {} pixels", shown(&self.output), self.size.0, self.size.1))?;
         key::balanced(key::unbalanced(&place, &shapes))
@@ -90,23 +89,6 @@ fn texture(design: &Design, from: &Path, out: &mut dyn Write) -> Result<Option<A
     };
     say(out, &format!("note: drawn without its texture {}: {why}", named.display()))?;
     Ok(None)
-}
-
-/// Both plushies side by side as PNG.
-pub fn picture(
-    design: &Design,
-    [idealized, realizable]: &[Shape; 2],
-    targets: &[Target],
-    texture: Option<&Arc<Texture>>,
-    size: (u32, u32),
-) -> Result<Vec<u8>, CommandError> {
-    let left = Options { targets, texture, ..Options::default() };
-    // The realizable plushie has no fibres.
-    let right = Options { fibers: false, ..left };
-    let background = Palette::of(left.theme).background;
-    let left = scene::scene(design, idealized, &left);
-    let right = scene::scene(design, realizable, &right);
-    raster::png(&left, &right, size, background).map_err(|e| CommandError::Failed(e.to_string()))
 }
 
 /// Reads a time, s.

@@ -5,12 +5,13 @@ use super::error::CommandError;
 use super::new::Reading;
 use super::output::{refuse_input, say, say_json};
 use super::remesh;
+use super::words::{self, CleanUp};
 use crate::design::edit::EditError;
 use crate::design::history::History;
 use crate::design::remesh::Report;
 use crate::design::reshape::{Body, keep_tracks, reshape};
 use crate::mesh::Request;
-use crate::outline::{self, Changes};
+use crate::outline;
 use clap::Args;
 use serde::Serialize;
 use std::io::Write;
@@ -46,7 +47,7 @@ pub struct Reshape {
 /// What `reshape --json` prints.
 #[derive(Serialize)]
 struct Summary<'a> {
-    clean_up: &'a Changes,
+    clean_up: CleanUp<'a>,
     #[serde(flatten)]
     report: &'a Report,
 }
@@ -58,7 +59,8 @@ impl Reshape {
         let mut history = History::new(design);
         let import = self.reading.import();
         let refuse = |reason: String| CommandError::input(&self.outline, reason);
-        let mut imported = outline::import_file(&self.outline, &import).map_err(|e| refuse(e.to_string()))?;
+        let mut imported =
+            outline::import_file(&self.outline, &import).map_err(|e| refuse(words::outline_error(&e)))?;
         // Where a height is asked for the drawing's own coordinates do not count.
         let own_place = imported.drawing.is_some() && import.height_mm.is_none();
         let corner = if own_place { imported.drawn_box[0] } else { [0.0; 2] };
@@ -72,9 +74,9 @@ impl Reshape {
             .map_err(|e| CommandError::input(&self.design, e))?;
         edit.save(history.current(), cancel)?;
         if self.json {
-            return say_json(out, &Summary { clean_up: &changes, report: &report });
+            return say_json(out, &Summary { clean_up: CleanUp::of(&changes), report: &report });
         }
         remesh::print(&self.target.output, &report, out)?;
-        changes.lines().into_iter().try_for_each(|line| say(out, &format!("note: {line}")))
+        changes.lines(words::note).into_iter().try_for_each(|line| say(out, &format!("note: {line}")))
     }
 }

@@ -5,8 +5,8 @@ use super::output::say;
 use super::{document, key};
 use crate::defaults;
 use crate::design::{Design, Easing};
-use crate::engine::rig::{RigError, RigOptions, TendonChoice, rig};
 use crate::files::shown;
+use crate::rigging::{Progress, RigError, RigOptions, TendonChoice, rig};
 use clap::Args;
 use std::io::Write;
 use std::path::PathBuf;
@@ -57,9 +57,9 @@ impl Rig {
         let rigged = rigged(
             &design,
             &options,
-            &mut |line| {
+            &mut |step| {
                 if printed.is_ok() {
-                    printed = say(out, line);
+                    printed = say(out, &worded(&step));
                 }
             },
             cancel,
@@ -79,7 +79,7 @@ impl Rig {
 pub fn rigged(
     design: &Design,
     options: &RigOptions,
-    progress: &mut dyn FnMut(&str),
+    progress: &mut dyn FnMut(Progress),
     cancel: &AtomicBool,
 ) -> Result<Design, CommandError> {
     let mut rigged = rig(design, options, progress, cancel).map_err(|e| match e {
@@ -91,6 +91,18 @@ pub fn rigged(
         lay_out(&mut rigged, cancel)?;
     }
     Ok(rigged)
+}
+
+/// One line about a step of the search.
+pub fn worded(step: &Progress) -> String {
+    match step {
+        Progress::Candidates { winch, count } => format!("winch {}: {count} candidate networks", winch + 1),
+        Progress::Accepted { winch, tendons, errors } => {
+            let errors: Vec<String> =
+                errors.iter().map(|(name, error)| format!("{name} {:.1} %", 100.0 * error)).collect();
+            format!("winch {}: {tendons} tendons; {}", winch + 1, errors.join(", "))
+        }
+    }
 }
 
 /// Lays the poses on the timeline, evenly spaced, with rest at both ends.

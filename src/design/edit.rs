@@ -6,11 +6,13 @@
 use super::animation::SAME_TIME_S;
 use super::{
     ControllerSettings, Design, DesignError, FabricationSettings, FiberSettings, Gravity, Keyframe, Material, Network,
-    Pin, Pose, Target, TendonSettings, validate,
+    Pin, Pose, Target, TendonSettings, Term, validate,
 };
 use crate::mesh::MeshError;
 use crate::outline::drawing::Track;
 use crate::outline::{Drawing, Point};
+use crate::physics::terms::GRAVITY;
+use crate::physics::{Kind, TermKind};
 use thiserror::Error;
 
 /// Why a change was refused.
@@ -204,8 +206,33 @@ pub fn set_controller(design: &mut Design, controller: ControllerSettings) -> Re
     set(design, |d| std::mem::replace(&mut d.controller, controller), |d, old| d.controller = old)
 }
 
-pub fn set_gravity(design: &mut Design, gravity: Option<Gravity>) -> Result<(), EditError> {
-    set(design, |d| std::mem::replace(&mut d.gravity, gravity), |d, old| d.gravity = old)
+/// Puts an energy term in the place of the one of its kind, or takes that away.
+///
+/// # Errors
+/// A parameter out of its range; the design is as it was then.
+pub fn set_term(design: &mut Design, kind: &'static TermKind, term: Option<Term>) -> Result<(), EditError> {
+    set(
+        design,
+        |d| put_term(d, kind, term),
+        |d, old| {
+            put_term(d, kind, old);
+        },
+    )
+}
+
+/// Gravity goes where files have always had it, other terms into the list of them. Returns what was there.
+fn put_term(design: &mut Design, kind: &TermKind, term: Option<Term>) -> Option<Term> {
+    let is_kind = |t: &Term| t.kind().name == kind.name;
+    let old = design.all_terms().into_iter().find(is_kind);
+    design.terms.retain(|t| !is_kind(t));
+    if kind.name == GRAVITY.name {
+        design.gravity = term.map(Gravity::from);
+    } else {
+        design.terms.extend(term);
+    }
+    let place = |t: &Term| TermKind::names().iter().position(|name| *name == t.kind().name);
+    design.terms.sort_by_key(place);
+    old
 }
 
 pub fn set_texture(design: &mut Design, texture: Option<String>) -> Result<(), EditError> {

@@ -4,6 +4,7 @@
 //! a file back gives the same bits. The version is read before anything else, so that a file from the future is refused
 //! as such and not for the first word this program does not know.
 
+use super::version::FORMAT_VERSION;
 use super::{Design, DesignError, texture};
 use crate::files::{self, Stamp, printable, shown};
 use ron::error::{Position, SpannedError};
@@ -13,8 +14,6 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Version of the file format that this program writes, and the newest it reads.
-pub const FORMAT_VERSION: u32 = 1;
 /// Largest design file that is read, bytes. The largest mesh that is made (200 000 fibres) takes a quarter of it.
 pub const MAX_BYTES: u64 = 32 << 20;
 
@@ -103,6 +102,7 @@ pub fn to_text(design: &Design) -> Result<String, ron::Error> {
         texture,
         texture_box,
         gravity,
+        terms,
         stiffness_map,
     } = design;
     let mut text = String::from("(\n");
@@ -120,6 +120,9 @@ pub fn to_text(design: &Design) -> Result<String, ron::Error> {
     }
     if gravity.is_some() {
         field(out, "gravity", gravity, 0)?;
+    }
+    if !terms.is_empty() {
+        field(out, "terms", terms, 1)?;
     }
     field(out, "fabrication", fabrication, 1)?;
     field(out, "controller", controller, 1)?;

@@ -19,16 +19,18 @@ mod settings;
 pub(crate) mod testing;
 pub mod texture;
 mod validate;
+mod version;
 
 pub use edit::EditError;
 pub use figures::MeshFigures;
-pub use file::{FORMAT_VERSION, FileError};
+pub use file::FileError;
 pub use history::History;
 pub use problem::{DesignError, Problem};
 pub use settings::{
-    ControllerSettings, FabricationSettings, FiberSet, FiberSettings, Gravity, Material, TendonSettings,
+    ControllerSettings, FabricationSettings, FiberSet, FiberSettings, Gravity, Material, TendonSettings, Term,
 };
 pub use validate::MAX_NAME_CHARS;
+pub use version::FORMAT_VERSION;
 
 use crate::defaults;
 use crate::mesh::{BodyPoint, Mesh};
@@ -74,6 +76,9 @@ pub struct Design {
     pub texture_box: Option<[Point; 2]>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gravity: Option<Gravity>,
+    /// Energy terms beside gravity, which has a field of its own; each kind at most once.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub terms: Vec<Term>,
     /// Factor on the moduli of each triangle.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stiffness_map: Option<Vec<f64>>,
@@ -188,30 +193,33 @@ impl Design {
             texture: None,
             texture_box: None,
             gravity: None,
+            terms: Vec::new(),
             stiffness_map: None,
         }
     }
 
     /// Whether nobody has worked on it yet: all there is follows from an outline that was read.
     pub fn is_bare(&self) -> bool {
-        let Self { pins, poses, networks, keyframes, gravity, stiffness_map, material, fibers, tendons, .. } = self;
+        let Self { pins, poses, networks, keyframes, stiffness_map, material, fibers, tendons, .. } = self;
         let lists = pins.is_empty() && poses.is_empty() && networks.is_empty() && keyframes.is_empty();
         let physics = *material == Material::default() && *fibers == FiberSettings::default();
         let made =
             self.fabrication == FabricationSettings::default() && self.controller == ControllerSettings::default();
-        let others = gravity.is_none()
+        let others = self.all_terms().is_empty()
             && stiffness_map.is_none()
             && self.drawing.is_none()
             && *tendons == TendonSettings::default();
         lists && physics && made && others
     }
 
+    /// All optional energy terms, gravity among them.
+    pub fn all_terms(&self) -> Vec<Term> {
+        self.gravity.map(Term::from).into_iter().chain(self.terms.iter().copied()).collect()
+    }
+
     /// The routings of the muscle fibres, in the order in which fibre contractions are reported everywhere.
     pub fn fiber_routings(&self) -> Vec<Vec<usize>> {
-        match &self.fibers.set {
-            FiberSet::Edges => self.mesh.edges().into_iter().map(Vec::from).collect(),
-            FiberSet::Routings(routings) => routings.clone(),
-        }
+        self.fibers.routings(&self.mesh)
     }
 
     /// Number of fibres if `mesh` were the design's mesh.

@@ -3,7 +3,8 @@
 //! The ranges are generous, a hundred times and more beyond any plushie, and narrow enough that no product of figures leaves what the
 //! solvers and the sheets can hold. `examples/design-format.md` has the same table.
 
-use super::problem::{Check, DesignError, Problem, fail, finite};
+use super::problem::{Check, DesignError, Problem, fail, finite, require};
+use crate::physics::{Kind, Parameter, Setting};
 
 /// The range of a field, both ends allowed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,15 +22,12 @@ macro_rules! ranges {
     ($($name:ident: $field:literal, $unit:literal, $low:literal, $high:literal, $why:literal;)*) => {
         $(pub(super) const $name: Range =
             Range { field: $field, unit: $unit, low: $low, high: $high, why: $why };)*
-        /// Every range, in the order of the file.
+        /// Every range but those of materials and energy terms, which their catalogues hold, in the order of the file.
         pub const ALL: &[Range] = &[$($name),*];
     };
 }
 
 ranges! {
-    MU: "material.mu", "N/mm", 1e-6, 1e6, "foam is 0.1 to 10; steel 1 mm thick 8e4";
-    KAPPA: "material.kappa, material.lambda", "N/mm", 0.0, 1e6, "as mu";
-    STIFFENING: "material.kappa, material.lambda over mu", "", 0.0, 1e4, "beyond, triangles lock and the solver takes minutes";
     FIBER_STIFFNESS: "fibers.stiffness", "N/mm", 1e-6, 1e6, "as mu";
     FIBER_EPSILON: "fibers.epsilon_fraction", "", 1e-8, 1.0, "below, a fibre is a kink that no step can cross";
     FIBER_CONTRACTION: "fibers.max_contraction", "", 0.0, 1.0, "a part of the length";
@@ -37,8 +35,6 @@ ranges! {
     TENDON_EPSILON: "tendons.epsilon_mm", "mm", 1e-6, 1e3, "below, a tendon is a kink that no step can cross";
     TENDON_CONTRACTION: "tendons.max_contraction", "", 0.0, 1.0, "a part of the length";
     TEXTURE_SIZE: "texture_box, its sides", "mm", 1e-3, 2e6, "as the body";
-    ACCELERATION: "gravity.acceleration", "m/s^2", -1e3, 1e3, "a hundred times that of the earth";
-    SURFACE_DENSITY: "gravity.surface_density", "kg/mm^2", 0.0, 1e-3, "60 mm of stuffing is 2e-6, of lead 7e-4";
     SEAM_ALLOWANCE: "fabrication.seam_allowance_mm", "mm", 0.0, 1e3, "shops use 6 to 10";
     TENDON_HOLE: "fabrication.tendon_hole_mm", "mm", 1e-2, 100.0, "what can be cut";
     TURNING_GAP: "fabrication.turning_gap_mm", "mm", 0.0, 1e4, "at most a quarter of the outline is left open anyway";
@@ -92,6 +88,25 @@ impl Range {
     }
 }
 
+/// Whether every parameter of a material or an energy term is in its range; `at`: its path into the file.
+pub(super) fn parameters<K: Kind>(at: &str, setting: &Setting<K>) -> Check {
+    let first = setting.values()[0];
+    for (parameter, values) in setting.each() {
+        let at = format!("{at}.{}", parameter.name);
+        values.iter().try_for_each(|&value| of(parameter).check(&at, value))?;
+        if let Some(most) = parameter.most_times_first {
+            let factor = values[0] / first;
+            require(factor <= most, &at, || Problem::TooStiff { factor, most })?;
+        }
+    }
+    Ok(())
+}
+
+fn of(parameter: &Parameter) -> Range {
+    let &Parameter { name: field, unit, range: [low, high], why, .. } = parameter;
+    Range { field, unit, low, high, why }
+}
+
 /// Whether there are at most so many of a kind.
 pub(super) fn at_most(at: &str, found: usize, most: usize, what: &'static str) -> Check {
     if found <= most {
@@ -104,12 +119,21 @@ pub(super) fn at_most(at: &str, found: usize, most: usize, what: &'static str) -
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::physics::{MaterialKind, TermKind};
 
     #[test]
     fn the_documented_table_is_this_one() {
         let text = include_str!("../../examples/design-format.md");
         for Range { field, unit, low, high, why } in ALL {
             let row = format!("| `{field}` | {unit} | {} | {} | {why} |", number(*low), number(*high));
+            assert!(text.contains(&row), "missing: {row}");
+        }
+        let materials = MaterialKind::all().iter().flat_map(|kind| kind.parameters);
+        let terms = TermKind::all().iter().flat_map(|kind| kind.parameters.iter().map(|p| (kind.name, p)));
+        let of_terms = terms.map(|(kind, p)| (if kind == "Gravity" { "gravity" } else { "terms[]" }, p));
+        for (at, parameter) in materials.map(|p| ("material", p)).chain(of_terms) {
+            let Range { field, unit, low, high, why } = of(parameter);
+            let row = format!("| `{at}.{field}` | {unit} | {} | {} | {why} |", number(low), number(high));
             assert!(text.contains(&row), "missing: {row}");
         }
         let counts = [

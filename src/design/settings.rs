@@ -1,16 +1,16 @@
 //! Settings of a design: material, fibres, tendons, fabrication, controllers. The figures come from [`crate::defaults`].
 
 use crate::defaults;
+use crate::mesh::Mesh;
+use crate::physics::terms::GRAVITY;
+use crate::physics::{MaterialKind, Setting, TermKind};
 use serde::{Deserialize, Serialize};
 
-/// Material of the body. A choice, so that others can follow.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub enum Material {
-    /// Eq. 5 of the paper.
-    NeoHookean { mu: f64, kappa: f64 },
-    /// Linear in the Green strain; for comparison, and only for moderate compression.
-    StVenantKirchhoff { mu: f64, lambda: f64 },
-}
+/// Material of the body: one of the catalogue ([`crate::physics::materials`]) with its parameters, neo-Hookean by default (eq. 5).
+pub type Material = Setting<MaterialKind>;
+
+/// An optional energy term: one of the catalogue ([`crate::physics::terms`]) with its parameters.
+pub type Term = Setting<TermKind>;
 
 /// The muscle fibres of the idealized plushie.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -79,9 +79,28 @@ pub struct ControllerSettings {
     pub acceleration: u32,
 }
 
-impl Default for Material {
-    fn default() -> Self {
-        Self::NeoHookean { mu: defaults::MU, kappa: defaults::KAPPA }
+impl From<Gravity> for Term {
+    fn from(Gravity { acceleration: [x, y], surface_density }: Gravity) -> Self {
+        Self::new(GRAVITY, &[x, y, surface_density])
+    }
+}
+
+impl From<Term> for Gravity {
+    /// Panics where it is another term: a mistake of the caller.
+    fn from(term: Term) -> Self {
+        assert_eq!(term.kind().name, GRAVITY.name);
+        let &[x, y, surface_density] = term.values() else { unreachable!("gravity has three values") };
+        Self { acceleration: [x, y], surface_density }
+    }
+}
+
+impl FiberSettings {
+    /// The routings of the fibres on a mesh.
+    pub fn routings(&self, mesh: &Mesh) -> Vec<Vec<usize>> {
+        match &self.set {
+            FiberSet::Edges => mesh.edges().into_iter().map(Vec::from).collect(),
+            FiberSet::Routings(routings) => routings.clone(),
+        }
     }
 }
 

@@ -6,7 +6,7 @@
 
 use super::problem::{Check, DesignError, Problem, at_least, fail, finite, require, same_length};
 use super::ranges::{self, Range, at_most};
-use super::{Design, FORMAT_VERSION, FiberSet, Keyframe, Material, Network, Pin, Pose, Target, Tendon};
+use super::{Design, FORMAT_VERSION, FiberSet, Keyframe, Network, Pin, Pose, Target, Tendon, Term};
 use crate::files::is_hidden;
 use crate::mesh::{BodyPoint, Mesh};
 use crate::outline::{Point, polygon::signed_area};
@@ -96,14 +96,7 @@ fn mesh(mesh: &Mesh) -> Check {
 
 /// Everything about a design's settings; used by the edits as well.
 pub(super) fn settings(design: &Design) -> Check {
-    let (mu, other, name) = match design.material {
-        Material::NeoHookean { mu, kappa } => (mu, kappa, "material.kappa"),
-        Material::StVenantKirchhoff { mu, lambda } => (mu, lambda, "material.lambda"),
-    };
-    ranges::MU.check("material.mu", mu)?;
-    ranges::KAPPA.check(name, other)?;
-    let (factor, most) = (other / mu, ranges::STIFFENING.high);
-    require(factor <= most, name, || Problem::TooStiff { factor, most })?;
+    ranges::parameters("material", &design.material)?;
     let fibers = &design.fibers;
     if let FiberSet::Routings(routings) = &fibers.set {
         for (i, r) in routings.iter().enumerate() {
@@ -118,8 +111,13 @@ pub(super) fn settings(design: &Design) -> Check {
     ranges::TENDON_CONTRACTION.check("tendons.max_contraction", design.tendons.max_contraction)?;
     made(design)?;
     if let Some(gravity) = &design.gravity {
-        coordinates("gravity.acceleration", &gravity.acceleration, &ranges::ACCELERATION)?;
-        ranges::SURFACE_DENSITY.check("gravity.surface_density", gravity.surface_density)?;
+        ranges::parameters("gravity", &Term::from(*gravity))?;
+    }
+    for (i, term) in design.terms.iter().enumerate() {
+        let at = format!("terms[{i}]");
+        ranges::parameters(&at, term)?;
+        let before = design.all_terms().iter().filter(|other| other.kind().name == term.kind().name).count();
+        require(before == 1, &at, || Problem::Duplicate { what: "term", name: term.kind().name.into() })?;
     }
     if let Some(map) = &design.stiffness_map {
         same_length("stiffness_map", map.len(), design.mesh.triangles.len(), "triangles")?;

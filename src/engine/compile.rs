@@ -1,13 +1,11 @@
 //! A design becomes a physics model: the idealized plushie (networks and fibres) or the realizable one (networks alone).
 
+use super::body_spec::BodySpec;
 use super::patch;
 use crate::defaults;
 use crate::design::Target;
-use crate::design::{Design, Material, Network};
-use crate::physics::material;
-use crate::physics::{
-    Body, Contractile, Element, Energy, Gravity, Model, ModelError, NeoHookean, Pin, Pins, StVenantKirchhoff,
-};
+use crate::design::{Design, Network};
+use crate::physics::{Body, Contractile, Element, Energy, Ground, Model, ModelError, Pin, Pins};
 use crate::soft_ik::{Objective, PointTarget, Winch};
 use std::ops::Range;
 
@@ -35,43 +33,44 @@ pub struct Plushie {
 ///
 /// The initial rest length of an element is its length in the rest mesh plus its slack plus `epsilon`: contraction zero is the
 /// just-slack state, in which nothing pulls at rest.
+///
+/// # Errors
+/// [`ModelError`] where a triangle has no area, or the matrix would not fit into memory.
 pub fn compile(design: &Design, view: View) -> Result<Plushie, ModelError> {
-    let mesh = &design.mesh;
-    let law: Box<dyn material::Material> = match design.material {
-        Material::NeoHookean { mu, kappa } => Box::new(NeoHookean { mu, kappa }),
-        Material::StVenantKirchhoff { mu, lambda } => Box::new(StVenantKirchhoff { mu, lambda }),
-    };
-    let body =
-        Body::new(&mesh.nodes, &mesh.triangles, law, design.stiffness_map.as_deref()).map_err(ModelError::Triangle)?;
+    compile_body(&BodySpec::of(design), view)
+}
+
+fn compile_body(spec: &BodySpec, view: View) -> Result<Plushie, ModelError> {
+    let mesh = spec.mesh;
+    let law = spec.material.build();
+    let body = Body::new(&mesh.nodes, &mesh.triangles, law, spec.stiffness_map).map_err(ModelError::Triangle)?;
     let rest_length =
         |routing: &[usize]| -> f64 { routing.windows(2).map(|s| distance(mesh.nodes[s[0]], mesh.nodes[s[1]])).sum() };
     let mut elements = Vec::new();
-    let winches = design.networks.iter().map(|n| winch(design, n, &mut elements, &rest_length)).collect();
+    let winches = spec.networks.iter().map(|n| winch(spec, n, &mut elements, &rest_length)).collect();
     let tendons = 0..elements.len();
     let mut fibers = Vec::new();
     if view == View::Idealized {
-        let routings = design.fiber_routings();
+        let routings = spec.fibers.routings(mesh);
         let lengths: Vec<f64> = routings.iter().map(|r| rest_length(r)).collect();
         let mean = lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
-        let epsilon = design.fibers.epsilon_fraction * mean;
+        let epsilon = spec.fibers.epsilon_fraction * mean;
         for (routing, length) in routings.into_iter().zip(lengths) {
-            let limit = design.fibers.max_contraction * length;
+            let limit = spec.fibers.max_contraction * length;
             fibers.push(Winch { members: vec![(elements.len(), 1.0)], lower: -limit, upper: limit });
-            elements.push(Element { routing, stiffness: design.fibers.stiffness, epsilon, alpha0: length + epsilon });
+            elements.push(Element { routing, stiffness: spec.fibers.stiffness, epsilon, alpha0: length + epsilon });
         }
     }
     let fiber_elements = tendons.end..elements.len();
-    let pins = design.pins.iter().map(|pin| {
+    let pins = spec.pins.iter().map(|pin| {
         let (nodes, weights) = patch::point(mesh, &pin.at);
         let anchor = pin.position.unwrap_or_else(|| mesh.position(&pin.at, &mesh.nodes));
         Pin { nodes, weights, anchor, stiffness: pin.stiffness }
     });
     let pins = Pins { pins: pins.collect() };
     let areas = body.nodal_areas(mesh.nodes.len());
-    let mut terms: Vec<Box<dyn Energy>> = Vec::new();
-    if let Some(gravity) = &design.gravity {
-        terms.push(Box::new(Gravity::new(&areas, gravity.surface_density, gravity.acceleration)));
-    }
+    let ground = Ground { nodes: &mesh.nodes, triangles: &mesh.triangles, nodal_areas: &areas };
+    let terms: Vec<Box<dyn Energy>> = spec.terms.iter().map(|term| term.build(&ground)).collect();
     let total: f64 = areas.iter().sum();
     let area_parts = areas.into_iter().map(|a| a / total).collect();
     let model = Model::new(&mesh.nodes, body, Contractile::new(elements), pins, terms)?;
@@ -81,20 +80,20 @@ pub fn compile(design: &Design, view: View) -> Result<Plushie, ModelError> {
 /// One network: its tendons become elements, its winch may turn as far as every tendon allows (eq. 27). Cable beyond the
 /// rest length is wound on the spool at assembly, so a winch may also pay out as much as it may take in.
 fn winch(
-    design: &Design,
+    spec: &BodySpec,
     network: &Network,
     elements: &mut Vec<Element>,
     rest_length: &dyn Fn(&[usize]) -> f64,
 ) -> Winch {
-    let epsilon = design.tendons.epsilon_mm;
+    let epsilon = spec.tendons.epsilon_mm;
     let mut out = Winch { members: Vec::new(), lower: 0.0, upper: f64::INFINITY };
     for tendon in &network.tendons {
         let length = rest_length(&tendon.routing);
-        out.upper = out.upper.min((design.tendons.max_contraction * length + tendon.slack_mm) / tendon.ratio);
+        out.upper = out.upper.min((spec.tendons.max_contraction * length + tendon.slack_mm) / tendon.ratio);
         out.members.push((elements.len(), tendon.ratio));
         elements.push(Element {
             routing: tendon.routing.clone(),
-            stiffness: design.tendons.stiffness,
+            stiffness: spec.tendons.stiffness,
             epsilon,
             alpha0: length + tendon.slack_mm + epsilon,
         });

@@ -1,27 +1,23 @@
-//! Compiles a design into a physics model, poses both plushies, runs on a thread of its own, and rigs.
+//! Compiles a design into a physics model, poses both plushies, and runs on a thread of its own.
 //!
 //! The realizable plushie is always solved first; its activations are then held in the idealized one and the fibres
 //! add what is missing (section 3, design loop).
 
+mod body_spec;
 pub mod compile;
 pub mod patch;
 pub mod play;
-pub mod propose;
-pub mod response;
-pub mod rig;
 pub mod solver;
-pub mod trial;
 pub mod warning;
 pub mod worker;
 
 pub use crate::soft_ik::Quality;
+pub use body_spec::BodySpec;
 pub use play::Play;
-pub use propose::propose;
-pub use solver::{Effort, Solver};
+pub use solver::{Effort, Solver, target_error};
 pub use warning::Warning;
 
-use crate::design::{Design, Network, Target};
-use crate::discovery;
+use crate::design::{Design, Target};
 use crate::outline::Point;
 use std::sync::Arc;
 
@@ -114,18 +110,4 @@ pub struct Outcome {
     pub realizable: Option<Shape>,
     /// Found with all effort while nothing newer waited, in the place of an earlier outcome of the same request.
     pub refined: bool,
-}
-
-/// A network proposed by discovery and tried out by simulation.
-#[derive(Clone, Debug)]
-pub struct Proposal {
-    pub network: Network,
-    pub parameters: discovery::Parameters,
-    /// The stages of discovery, to be shown (fig. 6).
-    pub stages: discovery::Stages,
-    /// The realizable plushie with this network added, posed towards the same targets.
-    pub preview: Shape,
-    /// Target error before and after, in body lengths.
-    pub error_before: f64,
-    pub error_after: f64,
 }

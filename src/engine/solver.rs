@@ -1,5 +1,6 @@
 //! Poses both plushies of a design, warm-started from the request before.
 
+use super::body_spec::BodySpec;
 use super::compile::{Plushie, View, compile, objective};
 use super::play::Play;
 use super::{Outcome, Quality, Question, Request, Shape, Warning};
@@ -293,7 +294,7 @@ fn pull_thoroughly(
 }
 
 fn compiled<'a>(slot: &'a mut Option<Compiled>, design: &Design, view: View) -> Result<&'a mut Compiled, String> {
-    let keep = slot.take().filter(|c| same_body(&c.source, design));
+    let keep = slot.take().filter(|c| BodySpec::of(&c.source) == BodySpec::of(design));
     let compiled = match keep {
         Some(compiled) => compiled,
         None => {
@@ -304,20 +305,9 @@ fn compiled<'a>(slot: &'a mut Option<Compiled>, design: &Design, view: View) -> 
     Ok(slot.insert(compiled))
 }
 
-/// The parts of a design that a model is compiled from.
+/// The design without what no model depends on.
 fn body_of(design: &Design) -> Design {
     Design { poses: Vec::new(), keyframes: Vec::new(), ..design.clone() }
-}
-
-fn same_body(a: &Design, b: &Design) -> bool {
-    a.mesh == b.mesh
-        && a.material == b.material
-        && a.fibers == b.fibers
-        && a.tendons == b.tendons
-        && a.pins == b.pins
-        && a.networks == b.networks
-        && a.gravity == b.gravity
-        && a.stiffness_map == b.stiffness_map
 }
 
 /// Activations for display and export: a winch whose cables are all slack is wound just to the point where they are not
@@ -339,13 +329,7 @@ fn tidy(plushie: &Plushie, posture: &Posture) -> Vec<f64> {
 }
 
 /// A posture as it is shown. The model's laws must be those of the posture.
-pub(super) fn report(
-    design: &Design,
-    plushie: &Plushie,
-    targets: &[Target],
-    posture: &Posture,
-    clock: Instant,
-) -> Shape {
+pub fn report(design: &Design, plushie: &Plushie, targets: &[Target], posture: &Posture, clock: Instant) -> Shape {
     let tensions = plushie.model.contractile.tensions(&posture.x);
     let nodes: Vec<[f64; 2]> = posture.x.chunks_exact(2).map(|p| [p[0], p[1]]).collect();
     Shape {

@@ -206,15 +206,6 @@ fn finer(whole: &Subject, asked: usize, at: impl Fn(usize, Effort) -> Option<Mes
     Some((at(count, Effort::Full).unwrap_or(meshed), count))
 }
 
-/// Puts triangles in the order of their nodes, each with its smallest first.
-pub(super) fn order(triangles: &mut [[usize; 3]]) {
-    for t in triangles.iter_mut() {
-        let smallest = (0..3).min_by_key(|&k| t[k]).unwrap_or(0);
-        t.rotate_left(smallest);
-    }
-    triangles.sort_unstable();
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -5,6 +5,7 @@
 //! divided by its length. Then nodes are added where a chord strays from the outline too far, and where it is needed to
 //! keep the area.
 
+use super::boundary::Boundary;
 use super::curve::Curve;
 use super::search::Budget;
 use crate::outline::{Outline, Point, polygon};
@@ -18,16 +19,6 @@ const STRAY: f64 = 0.12;
 const NEAR: f64 = 0.3;
 /// Most change of the spacing along the boundary per length of way: neighbouring edges differ by a third.
 const GRADATION: f64 = 0.35;
-
-/// Sampled boundary. Nodes of a ring are consecutive and in the ring's order.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Boundary {
-    pub nodes: Vec<Point>,
-    /// Ring and arc length of each node.
-    pub places: Vec<(usize, f64)>,
-    /// Index pairs of consecutive nodes: the constrained edges.
-    pub segments: Vec<[usize; 2]>,
-}
 
 /// How closely the boundary is followed.
 #[derive(Clone, Copy, Debug)]

@@ -1,6 +1,7 @@
 //! A finer mesh over the same edges.
 
-use super::{Mesh, generate};
+use super::Mesh;
+use super::order::order;
 use crate::outline::polygon;
 use std::collections::BTreeMap;
 
@@ -50,7 +51,7 @@ pub fn subdivided(mesh: &Mesh, parts: usize) -> Mesh {
             before = row;
         }
     }
-    generate::order(&mut triangles);
+    order(&mut triangles);
     Mesh { nodes, triangles }
 }
 

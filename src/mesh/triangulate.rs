@@ -1,6 +1,6 @@
 //! Constrained Delaunay triangulation of nodes and boundary segments.
 
-use super::sample::Boundary;
+use super::boundary::Boundary;
 use super::search::Budget;
 use crate::outline::Point;
 use spade::handles::{FixedFaceHandle, FixedVertexHandle};

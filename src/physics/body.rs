@@ -4,9 +4,9 @@
 //! factor `s_e`. With the shape function gradients `b_a` (rows of `D^-1`, and minus their sum for node 0):
 //! `F = sum_a x_a b_a^T`, `dE/dx_a = A P b_a`.
 
-use super::double::Double;
+use super::double_double::DoubleDouble;
 use super::energy::{Energy, HessianForm, ROUNDING, Scales};
-use super::material::{Material, cofactor, project};
+use super::hyperelastic::{Hyperelastic, cofactor, project};
 use super::pattern::Scatter;
 use super::triangles::Triangles;
 use nalgebra::{Matrix2, Vector2};
@@ -19,7 +19,7 @@ const INVERSION_MARGIN: f64 = 0.9;
 const ROUNDING_STRAIN: f64 = 1e-4;
 
 pub struct Body {
-    material: Box<dyn Material>,
+    material: Box<dyn Hyperelastic>,
     triangles: Vec<[usize; 3]>,
     /// Shape function gradients of the three nodes, 1/length.
     gradients: Vec<[Vector2<f64>; 3]>,
@@ -37,7 +37,7 @@ impl Body {
     pub fn new(
         nodes: &[[f64; 2]],
         triangles: &[[usize; 3]],
-        material: Box<dyn Material>,
+        material: Box<dyn Hyperelastic>,
         stiffness: Option<&[f64]>,
     ) -> Result<Self, usize> {
         let mut gradients = Vec::with_capacity(triangles.len());
@@ -79,17 +79,17 @@ impl Body {
         out
     }
 
-    pub fn material(&self) -> &dyn Material {
+    pub fn material(&self) -> &dyn Hyperelastic {
         self.material.as_ref()
     }
 
     /// Limits the resistance to changes of area; returns the material that was there, if that changed it.
-    pub(super) fn soften(&mut self, limit: f64) -> Option<Box<dyn Material>> {
+    pub(super) fn soften(&mut self, limit: f64) -> Option<Box<dyn Hyperelastic>> {
         let softer = self.material.softened(limit)?;
         Some(std::mem::replace(&mut self.material, softer))
     }
 
-    pub(super) fn set_material(&mut self, material: Box<dyn Material>) {
+    pub(super) fn set_material(&mut self, material: Box<dyn Hyperelastic>) {
         self.material = material;
     }
 
@@ -105,12 +105,14 @@ impl Body {
     }
 
     /// The gradient at coordinates of two words, for [`super::refine`].
-    pub(super) fn add_precise_gradient(&self, x: &[Double], gradient: &mut [f64]) {
+    pub(super) fn add_precise_gradient(&self, x: &[DoubleDouble], gradient: &mut [f64]) {
         for (k, t) in self.triangles.iter().enumerate() {
             let [i, j, l] = *t;
             let [_, b, c] = &self.gradients[k];
             let [p, q] = [j, l].map(|n| [0, 1].map(|axis| x[2 * n + axis] - x[2 * i + axis]));
-            let entry = |row: usize, column: usize| p[row] * Double::from(b[column]) + q[row] * Double::from(c[column]);
+            let entry = |row: usize, column: usize| {
+                p[row] * DoubleDouble::from(b[column]) + q[row] * DoubleDouble::from(c[column])
+            };
             let f = [entry(0, 0), entry(1, 0), entry(0, 1), entry(1, 1)];
             let stress = self.material.precise_stress(&f) * self.weights[k];
             for (a, &n) in t.iter().enumerate() {
@@ -139,7 +141,7 @@ impl Energy for Body {
     fn value(&self, x: &[f64]) -> f64 {
         let one = |k: usize| self.weights[k] * self.material.density(&self.deformation_gradient(k, x));
         let energy = match self.material.neo_hookean() {
-            Some(material) => self.wide.energy(material, x, &one),
+            Some(material) => self.wide.energy(&material, x, &one),
             None => (0..self.triangles.len()).map(one).sum(),
         };
         if energy.is_nan() { f64::INFINITY } else { energy }
@@ -153,7 +155,7 @@ impl Energy for Body {
             });
         };
         match self.material.neo_hookean() {
-            Some(material) => self.wide.add_gradient(material, x, gradient, None, &mut one),
+            Some(material) => self.wide.add_gradient(&material, x, gradient, None, &mut one),
             None => (0..self.triangles.len()).for_each(|k| one(k, gradient, None)),
         }
     }
@@ -161,7 +163,7 @@ impl Energy for Body {
     fn add_hessian(&self, x: &[f64], form: HessianForm, out: &mut Scatter) {
         match self.material.neo_hookean() {
             Some(material) if form == HessianForm::Exact => {
-                self.wide.add_hessian(material, x, out, &mut |k, out| self.add_one_hessian(k, x, form, out));
+                self.wide.add_hessian(&material, x, out, &mut |k, out| self.add_one_hessian(k, x, form, out));
             }
             _ => (0..self.triangles.len()).for_each(|k| self.add_one_hessian(k, x, form, out)),
         }
@@ -203,7 +205,7 @@ impl Energy for Body {
         let mut alone = |k: usize, gradient: &mut [f64], scales: Option<&mut Scales>| {
             scales.into_iter().for_each(|scales| one(k, gradient, scales));
         };
-        self.wide.add_gradient(material, x, gradient, Some((scales, floor)), &mut alone);
+        self.wide.add_gradient(&material, x, gradient, Some((scales, floor)), &mut alone);
     }
 }
 

@@ -8,7 +8,7 @@
 //! when Newton's method has been slow for a while.
 
 use super::contractile::Law;
-use super::material::Material;
+use super::hyperelastic::Hyperelastic;
 use super::model::Model;
 use super::statics::StaticsSettings;
 
@@ -71,7 +71,7 @@ pub(super) const FIRST_TRY: usize = 30;
 
 /// What a stage changed: the material, stiffness and half-width of every element, stiffness of every pin.
 pub(super) struct Kept {
-    material: Option<Box<dyn Material>>,
+    material: Option<Box<dyn Hyperelastic>>,
     elements: Vec<(f64, f64)>,
     pins: Vec<f64>,
 }

@@ -13,19 +13,19 @@
 //! | `U`, `tau` | strain energy of an element and its tension `dU/dGamma` |
 //! | `G` | rows `dl/dx`; the paper's `A = -G^T` |
 //!
-//! A new material is one file and one line in [`material`]; a new term is one file and one line where models are built.
+//! A new material is one file and its lines in [`materials`]; a new optional term is one file and its lines in [`terms`].
 
 pub mod body;
+pub mod catalogue;
 pub mod cholesky;
 mod continuation;
 pub mod contractile;
-pub mod double;
+pub mod double_double;
 pub mod energy;
-pub mod gravity;
+pub mod hyperelastic;
 pub mod indefinite;
-pub mod material;
+pub mod materials;
 pub mod model;
-pub mod neo_hookean;
 mod panels;
 mod patience;
 pub mod pattern;
@@ -33,19 +33,21 @@ pub mod pins;
 pub mod refine;
 mod ridge;
 mod segments;
-pub mod st_venant_kirchhoff;
+pub mod setting;
 pub mod statics;
+pub mod terms;
 mod triangles;
 pub(crate) mod wide;
 
 pub use body::Body;
+pub use catalogue::{Ground, Kind, MaterialKind, Parameter, TermKind};
 pub use contractile::{Contractile, Element, Law};
-pub use double::Double;
+pub use double_double::DoubleDouble;
 pub use energy::{Energy, HessianForm, Scales};
-pub use gravity::Gravity;
-pub use material::Material;
+pub use hyperelastic::Hyperelastic;
+pub use materials::{NeoHookean, StVenantKirchhoff};
 pub use model::{Loose, Model, ModelError};
-pub use neo_hookean::NeoHookean;
 pub use pins::{Pin, Pins};
-pub use st_venant_kirchhoff::StVenantKirchhoff;
+pub use setting::Setting;
 pub use statics::{Cause, Equilibrium, StaticsError, StaticsSettings};
+pub use terms::Gravity;

@@ -7,7 +7,7 @@
 //! comes out are forces in balance: the force of a stiff pin is what its node needs, as if its unknowns were eliminated.
 
 use super::contractile::{Element, Law};
-use super::double::Double;
+use super::double_double::DoubleDouble;
 use super::energy::{Energy, Scales};
 use super::model::Model;
 use super::statics::norm;
@@ -37,7 +37,7 @@ pub struct Forces {
 /// Refines the equilibrium `x` in place and returns its forces. Costs one factorisation and a few solves. A state that is not
 /// near a stable equilibrium stays as it is. `stop` is asked in every round.
 pub fn refine(model: &mut Model, x: &mut [f64], stop: &dyn Fn() -> bool) -> Forces {
-    let mut state: Vec<Double> = x.iter().map(|&v| v.into()).collect();
+    let mut state: Vec<DoubleDouble> = x.iter().map(|&v| v.into()).collect();
     let (mut gradient, mut scale) = (vec![0.0; x.len()], vec![0.0; x.len()]);
     let mut forces = evaluate(model, &state, x, &mut gradient, &mut scale);
     if forces.residual <= BALANCED * forces.scale {
@@ -57,7 +57,7 @@ pub fn refine(model: &mut Model, x: &mut [f64], stop: &dyn Fn() -> bool) -> Forc
         }
         let mut step = gradient.clone();
         model.solve(&mut step);
-        let trial: Vec<Double> = state.iter().zip(&step).map(|(v, s)| *v - Double::from(*s)).collect();
+        let trial: Vec<DoubleDouble> = state.iter().zip(&step).map(|(v, s)| *v - DoubleDouble::from(*s)).collect();
         let rounded: Vec<f64> = trial.iter().map(|v| v.value()).collect();
         let valid = rounded.iter().all(|v| v.is_finite()) && model.body.smallest_determinant(&rounded) > 0.0;
         if !valid {
@@ -80,7 +80,7 @@ pub fn refine(model: &mut Model, x: &mut [f64], stop: &dyn Fn() -> bool) -> Forc
 }
 
 /// The forces at `state`, whose leading words are `x`, and their sum in `gradient`.
-fn evaluate(model: &Model, state: &[Double], x: &[f64], gradient: &mut [f64], scale: &mut [f64]) -> Forces {
+fn evaluate(model: &Model, state: &[DoubleDouble], x: &[f64], gradient: &mut [f64], scale: &mut [f64]) -> Forces {
     gradient.fill(0.0);
     let mut rounding = vec![0.0; x.len()];
     let mut scales = Scales::apart(scale, &mut rounding);
@@ -106,8 +106,8 @@ fn evaluate(model: &Model, state: &[Double], x: &[f64], gradient: &mut [f64], sc
                 .nodes
                 .iter()
                 .zip(&pin.weights)
-                .fold(Double::ZERO, |sum, (n, w)| sum + state[2 * n + axis] * Double::from(*w));
-            pin.stiffness * (Double::from(pin.anchor[axis]) - at).value()
+                .fold(DoubleDouble::ZERO, |sum, (n, w)| sum + state[2 * n + axis] * DoubleDouble::from(*w));
+            pin.stiffness * (DoubleDouble::from(pin.anchor[axis]) - at).value()
         });
         for (&n, w) in pin.nodes.iter().zip(&pin.weights) {
             for axis in 0..2 {
@@ -121,15 +121,15 @@ fn evaluate(model: &Model, state: &[Double], x: &[f64], gradient: &mut [f64], sc
 }
 
 /// Adds the forces of an element and returns its tension; length and directions in two words.
-fn add_pull(element: &Element, law: &Law, state: &[Double], gradient: &mut [f64]) -> f64 {
-    let point = Double::from(element.point()).square();
+fn add_pull(element: &Element, law: &Law, state: &[DoubleDouble], gradient: &mut [f64]) -> f64 {
+    let point = DoubleDouble::from(element.point()).square();
     let segments = element.routing.windows(2).map(|s| {
         let [dx, dy] = [0, 1].map(|axis| state[2 * s[1] + axis] - state[2 * s[0] + axis]);
         ([dx, dy], (dx.square() + dy.square() + point).sqrt())
     });
-    let length = segments.clone().fold(Double::ZERO, |sum, (_, length)| sum + length);
+    let length = segments.clone().fold(DoubleDouble::ZERO, |sum, (_, length)| sum + length);
     let tau = match *law {
-        Law::Spring { alpha } => element.tension((length - Double::from(alpha)).value()),
+        Law::Spring { alpha } => element.tension((length - DoubleDouble::from(alpha)).value()),
         _ => law.tension_and_tangent(element, length.value()).0,
     };
     if tau != 0.0 {

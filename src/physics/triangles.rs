@@ -8,7 +8,7 @@
 //! A chunk in which a triangle is outside the domain of the logarithm is left to the caller, triangle by triangle.
 
 use super::energy::{ROUNDING, Scales};
-use super::neo_hookean::NeoHookean;
+use super::hyperelastic::Moduli;
 use super::pattern::Scatter;
 use super::wide::{self, CHUNK, Lanes, Work, has_ln, ln, multiply_add};
 use nalgebra::Vector2;
@@ -76,7 +76,7 @@ impl Triangles {
     /// Calls `alone` for every triangle that is not done here.
     pub fn add_gradient(
         &self,
-        material: &NeoHookean,
+        material: &Moduli,
         x: &[f64],
         gradient: &mut [f64],
         scales: Option<(&mut Scales, f64)>,
@@ -87,7 +87,7 @@ impl Triangles {
 
     pub fn add_hessian(
         &self,
-        material: &NeoHookean,
+        material: &Moduli,
         x: &[f64],
         out: &mut Scatter,
         alone: &mut dyn FnMut(usize, &mut Scatter),
@@ -96,7 +96,7 @@ impl Triangles {
     }
 
     /// The energy; infinite where a triangle is outside the domain.
-    pub fn energy(&self, material: &NeoHookean, x: &[f64], alone: &dyn Fn(usize) -> f64) -> f64 {
+    pub fn energy(&self, material: &Moduli, x: &[f64], alone: &dyn Fn(usize) -> f64) -> f64 {
         wide::run(Value { triangles: self, material, x, alone })
     }
 
@@ -120,7 +120,7 @@ fn in_domain(j: &[f64]) -> bool {
 
 struct Gradient<'a, 's> {
     triangles: &'a Triangles,
-    material: &'a NeoHookean,
+    material: &'a Moduli,
     x: &'a [f64],
     gradient: &'a mut [f64],
     /// With the strain that counts as a force at work.
@@ -134,7 +134,7 @@ impl Work for Gradient<'_, '_> {
     #[inline(always)]
     fn run<const FUSED: bool>(mut self) {
         let fma = multiply_add::<FUSED>;
-        let NeoHookean { mu, kappa } = *self.material;
+        let Moduli { mu, kappa } = *self.material;
         let all = self.triangles;
         for chunk in all.chunks() {
             let count = chunk.len().min(CHUNK);
@@ -188,7 +188,7 @@ impl Work for Gradient<'_, '_> {
 
 struct Hessian<'a, 's> {
     triangles: &'a Triangles,
-    material: &'a NeoHookean,
+    material: &'a Moduli,
     x: &'a [f64],
     out: &'a mut Scatter<'s>,
     alone: &'a mut dyn FnMut(usize, &mut Scatter),
@@ -203,7 +203,7 @@ impl Work for Hessian<'_, '_> {
     #[inline(always)]
     fn run<const FUSED: bool>(self) {
         let fma = multiply_add::<FUSED>;
-        let NeoHookean { mu, kappa } = *self.material;
+        let Moduli { mu, kappa } = *self.material;
         let all = self.triangles;
         for chunk in all.chunks() {
             let count = chunk.len().min(CHUNK);
@@ -244,7 +244,7 @@ impl Work for Hessian<'_, '_> {
 
 struct Value<'a> {
     triangles: &'a Triangles,
-    material: &'a NeoHookean,
+    material: &'a Moduli,
     x: &'a [f64],
     alone: &'a dyn Fn(usize) -> f64,
 }
@@ -255,7 +255,7 @@ impl Work for Value<'_> {
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> f64 {
         let fma = multiply_add::<FUSED>;
-        let NeoHookean { mu, kappa } = *self.material;
+        let Moduli { mu, kappa } = *self.material;
         let all = self.triangles;
         let mut energy = 0.0;
         for chunk in all.chunks() {
@@ -338,17 +338,17 @@ impl Work for Inversion<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::double::Double;
+    use super::super::double_double::DoubleDouble;
     use super::super::energy::{Energy, HessianForm};
     use super::super::pattern::Pattern;
-    use super::super::{Body, Material};
+    use super::super::{Body, Hyperelastic, NeoHookean};
     use super::*;
     use nalgebra::{Matrix2, Matrix4};
 
     /// The same material, which does not say what it is: its triangles are worked on one by one.
     struct Disguised(NeoHookean);
 
-    impl Material for Disguised {
+    impl Hyperelastic for Disguised {
         fn density(&self, f: &Matrix2<f64>) -> f64 {
             self.0.density(f)
         }
@@ -358,7 +358,7 @@ mod tests {
         fn tangent(&self, f: &Matrix2<f64>) -> Matrix4<f64> {
             self.0.tangent(f)
         }
-        fn precise_stress(&self, f: &[Double; 4]) -> Matrix2<f64> {
+        fn precise_stress(&self, f: &[DoubleDouble; 4]) -> Matrix2<f64> {
             self.0.precise_stress(f)
         }
         fn shear_modulus(&self) -> f64 {

@@ -1,56 +1,39 @@
-//! A neutral drawing of a plushie: what the window and the headless pictures both show.
+//! Pictures of plushies: what the window and the headless commands both show.
 //!
-//! A [`Scene`] is a list of primitives in painting order, coordinates in mm (y up). Line widths and disc radii are in
-//! logical pixels, so that they stay crisp at every zoom.
+//! A [`Subject`] says what a picture is of; its [`layers`] make a [`Scene`] of it, primitives in painting order with
+//! coordinates in mm (y up). Line widths and disc radii are in logical pixels, so that they stay crisp at every zoom.
+//! [`raster`] paints scenes without a graphics adapter.
+//!
+//! ```
+//! use plushwright::design::Design;
+//! use plushwright::engine::Shape;
+//! use plushwright::mesh::Mesh;
+//! use plushwright::outline::Outline;
+//! use plushwright::picture::palette::{Palette, Theme};
+//! use plushwright::picture::{Layers, Subject, raster};
+//! use std::sync::Arc;
+//!
+//! let mesh = Mesh { nodes: vec![[0.0, 0.0], [90.0, 0.0], [0.0, 60.0]], triangles: vec![[0, 1, 2]] };
+//! let outline = Outline { outer: mesh.nodes.clone(), holes: Vec::new() };
+//! let rest = Arc::new(Shape { nodes: mesh.nodes.clone(), ..Shape::default() });
+//! let design = Arc::new(Design::new("triangle", outline, mesh));
+//! let subject = Subject { theme: Theme::Dark, ..Subject::new(&design, &rest) };
+//! let scene = Layers::of(&subject).scene();
+//! let png = raster::png(&scene, &scene, (320, 180), Palette::of(Theme::Dark).background)?;
+//! assert!(plushwright::files::is_marked_png(&png));
+//! # Ok::<(), raster::RasterError>(())
+//! ```
 
+pub mod element_quality;
+pub mod layers;
+mod pair;
 pub mod palette;
-pub mod quality;
 pub mod raster;
-pub mod scene;
+mod scene;
 mod texture;
 mod textured;
 
+pub use layers::{LAYERS, Layers, Shown, Stage, Subject};
+pub use pair::png;
+pub use scene::{Color, Item, Scene};
 pub use texture::{Level, Texture};
-
-use crate::outline::Point;
-use std::sync::Arc;
-
-/// Straight (not premultiplied) sRGB colour with alpha.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Color(pub u8, pub u8, pub u8, pub u8);
-
-#[derive(Clone, Debug, PartialEq)]
-pub enum Item {
-    /// Triangles over `points`, one colour.
-    Mesh {
-        points: Vec<Point>,
-        triangles: Vec<[usize; 3]>,
-        color: Color,
-    },
-    /// Triangles over `points` with a picture on them; `places` says where each point lies in it, 0 to 1 from the upper left
-    /// corner. What lies outside of it is clear.
-    Picture {
-        points: Vec<Point>,
-        places: Vec<Point>,
-        triangles: Vec<[usize; 3]>,
-        texture: Arc<Texture>,
-    },
-    /// A polyline, round caps and joins.
-    Line {
-        points: Vec<Point>,
-        width: f32,
-        color: Color,
-        closed: bool,
-    },
-    Disc {
-        center: Point,
-        radius: f32,
-        fill: Color,
-        stroke: Option<(f32, Color)>,
-    },
-}
-
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Scene {
-    pub items: Vec<Item>,
-}

@@ -1,7 +1,7 @@
 //! Scenes to PNG, without a graphics adapter.
 
+use super::scene::{Color, Item, Scene};
 use super::textured::{self, Corner};
-use super::{Color, Item, Scene};
 use crate::files::marked_png;
 use crate::outline::Point;
 use tiny_skia::{
@@ -15,7 +15,7 @@ const MARGIN: f64 = 0.06;
 const REFERENCE_HEIGHT: f64 = 720.0;
 const DIVIDER: Color = Color(0, 0, 0, 40);
 
-/// Why there is no picture.
+/// A picture that cannot be made.
 #[derive(Debug, thiserror::Error)]
 pub enum RasterError {
     #[error("a picture of {0} x {1} pixels is empty or does not fit in memory")]
@@ -25,6 +25,9 @@ pub enum RasterError {
 }
 
 /// Two views side by side as PNG, `size` in pixels. Both have the same scale and the same place in their half.
+///
+/// # Errors
+/// A size that is empty or does not fit in memory, or a picture that cannot be encoded.
 pub fn png(left: &Scene, right: &Scene, size: (u32, u32), background: Color) -> Result<Vec<u8>, RasterError> {
     let mut pixmap = Pixmap::new(size.0, size.1).ok_or(RasterError::Size(size.0, size.1))?;
     pixmap.fill(color(background));

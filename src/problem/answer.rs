@@ -2,10 +2,12 @@
 
 use super::document::{Document, DragAnswer, ReportedFrame, SoftIkAnswer};
 use super::equilibrium::settle;
+use super::error::ProblemError;
 use super::failure::{Failure, Part};
-use super::file::{DragData, Problem, ProblemError};
+use super::file::{DragData, Problem};
 use super::frame::Frame;
-use crate::physics::{Body, Cause, Contractile, Element, Energy, Gravity, Model, ModelError, NeoHookean, Pin, Pins};
+use super::model::{contractions, take_model};
+use crate::physics::{Cause, Model};
 use crate::soft_ik::{
     self, Actuation, Budget, Objective, PointTarget, Quality, Question, Tracker, Winch, default_method, newton,
     sensitivity,
@@ -93,41 +95,6 @@ struct Work<'a> {
     stop: &'a dyn Fn() -> bool,
     out: Document,
     failures: Vec<Failure>,
-}
-
-/// The physics model of a problem, at its `contractions` (zero if absent).
-pub fn model(problem: &Problem) -> Result<Model, ProblemError> {
-    take_model(&mut problem.clone())
-}
-
-/// The same; takes the routings out of the problem, which has no further use for them.
-pub(super) fn take_model(problem: &mut Problem) -> Result<Model, ProblemError> {
-    let material = NeoHookean { mu: problem.material.mu, kappa: problem.material.kappa };
-    let content = |key: String, what: &str| ProblemError::Content { key, what: what.into() };
-    let body = Body::new(&problem.mesh.nodes, &problem.mesh.triangles, Box::new(material), None)
-        .map_err(|k| content(format!("mesh.triangles[{k}]"), "has no area"))?;
-    let elements = problem.elements.iter_mut().map(|e| Element {
-        routing: std::mem::take(&mut e.routing),
-        stiffness: e.stiffness,
-        epsilon: e.epsilon,
-        alpha0: e.alpha0,
-    });
-    let contractile = Contractile::new(elements.collect());
-    let pins = Pins { pins: problem.pins.iter().map(|p| Pin::node(p.node, p.target, p.stiffness)).collect() };
-    let mut terms: Vec<Box<dyn Energy>> = Vec::new();
-    if let (Some(acceleration), Some(density)) = (problem.gravity, problem.surface_density) {
-        terms.push(Box::new(Gravity::new(&body.nodal_areas(problem.mesh.nodes.len()), density, acceleration)));
-    }
-    let mut model = Model::new(&problem.mesh.nodes, body, contractile, pins, terms).map_err(|e| match e {
-        ModelError::Triangle(k) => content(format!("mesh.triangles[{k}]"), "has no area"),
-        ModelError::Memory => content("mesh".into(), "is too large for the memory of this machine"),
-    })?;
-    model.contractile.set_contractions(&contractions(problem));
-    Ok(model)
-}
-
-fn contractions(problem: &Problem) -> Vec<f64> {
-    problem.contractions.clone().unwrap_or_else(|| vec![0.0; problem.elements.len()])
 }
 
 fn objective(problem: &Problem) -> Option<Objective> {

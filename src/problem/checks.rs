@@ -1,7 +1,9 @@
 //! What a problem file must fulfil beyond its JSON: every figure is named by its key and index.
 
-use super::file::{Problem, ProblemError, content};
+use super::error::{ProblemError, content, finite};
+use super::file::Problem;
 use super::limits;
+use crate::physics::Parameter;
 use std::fmt::Display;
 
 impl Problem {
@@ -20,8 +22,9 @@ impl Problem {
                 in_range(key, *node, n)?;
             }
         }
-        finite("material.mu", self.material.mu)?;
-        finite("material.kappa", self.material.kappa)?;
+        for (parameter, values) in self.material.each() {
+            finite(format_args!("material.{}", parameter.name), values[0])?;
+        }
         limits::size(self)?;
         for (i, t) in self.mesh.triangles.iter().enumerate() {
             let key = format_args!("mesh.triangles[{i}]");
@@ -33,12 +36,8 @@ impl Problem {
                 return Err(content(key, "has no area"));
             }
         }
-        let m = &self.material;
-        if m.mu <= 0.0 {
-            return Err(content("material.mu", format!("must be positive, is {}", m.mu)));
-        }
-        if m.kappa < 0.0 {
-            return Err(content("material.kappa", format!("must not be negative, is {}", m.kappa)));
+        for (parameter, values) in self.material.each() {
+            allowed(format_args!("material.{}", parameter.name), parameter, values)?;
         }
         self.check_elements(n)?;
         for (i, pin) in self.pins.iter().enumerate() {
@@ -74,6 +73,11 @@ impl Problem {
         }
         if let Some(density) = self.surface_density {
             not_negative("surface_density", density)?;
+        }
+        for (i, term) in self.terms.iter().enumerate() {
+            for (parameter, values) in term.each() {
+                allowed(format_args!("terms[{i}].{}", parameter.name), parameter, values)?;
+            }
         }
         self.check_drag()?;
         limits::check(self)
@@ -150,12 +154,27 @@ impl Problem {
     }
 }
 
-fn in_range(key: impl Display, node: usize, nodes: usize) -> Result<(), ProblemError> {
-    if node < nodes { Ok(()) } else { Err(content(key, format!("node {node} is out of range, the mesh has {nodes}"))) }
+/// Whether the values of a parameter have the sign that the catalogue asks for, and, where they are plain numbers, are in its range.
+/// Other sizes are those of the body, see [`limits`].
+fn allowed(key: impl Display, parameter: &Parameter, values: &[f64]) -> Result<(), ProblemError> {
+    let [low, high] = parameter.range;
+    for &value in values {
+        finite(&key, value)?;
+        if low > 0.0 && value <= 0.0 {
+            return Err(content(key, format!("must be positive, is {value}")));
+        }
+        if low == 0.0 && value < 0.0 {
+            return Err(content(key, format!("must not be negative, is {value}")));
+        }
+        if parameter.unit.is_empty() && !(low..=high).contains(&value) {
+            return Err(content(key, format!("must be from {low} to {high}, is {value}")));
+        }
+    }
+    Ok(())
 }
 
-pub(super) fn finite(key: impl Display, value: f64) -> Result<(), ProblemError> {
-    if value.is_finite() { Ok(()) } else { Err(content(key, "is not a finite number")) }
+fn in_range(key: impl Display, node: usize, nodes: usize) -> Result<(), ProblemError> {
+    if node < nodes { Ok(()) } else { Err(content(key, format!("node {node} is out of range, the mesh has {nodes}"))) }
 }
 
 fn finite_point(key: impl Display, p: &[f64; 2]) -> Result<(), ProblemError> {

@@ -1,9 +1,10 @@
 //! The statics of a problem: where the body rests at the given contractions, and which forces hold it there.
 
-use super::answer::take_model;
+use super::error::ProblemError;
 use super::failure::{Failure, Part};
-use super::file::{Problem, ProblemError};
+use super::file::Problem;
 use super::frame::Frame;
+use super::model::take_model;
 use crate::physics::{Model, StaticsSettings, refine, statics};
 
 /// An equilibrium, or the best state on the way to one, in the units of the file.
@@ -36,7 +37,7 @@ pub fn equilibrium(problem: &Problem, stop: &dyn Fn() -> bool) -> Result<Statics
     Ok(settle(problem, &inner, &frame, &mut model, stop).0)
 }
 
-/// The same in a model that is built already, and the coordinates in the frame.
+/// [`equilibrium`] in a model that is built already, and the coordinates in the frame.
 pub(super) fn settle(
     problem: &Problem,
     inner: &Problem,
@@ -76,7 +77,8 @@ pub(super) fn settle(
     (answer, state.x)
 }
 
-/// Energy in gravity, J, of the whole mass at the frame's origin.
+/// What terms that depend on where the body is have lost with the move into the frame, J: the energy in gravity of the whole mass at
+/// the frame's origin.
 fn potential_of_origin(problem: &Problem, frame: &Frame) -> f64 {
     let (Some(g), Some(density)) = (problem.gravity, problem.surface_density) else { return 0.0 };
     let area: f64 = problem.mesh.triangles.iter().map(|t| problem.mesh.area(t)).sum();

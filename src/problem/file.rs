@@ -1,20 +1,12 @@
 //! What a `plushwright-problem/1` file holds.
 
-use super::checks::finite;
+use super::error::{ProblemError, content, finite};
+pub use super::material::MaterialData;
+use crate::physics::{Setting, TermKind};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Display;
 
 pub const FORMAT: &str = "plushwright-problem/1";
-
-/// What is wrong with a problem file: one line that names the key and the offending index.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum ProblemError {
-    #[error("malformed JSON: {0}")]
-    Json(String),
-    #[error("{key}: {what}")]
-    Content { key: String, what: String },
-}
 
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct Problem {
@@ -36,6 +28,9 @@ pub struct Problem {
     pub gravity: Option<[f64; 2]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub surface_density: Option<f64>,
+    /// Energy terms beside gravity.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub terms: Vec<Setting<TermKind>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub drag: Option<DragData>,
 }
@@ -44,12 +39,6 @@ pub struct Problem {
 pub struct MeshData {
     pub nodes: Vec<[f64; 2]>,
     pub triangles: Vec<[usize; 3]>,
-}
-
-#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
-pub struct MaterialData {
-    pub mu: f64,
-    pub kappa: f64,
 }
 
 #[derive(Clone, Debug, Deserialize, Serialize)]
@@ -113,10 +102,6 @@ pub struct DragData {
     pub report: Vec<usize>,
     #[serde(default)]
     pub tension_regulariser: f64,
-}
-
-pub(super) fn content(key: impl Display, what: impl Into<String>) -> ProblemError {
-    ProblemError::Content { key: key.to_string(), what: what.into() }
 }
 
 impl Problem {

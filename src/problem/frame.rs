@@ -25,7 +25,7 @@ impl Frame {
         let [low, high] = box_of(problem);
         let origin = [0, 1].map(|axis| 0.5 * low[axis] + 0.5 * high[axis]);
         let size = (high[0] - low[0]).max(high[1] - low[1]);
-        Self { origin, length: power_of_two(size), modulus: power_of_two(problem.material.mu) }
+        Self { origin, length: power_of_two(size), modulus: power_of_two(problem.material.shear_modulus()) }
     }
 
     /// The problem as it looks in this frame.
@@ -35,8 +35,7 @@ impl Frame {
         let point = |p: &mut [f64; 2]| *p = self.point_inside(*p);
         inner.mesh.nodes.iter_mut().for_each(point);
         inner.start.iter_mut().flatten().for_each(point);
-        inner.material.mu /= m;
-        inner.material.kappa /= m;
+        inner.material = problem.material.scaled(m, s);
         for e in &mut inner.elements {
             e.stiffness /= m;
             e.epsilon /= s;
@@ -61,6 +60,9 @@ impl Frame {
         }
         if let Some(density) = &mut inner.surface_density {
             *density *= s / m;
+        }
+        for (parameter, values) in inner.terms.iter_mut().flat_map(|term| term.each_mut()) {
+            values.iter_mut().for_each(|value| *value /= parameter.dimension.unit(m, s));
         }
         if let Some(drag) = &mut inner.drag {
             drag.frames.iter_mut().flatten().for_each(point);

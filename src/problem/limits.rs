@@ -4,8 +4,10 @@
 //! Sizes and moduli may be nearly anything, since a problem is solved in the frame of its own body ([`super::frame`]). What counts
 //! is how far the figures of one problem lie apart.
 
-use super::file::{Problem, ProblemError};
+use super::error::ProblemError;
+use super::file::Problem;
 use super::frame::box_of;
+use crate::physics::catalogue::Dimension;
 use std::fmt::Arguments;
 
 /// Size of the body, m, and shear modulus, N/m: from its inverse to this. Energies and objectives stay within `f64`.
@@ -43,7 +45,7 @@ pub(super) fn size(problem: &Problem) -> Result<(), ProblemError> {
 /// Checks everything else of a problem that is sound in itself.
 pub(super) fn check(problem: &Problem) -> Result<(), ProblemError> {
     let (size, centre) = measure(problem);
-    let mu = problem.material.mu;
+    let mu = problem.material.shear_modulus();
     if !(1.0 / LARGEST_UNIT..=LARGEST_UNIT).contains(&mu) {
         let what = format!("{mu:e} is beyond {:e} to {LARGEST_UNIT:e}", 1.0 / LARGEST_UNIT);
         return Err(ProblemError::Content { key: "material.mu".into(), what });
@@ -60,7 +62,10 @@ pub(super) fn check(problem: &Problem) -> Result<(), ProblemError> {
     for (i, p) in problem.start.iter().flatten().enumerate() {
         near(format_args!("start[{i}]"), p)?;
     }
-    stiff(format_args!("material.kappa"), problem.material.kappa)?;
+    let moduli = problem.material.each().skip(1).filter(|(parameter, _)| parameter.dimension == Dimension::MODULUS);
+    for (parameter, values) in moduli {
+        stiff(format_args!("material.{}", parameter.name), values[0])?;
+    }
     for (i, e) in problem.elements.iter().enumerate() {
         stiff(format_args!("elements[{i}].K"), e.stiffness)?;
         for (name, value) in [("epsilon", e.epsilon), ("alpha0", e.alpha0)] {
@@ -79,6 +84,19 @@ pub(super) fn check(problem: &Problem) -> Result<(), ProblemError> {
     if let (Some(g), Some(density)) = (problem.gravity, problem.surface_density) {
         for component in g {
             within(format_args!("gravity"), component.abs() * density * size / mu, STIFFEST, "shear moduli")?;
+        }
+    }
+    for (i, term) in problem.terms.iter().enumerate() {
+        for (parameter, values) in term.each() {
+            let unit = parameter.dimension.unit(mu, size);
+            for value in values {
+                within(
+                    format_args!("terms[{i}].{}", parameter.name),
+                    value.abs() / unit,
+                    STIFFEST,
+                    "units of the body",
+                )?;
+            }
         }
     }
     if let Some(objective) = &problem.objective {

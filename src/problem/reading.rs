@@ -3,16 +3,17 @@
 //! A file of 10 000 fibres is 2 MB of numbers; a tree of JSON values in between would take longer than solving it. Only a file that cannot be
 //! read so is taken apart as a tree, to say where it is wrong.
 
+use super::error::{ProblemError, content};
 use super::file::{
-    DragData, ElementData, FORMAT, MaterialData, MeshData, ObjectiveData, PinData, Problem, ProblemError, SoftIkData,
-    TargetData, content,
+    DragData, ElementData, FORMAT, MaterialData, MeshData, ObjectiveData, PinData, Problem, SoftIkData, TargetData,
 };
+use crate::physics::{Setting, TermKind};
 use serde::de::{Error, IgnoredAny, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use serde_json::Value;
 
 /// Keys that a problem may have.
-const KEYS: [&str; 12] = [
+const KEYS: [&str; 13] = [
     "format",
     "mesh",
     "material",
@@ -24,6 +25,7 @@ const KEYS: [&str; 12] = [
     "start",
     "gravity",
     "surface_density",
+    "terms",
     "drag",
 ];
 /// Remarks that it may have besides; nobody is told that they are ignored.
@@ -89,6 +91,7 @@ impl<'de> Visitor<'de> for Keys {
                 "start" => problem.start = map.next_value()?,
                 "gravity" => problem.gravity = map.next_value()?,
                 "surface_density" => problem.surface_density = map.next_value()?,
+                "terms" => problem.terms = map.next_value::<Option<_>>()?.unwrap_or_default(),
                 "drag" => problem.drag = map.next_value()?,
                 remark => {
                     map.next_value::<IgnoredAny>()?;
@@ -134,7 +137,7 @@ fn typed(value: &Value) -> Result<Problem, ProblemError> {
     }
     let mut value = value.clone();
     if let Value::Object(map) = &mut value {
-        for key in ["elements", "pins"] {
+        for key in ["elements", "pins", "terms"] {
             if map.get(key).is_some_and(Value::is_null) {
                 map.remove(key);
             }
@@ -150,6 +153,7 @@ fn typed(value: &Value) -> Result<Problem, ProblemError> {
     check_shape::<Option<f64>>(&value, "/soft_ik/beta_lower", "soft_ik.beta_lower", "a number or null")?;
     check_shape::<f64>(&value, "/soft_ik/beta_start", "soft_ik.beta_start", "a number")?;
     check_shape::<i64>(&value, "/soft_ik/winch_ids", "soft_ik.winch_ids", "a winch id")?;
+    check_shape::<Setting<TermKind>>(&value, "/terms", "terms", "an energy term")?;
     check_shape::<[f64; 2]>(&value, "/start", "start", "a point [x, y]")?;
     check_shape::<Vec<[f64; 2]>>(&value, "/drag/frames", "drag.frames", "a list of points [x, y]")?;
     check_shape::<usize>(&value, "/drag/report", "drag.report", "a frame index")?;
@@ -215,7 +219,7 @@ mod tests {
         for (old, new) in [(r#""mu": 1"#, r#""mu": 1, "mu": 7"#), (r#""name""#, r#""material": {"mu": 7}, "name""#)] {
             let text = SMALL.replace(old, new);
             assert!(serde_json::from_str::<Streamed>(&text).is_err());
-            let mu = read(&text).unwrap().0.material.mu;
+            let mu = read(&text).unwrap().0.material.value("mu");
             assert_eq!(mu, if new.contains("name") { 1.0 } else { 7.0 });
         }
     }

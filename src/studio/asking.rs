@@ -1,7 +1,7 @@
 //! What is asked of the solver, and what it answers. The newest question wins; the last good shapes stay.
 
+use super::canvas::Plushie;
 use super::session::{Mode, Session};
-use super::viewport::Plushie;
 use crate::design::animation;
 use crate::engine::{NEAR_EQUILIBRIUM, Question, Request, Shape};
 use std::sync::Arc;

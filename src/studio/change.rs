@@ -3,10 +3,11 @@
 use crate::design::edit::{self, EditError};
 use crate::design::{
     ControllerSettings, Design, Easing, FabricationSettings, FiberSettings, Keyframe, Material, Network, Pin, Pose,
-    Target, TendonSettings,
+    Target, TendonSettings, Term,
 };
 use crate::mesh::BodyPoint;
 use crate::outline::{Drawing, Point};
+use crate::physics::TermKind;
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Change {
@@ -48,6 +49,8 @@ pub enum Change {
     RemoveKeyframe(usize),
     Rename(String),
     Material(Material),
+    /// An energy term in the place of the one of its kind, or none.
+    Term(&'static TermKind, Option<Term>),
     Fibers(FiberSettings),
     Tendons(TendonSettings),
     Fabrication(FabricationSettings),
@@ -93,6 +96,7 @@ impl Change {
             Self::RemoveKeyframe(_) => "Delete keyframe",
             Self::Rename(_) => "Rename plushie",
             Self::Material(_) => "Body settings",
+            Self::Term(kind, _) => kind.label,
             Self::Fibers(_) => "Fibre settings",
             Self::Tendons(_) => "Tendon settings",
             Self::Fabrication(_) => "Fabrication settings",
@@ -145,6 +149,7 @@ impl Change {
             Self::RemoveKeyframe(index) => nothing(edit::remove_keyframe(design, index)?),
             Self::Rename(name) => nothing(edit::rename(design, &name)?),
             Self::Material(material) => nothing(edit::set_material(design, material)?),
+            Self::Term(kind, term) => nothing(edit::set_term(design, kind, term)?),
             Self::Fibers(fibers) => nothing(edit::set_fibers(design, fibers)?),
             Self::Tendons(tendons) => nothing(edit::set_tendons(design, tendons)?),
             Self::Fabrication(fabrication) => nothing(edit::set_fabrication(design, fabrication)?),

@@ -35,19 +35,21 @@ impl Session {
         }
     }
 
-    pub(super) fn accept(&mut self, index: usize) {
-        if let Some(proposal) = self.discovery.proposals.get(index).cloned() {
+    /// Builds the network of the shown proposal in.
+    pub(super) fn accept(&mut self) {
+        if let Some(proposal) = self.shown_proposal().cloned() {
             self.discovery.proposals.clear();
             self.discovery.shown = None;
             self.change(Change::AcceptNetwork(proposal.network.clone()));
         }
     }
 
-    pub(super) fn reject(&mut self, index: usize) {
-        if index < self.discovery.proposals.len() {
+    /// Drops the shown proposal; the next one is shown.
+    pub(super) fn reject(&mut self) {
+        if let Some(index) = self.discovery.shown.filter(|&index| index < self.discovery.proposals.len()) {
             self.discovery.proposals.remove(index);
             let left = self.discovery.proposals.len();
-            self.discovery.shown = self.discovery.shown.and(left.checked_sub(1)).map(|last| index.min(last));
+            self.discovery.shown = left.checked_sub(1).map(|last| index.min(last));
         }
     }
 }

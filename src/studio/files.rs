@@ -8,12 +8,12 @@ use super::jobs::{New, Refused, Report};
 use super::keeping::Kept;
 use super::meshing::Resolution;
 use super::session::Session;
-use super::sketching::{self, Pencil, Sketch};
+use super::sketching::{self, Sketch};
 use crate::defaults;
 use crate::design::{Design, FileError, bundled, file};
 use crate::files;
 use crate::mesh::{self, Request};
-use crate::outline::{self, Holes, Import, OutlineError, Pieces};
+use crate::outline::{self, Holes, Import, Note, OutlineError, Pieces, Remedy};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -169,7 +169,7 @@ impl Session {
                 self.sketching.fresh = true;
                 self.meshing.wanted = Some(Resolution { fibers: defaults::FIBERS, finer: 1 });
                 self.sketch(Sketch::Open(true));
-                self.sketch(Sketch::Take(Pencil::Sketch));
+                self.tools[1] = sketching::FREEHAND;
             }
             FileAction::SaveAs => self.ask_path(Purpose::SaveAs),
             FileAction::Export if self.design().networks.is_empty() => {
@@ -312,7 +312,7 @@ impl Session {
             let dialog = rfd::FileDialog::new().set_title(purpose.title()).set_directory(folder);
             let path = match purpose {
                 Purpose::Open => dialog.add_filter("Plushies", &["plush"]).pick_file(),
-                Purpose::Import => dialog.add_filter("Outlines", &outline::EXTENSIONS).pick_file(),
+                Purpose::Import => dialog.add_filter("Outlines", &outline::extensions()).pick_file(),
                 Purpose::SaveAs => dialog.add_filter("Plushies", &["plush"]).set_file_name(name).save_file(),
                 Purpose::Export => dialog.pick_folder(),
             };
@@ -321,7 +321,7 @@ impl Session {
     }
 
     fn open_path(&mut self, path: PathBuf) {
-        if outline::EXTENSIONS.iter().any(|known| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(known))) {
+        if outline::extensions().iter().any(|known| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(known))) {
             self.show_path_dialog(Purpose::Import);
             if let Some(Dialog::Path(dialog)) = &mut self.files.dialog {
                 dialog.path = path.to_string_lossy().into_owned();
@@ -354,7 +354,7 @@ impl Session {
         self.open(design, None);
         self.origin = texture.as_ref().map(Kept::origin);
         self.kept = texture;
-        for line in changes.lines() {
+        for line in changes.lines(Note::to_string) {
             self.messages.info(line);
         }
         // It is nowhere but here.
@@ -461,7 +461,11 @@ fn plain(name: &str) -> String {
 
 /// An error with the names that choices have in the dialog.
 fn in_the_window(error: OutlineError) -> String {
-    error.to_string().replace("--pieces largest", "“Largest piece only”").replace("--height", "“Height”")
+    match error.remedy() {
+        Some(Remedy::Pieces) => format!("{error}; choose “Largest piece only”, or join them in the drawing"),
+        Some(Remedy::Height) => format!("{error}; “Height” sets another height"),
+        _ => error.to_string(),
+    }
 }
 
 fn read_outline(path: &Path, choice: &ImportChoice, within: Option<&Path>) -> Result<New, String> {
@@ -483,7 +487,7 @@ fn read_outline(path: &Path, choice: &ImportChoice, within: Option<&Path>) -> Re
     let request = Request { tracks: imported.tracks().to_vec(), ..Request::fibers(fibers) };
     let (meshed, count) = mesh::build_or_finer(&imported.outline, &request).map_err(|e| e.to_string())?;
     if count != fibers {
-        imported.changes.notes.push(format!("the outline needs more than {fibers} fibres; it has {count}"));
+        imported.changes.notes.push(Note::MoreFibers { asked: fibers, count });
     }
     let name = path.file_stem().map_or_else(|| "plushie".to_owned(), |s| s.to_string_lossy().into_owned());
     let mut design = Design { drawing: imported.drawing, ..Design::new(name, imported.outline, meshed.mesh) };

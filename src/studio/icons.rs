@@ -1,19 +1,19 @@
 //! Icons drawn with a few strokes, and the buttons that carry them.
 
+use crate::picture::layers;
 use eframe::egui::{
     Color32, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, epaint::PathShape, pos2, vec2,
 };
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Icon {
     Undo,
     Redo,
     Hand,
     Pin,
     Fit,
-    Texture,
-    Fibers,
-    Networks,
+    /// Of a layer of the pictures.
+    Layer(&'static [layers::Stroke]),
     LeftView,
     RightView,
     Sun,
@@ -33,22 +33,18 @@ pub enum Icon {
 /// Side of an icon button, logical pixels.
 pub const BUTTON: f32 = 28.0;
 
-/// A square button. `name` is its accessible name, `tip` what the pointer is told (with the shortcut).
+/// A square button. `name` is its accessible name; `tip` is what the pointer is told.
 pub fn button(ui: &mut Ui, icon: Icon, name: &str, tip: &str) -> Response {
-    draw_button(ui, icon, name, tip, None, BUTTON)
-}
-
-/// A button that is on or off.
-pub fn toggle(ui: &mut Ui, icon: Icon, name: &str, tip: &str, on: bool) -> Response {
-    draw_button(ui, icon, name, tip, Some(on), BUTTON)
+    draw_button(ui, icon, name, None, BUTTON).on_hover_text(tip).on_disabled_hover_text(tip)
 }
 
 /// For lists and headings.
 pub fn small_button(ui: &mut Ui, icon: Icon, name: &str, tip: &str) -> Response {
-    draw_button(ui, icon, name, tip, None, 22.0)
+    draw_button(ui, icon, name, None, 22.0).on_hover_text(tip).on_disabled_hover_text(tip)
 }
 
-fn draw_button(ui: &mut Ui, icon: Icon, name: &str, tip: &str, on: Option<bool>, side: f32) -> Response {
+/// A square button of a given side; `on` of one that is on or off.
+pub fn draw_button(ui: &mut Ui, icon: Icon, name: &str, on: Option<bool>, side: f32) -> Response {
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(side), Sense::click());
     let enabled = ui.is_enabled();
     response.widget_info(|| match on {
@@ -67,7 +63,7 @@ fn draw_button(ui: &mut Ui, icon: Icon, name: &str, tip: &str, on: Option<bool>,
         let shapes = draw(icon, Rect::from_center_size(rect.center(), Vec2::splat(side * 0.6)), color);
         ui.painter().extend(shapes);
     }
-    response.on_hover_text(tip).on_disabled_hover_text(tip)
+    response
 }
 
 /// The strokes of an icon in `rect`.
@@ -108,21 +104,14 @@ pub fn draw(icon: Icon, rect: Rect, color: Color32) -> Vec<Shape> {
             line(&[(0.32, 0.94), (0.06, 0.94), (0.06, 0.68)]),
             dot(0.5, 0.5, 0.1),
         ],
-        // A picture in its frame: a hill and the sun.
-        Icon::Texture => vec![
-            line(&[(0.06, 0.12), (0.94, 0.12), (0.94, 0.88), (0.06, 0.88), (0.06, 0.12)]),
-            line(&[(0.08, 0.8), (0.36, 0.46), (0.56, 0.68), (0.7, 0.54), (0.92, 0.8)]),
-            dot(0.7, 0.33, 0.09),
-        ],
-        Icon::Fibers => vec![
-            line(&[(0.08, 0.88), (0.5, 0.1), (0.92, 0.88), (0.08, 0.88)]),
-            line(&[(0.29, 0.49), (0.71, 0.49), (0.5, 0.88), (0.29, 0.49)]),
-        ],
-        Icon::Networks => vec![
-            ring(0.26, 0.72, 0.18),
-            line(&[(0.4, 0.6), (0.62, 0.5), (0.9, 0.12)]),
-            line(&[(0.44, 0.72), (0.92, 0.76)]),
-        ],
+        Icon::Layer(strokes) => {
+            let shape = |stroke: &layers::Stroke| match *stroke {
+                layers::Stroke::Line(points) => line(points),
+                layers::Stroke::Dot(x, y, radius) => dot(x, y, radius),
+                layers::Stroke::Ring(x, y, radius) => ring(x, y, radius),
+            };
+            strokes.iter().map(shape).collect()
+        }
         Icon::LeftView | Icon::RightView => {
             let frame = line(&[(0.04, 0.14), (0.96, 0.14), (0.96, 0.86), (0.04, 0.86), (0.04, 0.14)]);
             let (from, to) = if icon == Icon::LeftView { (0.04, 0.46) } else { (0.54, 0.96) };

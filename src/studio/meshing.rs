@@ -115,7 +115,6 @@ impl Session {
             self.shapes = Shapes::default();
             self.discovery.proposals.clear();
             self.discovery.shown = None;
-            self.drag = None;
             self.first_id = self.asked.as_ref().map_or(0, |asked| asked.id + 1);
             self.answered_id = None;
             self.meshed = design.clone();

@@ -3,7 +3,8 @@
 //! - [`app`] holds the state and updates it once a frame;
 //! - [`panels`] and [`viewport`] borrow the [`session`], read only, and return [`action`]s;
 //! - the session alone acts on them; it changes the document only by a [`change`], through the undo history;
-//! - [`paper`] is the sheet on which the outline is drawn;
+//! - [`commands`] is the one table of what can be asked for by name; [`tools`] are what a press does on a [`canvas`], which is a view
+//!   or the sheet of the outline;
 //! - [`viewport::renderer`] draws a neutral scene and knows nothing of the rest.
 //!
 //! Whatever takes long runs on a thread: the solver on its worker, the rest as [`jobs`].
@@ -12,28 +13,29 @@ pub mod action;
 pub mod app;
 mod asking;
 mod blank;
+pub mod canvas;
 pub mod change;
+pub mod commands;
 mod discovering;
-mod dragging;
 pub mod files;
 pub mod icons;
 pub mod jobs;
 pub mod keeper;
 pub mod keeping;
+mod keys;
 pub mod meshing;
 pub mod messages;
 mod pacing;
 pub mod panels;
-pub mod paper;
 mod playing;
 mod reading;
 pub mod safety;
 pub mod session;
-mod shortcuts;
 pub mod sketching;
 pub mod store;
 pub mod style;
 mod texturing;
+pub mod tools;
 pub mod viewport;
 
 use crate::design::{Design, bundled};
@@ -124,7 +126,7 @@ pub fn run(design: Option<Design>, path: Option<PathBuf>) -> Result<(), StudioEr
 /// The real engine and exporter.
 pub fn services() -> Services {
     Services {
-        propose: Arc::new(crate::engine::propose),
+        propose: Arc::new(crate::rigging::propose),
         export: Arc::new(|design, folder| {
             crate::fabrication::export(design, folder).map(|_| ()).map_err(|error| error.to_string())
         }),

@@ -1,10 +1,12 @@
 //! What panels, viewports and tests may read of the session.
 
+use super::canvas::Hit;
 use super::messages::Messages;
-use super::session::{Discovery, Look, Mode, Playback, Selection, Session, Shapes};
+use super::session::{Discovery, Look, Mode, Overlay, Playback, Renamed, Selection, Session, Shapes};
 use crate::design::history::History;
 use crate::design::{Design, Target};
-use crate::engine::{Proposal, Quality, Request};
+use crate::engine::{Quality, Request};
+use crate::rigging::Proposal;
 use std::sync::Arc;
 
 impl Session {
@@ -20,6 +22,35 @@ impl Session {
     /// The current pose; `None` is the rest shape.
     pub fn pose(&self) -> Option<usize> {
         self.pose
+    }
+
+    /// Whether a dialog, the palette or a page stands over the window.
+    pub fn is_covered(&self) -> bool {
+        self.files.dialog.is_some() || self.overlay.is_some()
+    }
+
+    /// Whether a tool is the one for its canvas.
+    pub fn has_taken(&self, id: &str) -> bool {
+        self.tools.contains(&id)
+    }
+
+    /// What stands over the window.
+    pub fn overlay(&self) -> Option<Overlay> {
+        self.overlay
+    }
+
+    /// A name that is being typed.
+    pub fn renaming(&self) -> Option<&(Renamed, String)> {
+        self.renaming.as_ref()
+    }
+
+    /// What commands are about when nothing is pointed at.
+    pub fn selected(&self) -> Hit {
+        match self.selection {
+            Selection::Target(index) => Hit::Target(index),
+            Selection::Pin(index) => Hit::Pin(index),
+            _ => Hit::Nothing,
+        }
     }
 
     pub fn selection(&self) -> Selection {
@@ -64,8 +95,9 @@ impl Session {
         }
     }
 
+    /// Whether a hand is in the middle of a change.
     pub fn is_dragging(&self) -> bool {
-        self.drag.is_some()
+        self.history.in_gesture()
     }
 
     /// Whether the shapes answer the newest question; while the outline is drawn none is asked.

@@ -1,10 +1,10 @@
 //! That nothing is lost: work that is kept until it is saved, files that others change, what a window remembers.
 
+use super::canvas::Plushie;
 use super::files::Dialog;
 use super::keeper::{Abandoned, Facts, Keeper, Kept, Work};
 use super::session::Session;
 use super::store::{Settings, Store};
-use super::viewport::Plushie;
 use crate::files::{Hold, Stamp, shown};
 use crate::outline::Drawing;
 use crate::picture::palette::Theme;
@@ -210,9 +210,7 @@ impl Session {
             quality: Some(format!("{:?}", self.quality)),
             idealized: Some(look.views.shows(Plushie::Idealized)),
             realizable: Some(look.views.shows(Plushie::Realizable)),
-            texture: Some(look.texture),
-            fibers: Some(look.fibers),
-            networks: Some(look.networks),
+            layers: look.shown.clone(),
             ..self.safety.settings.clone()
         };
         if settings != store.settings() && store.remember(&settings).is_ok() {
@@ -222,11 +220,8 @@ impl Session {
 
     fn take_settings(&mut self) {
         let settings = &self.safety.settings;
-        let or = |new: Option<bool>, old: bool| new.unwrap_or(old);
         self.look.theme = settings.theme().unwrap_or(self.look.theme);
-        self.look.texture = or(settings.texture, self.look.texture);
-        self.look.fibers = or(settings.fibers, self.look.fibers);
-        self.look.networks = or(settings.networks, self.look.networks);
+        self.look.shown = settings.layers.clone();
         self.look.views = settings.views();
         self.quality = settings.quality().unwrap_or(self.quality);
     }

@@ -1,6 +1,7 @@
 //! The state of the window, and everything that changes it.
 
 use super::action::{Action, FileAction};
+use super::canvas::{Camera, Plushie};
 use super::change::{Change, Made};
 use super::files::Files;
 use super::jobs::{Jobs, Report, Wake};
@@ -10,29 +11,21 @@ use super::messages::Messages;
 use super::safety::Safety;
 use super::sketching::{Sketch, Sketching};
 use super::texturing::Texturing;
-use super::viewport::Plushie;
-use super::viewport::camera::Camera;
 use crate::design::file::MAX_BYTES;
 use crate::design::history::History;
 use crate::design::{Design, Target, edit};
 use crate::discovery::Parameters;
 use crate::engine::worker::Worker;
-use crate::engine::{Proposal, Quality, Request, Shape};
+use crate::engine::{Quality, Request, Shape};
 use crate::files::Stamp;
 use crate::outline::Point;
 use crate::picture::palette::Theme;
-use crate::picture::scene::Stage;
+use crate::picture::{Shown, Stage};
+use crate::rigging::Proposal;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
-
-/// What a press on the body does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Tool {
-    Drag,
-    Pin,
-}
 
 /// What is picked out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,6 +36,23 @@ pub enum Selection {
     Pin(usize),
     Keyframe(usize),
     Network(usize),
+}
+
+/// What stands over the window for the keyboard's sake.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Overlay {
+    /// Every command by name.
+    Palette,
+    /// What every key does.
+    Shortcuts,
+}
+
+/// What gets another name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Renamed {
+    Pose(usize),
+    Network(usize),
+    Plushie,
 }
 
 /// Whether the views show a pose or the animation.
@@ -60,12 +70,13 @@ pub struct Playback {
 
 pub struct Look {
     pub theme: Theme,
-    pub texture: bool,
-    pub fibers: bool,
-    pub networks: bool,
+    /// Which layers of the pictures.
+    pub shown: Shown,
     pub views: Views,
     /// `None`: fits the body.
     pub camera: Option<Camera>,
+    /// Times which the scale shall change about the middle, as soon as a view knows what it shows.
+    pub zoom: Option<f32>,
 }
 
 /// Which views are shown: one at least. What is hidden is not solved.
@@ -81,6 +92,10 @@ impl Views {
             Self::Both => true,
             Self::Only(shown) => shown == plushie,
         }
+    }
+
+    pub fn toggled(self, plushie: Plushie) -> Self {
+        self.with(plushie, !self.shows(plushie))
     }
 
     /// With one of them shown or hidden. Where that leaves none, the other one comes back.
@@ -118,14 +133,6 @@ pub struct Shapes {
     pub realizable: Option<Arc<Shape>>,
 }
 
-/// A target in hand.
-pub(super) struct Drag {
-    pub(super) pose: usize,
-    pub(super) target: usize,
-    /// From the pointer to the goal, mm.
-    pub(super) offset: Point,
-}
-
 /// Makes proposals for a design and the targets of a pose.
 pub type Propose = Arc<dyn Fn(&Design, &[Target], &Parameters, &AtomicBool) -> Vec<Proposal> + Send + Sync>;
 /// Writes the blueprint of a design into a folder.
@@ -148,7 +155,11 @@ pub struct Session {
     pub(super) texturing: Texturing,
     pub(super) pose: Option<usize>,
     pub(super) selection: Selection,
-    pub(super) tool: Tool,
+    /// By their names, of the views and of the sheet.
+    pub(super) tools: [&'static str; 2],
+    pub(super) overlay: Option<Overlay>,
+    /// A name that is being typed.
+    pub(super) renaming: Option<(Renamed, String)>,
     pub(super) mode: Mode,
     pub(super) playback: Playback,
     pub(super) look: Look,
@@ -166,7 +177,6 @@ pub struct Session {
     pub(super) jobs: Jobs,
     pub(super) services: Services,
     pub(super) worker: Worker,
-    pub(super) drag: Option<Drag>,
     /// Of the solver, last.
     pub(super) asked: Option<Request>,
     /// Outcomes before this one belong to another document.
@@ -189,17 +199,12 @@ impl Session {
             kept: None,
             texturing: Texturing::default(),
             selection: Selection::Nothing,
-            tool: Tool::Drag,
+            tools: [""; 2],
+            overlay: None,
+            renaming: None,
             mode: Mode::Pose,
             playback: Playback { time_s: 0.0, playing: false, looping: true },
-            look: Look {
-                theme: Theme::Light,
-                texture: true,
-                fibers: true,
-                networks: true,
-                views: Views::Both,
-                camera: None,
-            },
+            look: Look { theme: Theme::Light, shown: Shown::default(), views: Views::Both, camera: None, zoom: None },
             quality: Quality::Balanced,
             discovery: Discovery {
                 parameters: Parameters::default(),
@@ -219,7 +224,6 @@ impl Session {
             jobs: Jobs::new(wake),
             services,
             worker: Worker::spawn(Box::new(move || on_outcome())),
-            drag: None,
             asked: None,
             first_id: 0,
             answered_id: None,
@@ -250,7 +254,6 @@ impl Session {
         self.discovery.proposals.clear();
         self.discovery.shown = None;
         self.shapes = Shapes::default();
-        self.drag = None;
         self.key_wanted = false;
         self.warning = None;
         self.first_id = self.asked.as_ref().map_or(0, |asked| asked.id + 1);
@@ -261,45 +264,25 @@ impl Session {
         match action {
             Action::Change(change) => self.change(change),
             Action::Live(change) => self.live(change),
-            Action::Undo => self.travel("Undone", History::undo),
-            Action::Redo => self.travel("Redone", History::redo),
-            Action::Grab { what, pointer } => self.grab(what, pointer),
-            Action::DragTo(pointer) => self.drag_to(pointer),
-            Action::Release => self.release(),
-            Action::Escape => self.escape(),
+            Action::Run(command, at) => match command.refused(self, at) {
+                None => (command.run)(self, at),
+                Some(why) => self.messages.info(why),
+            },
+            Action::Overlay(overlay) => self.overlay = overlay,
+            Action::Typed(renaming) => self.renaming = renaming,
+            Action::DragTarget(to) => self.drag_target(to),
             Action::SelectPose(pose) => self.select_pose(pose),
             Action::Select(selection) => self.selection = selection,
-            Action::DeleteSelected => self.delete_selected(),
-            Action::SetTool(tool) => self.tool = tool,
-            Action::SetTheme(theme) => self.look.theme = theme,
-            Action::ShowTexture(shown) => self.look.texture = shown,
-            Action::ShowFibers(shown) => self.look.fibers = shown,
-            Action::ShowNetworks(shown) => self.look.networks = shown,
-            Action::ShowView(plushie, shown) => self.look.views = self.look.views.with(plushie, shown),
             Action::SetQuality(quality) => self.quality = quality,
-            Action::SetCamera(camera) => self.look.camera = Some(camera),
-            Action::Pan { from, delta, always } => {
-                if always || self.drag.is_none() {
-                    self.look.camera = Some(from.panned(delta));
-                }
+            Action::SetCamera(camera) => {
+                self.look.camera = Some(camera);
+                self.look.zoom = None;
             }
-            Action::Fit if self.sketching.open => self.sketching.camera = None,
-            Action::Fit => self.look.camera = None,
-            Action::Play => self.play(),
-            Action::Pause => self.playback.playing = false,
-            Action::SetLooping(looping) => self.playback.looping = looping,
             Action::Scrub(time_s) => self.scrub(time_s),
-            Action::AddKeyframe => self.add_keyframe(),
             Action::SetParameters(parameters) => self.discovery.parameters = parameters,
             Action::SetResolution(resolution) => self.meshing.wanted = Some(resolution),
-            Action::Remesh => self.start_remesh(),
-            Action::CancelRemesh => self.cancel_remesh(),
-            Action::Propose => self.start_propose(),
-            Action::CancelPropose => self.cancel_propose(),
             Action::ShowProposal(index) => self.discovery.shown = index,
             Action::ShowStage(stage) => self.discovery.stage = stage,
-            Action::Accept(index) => self.accept(index),
-            Action::Reject(index) => self.reject(index),
             Action::Sketch(sketch) => self.sketch(sketch),
             Action::File(action) => self.file(action),
             Action::DismissMessage(id) => self.messages.dismiss(id),
@@ -354,6 +337,18 @@ impl Session {
         }
     }
 
+    /// Goes on with the gesture that made the target, or begins one that moves it.
+    fn drag_target(&mut self, to: Point) {
+        let (Selection::Target(index), Some(pose)) = (self.selection, self.pose) else { return };
+        let change = Change::MoveTarget { pose, index, to };
+        if !self.history.in_gesture() {
+            return self.live(change);
+        }
+        if let Err(error) = self.history.preview(|design| change.apply(design)) {
+            self.messages.error(error.to_string());
+        }
+    }
+
     pub(super) fn pick_out(&mut self, made: Made) {
         match made {
             Made::Nothing => {}
@@ -368,8 +363,43 @@ impl Session {
         self.clamp();
     }
 
+    pub(super) fn undo(&mut self) {
+        self.travel("Undone", History::undo);
+    }
+
+    pub(super) fn redo(&mut self) {
+        self.travel("Redone", History::redo);
+    }
+
+    /// Shows all of the body, or of the drawing.
+    pub(super) fn fit(&mut self) {
+        if self.sketching.open {
+            self.sketching.camera = None;
+        } else {
+            self.look.camera = None;
+        }
+    }
+
+    pub(super) fn zoom(&mut self, factor: f32) {
+        self.look.zoom = Some(self.look.zoom.unwrap_or(1.0) * factor);
+    }
+
+    pub(super) fn next_quality(&mut self) {
+        self.quality = match self.quality {
+            Quality::Draft => Quality::Balanced,
+            Quality::Balanced => Quality::Accurate,
+            Quality::Accurate => Quality::Draft,
+        };
+    }
+
+    /// Starts to edit the name of the current pose.
+    pub(super) fn rename_pose(&mut self) {
+        if let Some((index, pose)) = self.pose.and_then(|index| Some((index, self.design().poses.get(index)?))) {
+            self.renaming = Some((Renamed::Pose(index), pose.name.clone()));
+        }
+    }
+
     fn travel(&mut self, done: &str, step: impl FnOnce(&mut History) -> Option<String>) {
-        self.drag = None;
         if let Some(label) = step(&mut self.history) {
             self.messages.info(format!("{done}: {label}"));
         }
@@ -407,10 +437,7 @@ impl Session {
         self.clamp();
     }
 
-    fn delete_selected(&mut self) {
-        if self.sketching.open {
-            return self.delete_drawn();
-        }
+    pub(super) fn delete_selected(&mut self) {
         match (self.selection, self.pose) {
             (Selection::Target(index), Some(pose)) => self.change(Change::RemoveTarget { pose, index }),
             (Selection::Pin(index), _) => self.change(Change::RemovePin(index)),
@@ -421,8 +448,11 @@ impl Session {
         self.selection = Selection::Nothing;
     }
 
-    fn escape(&mut self) {
-        if self.drag.take().is_some() || self.history.in_gesture() {
+    pub(super) fn escape(&mut self) {
+        if self.discovery.running.is_some() && !self.history.in_gesture() && !self.sketching.open {
+            return self.cancel_propose();
+        }
+        if self.history.in_gesture() {
             self.history.cancel();
         } else if self.files.dialog.is_some() {
             self.file(FileAction::CloseDialog);

@@ -2,37 +2,23 @@
 //!
 //! The drawing is part of the document, so that every stroke can be undone; the body stays as it is until a new one is made.
 
+use super::canvas::Camera;
 use super::change::Change;
 use super::jobs::{Made, Report};
 use super::session::{Mode, Session};
-use super::viewport::camera::Camera;
 use crate::design::Design;
 use crate::design::edit::EditError;
 use crate::design::reshape::{Body, reshape};
 use crate::outline::drawing::{Item, Primitive};
-use crate::outline::{Changes, Drawing, Import, Outline};
+use crate::outline::{Changes, Drawing, Import, Note, Outline};
 
-/// What a press on the paper does.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Pencil {
-    /// Picks out and moves parts and their points.
-    #[default]
-    Select,
-    /// Follows the hand.
-    Sketch,
-    /// A corner a click.
-    Polygon,
-    Circle,
-    Capsule,
-    /// A line for tendons to run along, a point a click.
-    Track,
-}
+/// The tool that an empty sheet begins with.
+pub const FREEHAND: &str = "tool.freehand";
 
 /// What is asked for while the outline is drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Sketch {
     Open(bool),
-    Take(Pencil),
     /// Whether new parts are cut out.
     Cut(bool),
     /// A part or a track, and a point of it.
@@ -45,7 +31,6 @@ pub enum Sketch {
 #[derive(Default)]
 pub struct Sketching {
     pub open: bool,
-    pub pencil: Pencil,
     pub cut: bool,
     /// What is picked out, and which point of a path or track.
     pub item: Option<Item>,
@@ -79,14 +64,16 @@ impl Session {
                 self.mode = Mode::Pose;
                 self.clamp();
             }
-            Sketch::Take(pencil) => self.sketching.pencil = pencil,
             Sketch::Cut(cut) => self.sketching.cut = cut,
             Sketch::Select(item, point) => {
                 self.sketching.item = item;
                 self.sketching.point = point;
                 self.clamp_sketch();
             }
-            Sketch::Camera(camera) => self.sketching.camera = camera,
+            Sketch::Camera(camera) => {
+                self.sketching.camera = camera;
+                self.look.zoom = None;
+            }
             Sketch::MakeBody => self.start_body(),
         }
     }
@@ -157,7 +144,7 @@ impl Session {
         self.sketching.fresh = false;
         self.sketch(Sketch::Open(false));
         self.tell_carried(&report);
-        for line in changes.lines() {
+        for line in changes.lines(Note::to_string) {
             self.messages.info(line);
         }
     }

@@ -1,10 +1,11 @@
 //! What the window keeps between its runs, in the platform's folder for the state of programs (`~/.local/state/plushwright` by the XDG
 //! rules): work that was not saved, which files are open, recent files and settings.
 
+use super::canvas::Plushie;
 use super::session::Views;
-use super::viewport::Plushie;
 use crate::engine::Quality;
 use crate::files::{self, sha256};
+use crate::picture::Shown;
 use crate::picture::palette::Theme;
 use etcetera::BaseStrategy;
 use serde::{Deserialize, Serialize};
@@ -31,9 +32,7 @@ pub struct Settings {
     pub quality: Option<String>,
     pub idealized: Option<bool>,
     pub realizable: Option<bool>,
-    pub texture: Option<bool>,
-    pub fibers: Option<bool>,
-    pub networks: Option<bool>,
+    pub layers: Shown,
     /// Logical pixels.
     pub window: Option<[f32; 2]>,
     /// The newest first.

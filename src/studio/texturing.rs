@@ -5,6 +5,7 @@ use super::session::Session;
 use crate::design::{file, texture};
 use crate::files::shown;
 use crate::picture::Texture;
+use crate::picture::layers::{Layer, Textured};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -34,8 +35,11 @@ impl Session {
         }
     }
 
-    /// Why there is no texture to be shown, if so.
-    pub fn cannot_texture(&self) -> Option<&'static str> {
+    /// Why a layer of the pictures cannot be shown, if so.
+    pub fn cannot_show(&self, layer: &str) -> Option<&'static str> {
+        if layer != Textured::NAME {
+            return None;
+        }
         match self.texturing.found {
             Found::Picture(_) => None,
             Found::Trouble => Some("The texture of this plushie is missing or broken"),

@@ -2,9 +2,11 @@
 
 use crate::support::{Random, rectangle, rigged};
 use plushwright::design::file::{self, TextError};
-use plushwright::design::{Design, Easing, EditError, FORMAT_VERSION, FiberSet, Gravity, History, Keyframe, Material};
+use plushwright::design::{Design, Easing, EditError, FORMAT_VERSION, FiberSet, Gravity, History, Keyframe};
 use plushwright::design::{Pin, Pose, edit};
 use plushwright::outline::Drawing;
+use plushwright::physics::terms::GRAVITY;
+use plushwright::physics::{NeoHookean, StVenantKirchhoff};
 use std::fs;
 use std::sync::Arc;
 
@@ -43,11 +45,11 @@ fn random_edit(random: &mut Random, design: &mut Design) -> Result<(), EditError
         }
         14 => edit::move_keyframe(design, index, 0.25 * random.below(20) as f64).map(drop),
         15 => edit::remove_keyframe(design, index).map(drop),
-        16 => edit::set_material(design, Material::NeoHookean { mu: random.between(-0.1, 1.0), kappa: random.unit() }),
-        _ => edit::set_gravity(
-            design,
-            Some(Gravity { acceleration: [0.0, -random.unit()], surface_density: random.between(-1e-7, 1e-6) }),
-        ),
+        16 => edit::set_material(design, NeoHookean { mu: random.between(-0.1, 1.0), kappa: random.unit() }.into()),
+        _ => {
+            let (up, surface_density) = (-random.unit(), random.between(-1e-7, 1e-6));
+            edit::set_term(design, GRAVITY, Some(Gravity { acceleration: [0.0, up], surface_density }.into()))
+        }
     }
 }
 
@@ -126,7 +128,7 @@ fn text_gives_back_every_bit() {
         design.texture_box = (seed % 6 == 0).then(|| [[-1.0 / 3.0, random.between(-9.0, 0.0)], [1e-3, 0.1 + 0.2]]);
         let tracks = vec![vec![[random.between(-1e3, 1e3), 0.1], [2.0 / 3.0, 1e-9], [5.0, 6.0]]];
         design.drawing = (seed % 4 == 0).then(|| Drawing { tracks, ..Drawing::default() });
-        design.material = Material::StVenantKirchhoff { mu: 0.1 + 0.2, lambda: f64::MIN_POSITIVE };
+        design.material = StVenantKirchhoff { mu: 0.1 + 0.2, lambda: f64::MIN_POSITIVE }.into();
         design.fibers.set = FiberSet::Routings(vec![vec![0, 1, 0], vec![3, 4]]);
         for _ in 0..60 {
             let _ = random_edit(&mut random, &mut design);
@@ -253,8 +255,8 @@ fn validation_says_what_and_where() {
         (|d| d.outline.outer.reverse(), "outline.outer: area -9600 mm^2"),
         (|d| d.outline.outer.truncate(2), "outline.outer: has 2 points, needs at least 3"),
         (|d| d.outline.holes = vec![vec![[1., 1.], [2., 1.], [2., 2.]]], "outline.holes[0]: area 0.5 mm^2"),
-        (|d| d.material = Material::NeoHookean { mu: 0.0, kappa: 1.0 }, "material.mu: 0 is not greater than zero"),
-        (|d| d.material = Material::NeoHookean { mu: 1.0, kappa: -1.0 }, "material.kappa: -1 is negative"),
+        (|d| d.material = NeoHookean { mu: 0.0, kappa: 1.0 }.into(), "material.mu: 0 is not greater than zero"),
+        (|d| d.material = NeoHookean { mu: 1.0, kappa: -1.0 }.into(), "material.kappa: -1 is negative"),
         (|d| d.fibers.max_contraction = 1.5, "fibers.max_contraction: 1.5 is greater than 1"),
         (|d| d.fibers.set = FiberSet::Routings(vec![vec![1]]), "fibers.set[0]: has 1 nodes, needs at least 2"),
         (|d| d.tendons.epsilon_mm = f64::NAN, "tendons.epsilon_mm: NaN is not a finite number"),
@@ -292,7 +294,7 @@ fn validation_says_what_and_where() {
             "fabrication.seam_allowance_mm: 1e300 is out of range: 0 to 1000 mm",
         ),
         (
-            |d| d.material = Material::NeoHookean { mu: 0.4, kappa: 1e5 },
+            |d| d.material = NeoHookean { mu: 0.4, kappa: 1e5 }.into(),
             "material.kappa: 250000 times mu is more than 10000",
         ),
         (|d| d.poses[0].targets[0].weight = -1.0, "poses[0].targets[0].weight: -1 is negative"),

@@ -2,7 +2,8 @@
 
 use crate::support::{Random, rectangle, rigged};
 use plushwright::design::{Design, Easing, Keyframe, Network, Tendon, animation};
-use plushwright::fabrication::{ExportError, Manifest, blueprint, export, routing};
+use plushwright::fabrication::{self, ExportError, Manifest, blueprint, export};
+use plushwright::motion::{MotionError, winch_labels};
 use roxmltree::{Document, Node};
 use sha2::{Digest, Sha256};
 use std::f64::consts::PI;
@@ -119,7 +120,7 @@ fn the_pattern_has_two_pieces_in_the_order_of_the_laser() {
     let low = |points: &[[f64; 2]], k: usize| points.iter().map(|p| p[k]).fold(f64::INFINITY, f64::min);
     let high = |points: &[[f64; 2]], k: usize| points.iter().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max);
     let (front, back) = (&seams[0].0, &seams[1].0);
-    for (i, node) in routing::holes(&design).into_iter().enumerate() {
+    for (i, node) in fabrication::holes(&design).into_iter().enumerate() {
         let [x, y] = design.mesh.nodes[node];
         let (a, b) = (holes[i], holes[i + 7]);
         assert!((figure(a, "cx") - low(front, 0) - x).abs() < 1e-3);
@@ -311,7 +312,7 @@ fn winch_names_cannot_break_a_table() {
         .map(|name| Network { name: name.into(), tendons: vec![tendon.clone()] })
         .to_vec();
     design.keyframes.clear();
-    let labels = routing::winch_labels(&design);
+    let labels = winch_labels(&design);
     assert_eq!(labels, ["left", "left (2)", "a_b_c_d__é", "winch 4", "1_cmd", "left (2) (2)"]);
     let (_, header, rows) = tracks(&text(&design, "tracks.csv"));
     assert_eq!((header.len(), rows[0].len()), (13, 13));
@@ -335,14 +336,17 @@ fn what_cannot_be_made_is_refused() {
     });
     assert!(matches!(none, ExportError::NoNetworks) && none.is_input());
     assert!(matches!(fails(&|d| d.pins[0].stiffness = -1.0), ExportError::Invalid(_)));
-    assert!(matches!(fails(&|d| d.keyframes.push(key(1e300, 0.0))), ExportError::TooLong { .. }));
-    assert!(matches!(fails(&|d| d.keyframes.push(key(2.0, 1e9))), ExportError::TooFar { .. }));
-    assert!(matches!(fails(&|d| d.controller.encoder_lines = 16384), ExportError::EncoderTooFine { lines: 16384 }));
+    assert!(matches!(fails(&|d| d.keyframes.push(key(1e300, 0.0))), ExportError::Motion(MotionError::TooLong { .. })));
+    assert!(matches!(fails(&|d| d.keyframes.push(key(2.0, 1e9))), ExportError::Motion(MotionError::TooFar { .. })));
+    assert!(matches!(
+        fails(&|d| d.controller.encoder_lines = 16384),
+        ExportError::Motion(MotionError::EncoderTooFine { lines: 16384 })
+    ));
     let many = fails(&|d| {
         d.keyframes.clear();
         d.networks = vec![d.networks[0].clone(); 256];
     });
-    assert!(matches!(many, ExportError::TooManyWinches { winches: 256 }));
+    assert!(matches!(many, ExportError::Motion(MotionError::TooManyWinches { winches: 256 })));
 }
 
 fn listing(dir: &Path) -> Vec<String> {

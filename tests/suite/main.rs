@@ -19,6 +19,8 @@ mod minimum;
 mod networks;
 mod networks_reference;
 mod outlines;
+#[cfg(feature = "studio")]
+mod palette;
 mod physics;
 mod problems;
 mod properties;

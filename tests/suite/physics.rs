@@ -5,8 +5,8 @@ use crate::support::bodies::{Mesh, bar, dot, largest, largest_difference, moved,
 use nalgebra::Matrix2;
 use plushwright::physics::pattern::{Pattern, Scatter};
 use plushwright::physics::{
-    Body, Cause, Contractile, Element, Energy, Gravity, HessianForm, Law, Material, Model, NeoHookean, Pin, Pins,
-    StVenantKirchhoff, StaticsSettings, statics,
+    Body, Cause, Contractile, Element, Energy, Gravity, Ground, HessianForm, Hyperelastic, Kind, Law, MaterialKind,
+    Model, NeoHookean, Pin, Pins, StVenantKirchhoff, StaticsSettings, TermKind, statics,
 };
 
 /// A smooth, uninverted deformation of unit-sized bodies: turned, stretched and bent.
@@ -19,15 +19,16 @@ fn deformed(x: &[f64]) -> Vec<f64> {
 }
 
 /// Makes a material anew: bodies own theirs.
-type MakeMaterial = fn() -> Box<dyn Material>;
+type MakeMaterial = Box<dyn Fn() -> Box<dyn Hyperelastic>>;
 type NamedTerm = (String, Box<dyn Energy>);
 
+/// Every material of the catalogue, and one without resistance to change of area.
 fn materials() -> Vec<(&'static str, MakeMaterial)> {
-    vec![
-        ("neo-Hookean", || Box::new(NeoHookean { mu: 0.7, kappa: 1.9 })),
-        ("neo-Hookean without kappa", || Box::new(NeoHookean { mu: 0.7, kappa: 0.0 })),
-        ("St. Venant-Kirchhoff", || Box::new(StVenantKirchhoff { mu: 0.7, lambda: 1.1 })),
-    ]
+    let made = |kind: &'static MaterialKind| -> (&'static str, MakeMaterial) {
+        (kind.label, Box::new(|| (kind.build)(kind.tested[0])))
+    };
+    let without: MakeMaterial = Box::new(|| Box::new(NeoHookean { mu: 0.7, kappa: 0.0 }));
+    MaterialKind::all().iter().map(|kind| made(kind)).chain([("neo-Hookean without kappa", without)]).collect()
 }
 
 /// A grid of unit height and 1.5 length with irregular inner nodes.
@@ -72,7 +73,13 @@ fn terms() -> Vec<NamedTerm> {
     let barycentric = Pin { nodes: vec![9, 16, 10], weights: vec![0.5, 0.2, 0.3], anchor: [0.1, 0.9], stiffness: 12.0 };
     terms.push(("pin on a triangle".into(), Box::new(Pins { pins: vec![barycentric] })));
     let areas = mesh.body(neo_hookean(), None).nodal_areas(mesh.nodes.len());
-    terms.push(("gravity".into(), Box::new(Gravity::new(&areas, 0.6, [0.3, -9.8]))));
+    let (nodes, triangles) = (&mesh.nodes, &mesh.triangles);
+    let ground = Ground { nodes, triangles, nodal_areas: &areas };
+    for kind in TermKind::all() {
+        for values in kind.tested {
+            terms.push((kind.label.to_lowercase(), (kind.build)(&ground, values)));
+        }
+    }
     terms
 }
 
@@ -188,7 +195,7 @@ fn a_projected_hessian_is_positive_and_equal_where_the_exact_one_is() {
 }
 
 /// A plushie of everything at once.
-fn whole(material: Box<dyn Material>) -> Model {
+fn whole(material: Box<dyn Hyperelastic>) -> Model {
     let mesh = mesh();
     let x = deformed(&mesh.flat());
     let parts = [-1.5, 0.2, 3.0];
@@ -470,7 +477,7 @@ fn a_bar_hangs_under_its_own_weight_as_in_the_textbook() {
     let (mu, density, g): (f64, f64, f64) = (1000.0, 0.1, 9.81);
     for (kappa, tolerance) in [(0.0, 2e-3), (500.0, 1e-2), (2000.0, 2e-2)] {
         let modulus = 4.0 * mu * (mu + kappa) / (2.0 * mu + kappa);
-        let materials: [Box<dyn Material>; 2] =
+        let materials: [Box<dyn Hyperelastic>; 2] =
             [Box::new(NeoHookean { mu, kappa }), Box::new(StVenantKirchhoff { mu, lambda: kappa })];
         for material in materials {
             let mesh = crossed(2.0, 0.1, 40, 2);

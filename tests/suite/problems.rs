@@ -59,7 +59,7 @@ fn every_case_agrees_with_its_answer() {
             values.clone().fold(f64::MIN, |m, v| m.max(*v)) - values.fold(f64::MAX, |m, v| m.min(*v))
         };
         let body = extent(0).max(extent(1));
-        let mu = problem.material.mu;
+        let mu = problem.material.value("mu");
         let area = problem.mesh.triangles.iter().map(|t| {
             let [p, q, r] = t.map(|k| problem.mesh.nodes[k]);
             0.5 * ((q[0] - p[0]) * (r[1] - p[1]) - (r[0] - p[0]) * (q[1] - p[1]))

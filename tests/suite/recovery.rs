@@ -340,7 +340,7 @@ fn two_windows_on_one_file_are_told_and_settings_are_remembered() {
     drop(first);
     let third = window(pig(), None, state.path());
     assert_ne!(session(&third).look().theme, theme);
-    assert!(!session(&third).look().fibers);
+    assert!(!session(&third).look().shown.shows("fibers"));
     assert_eq!(session(&third).recent(), [path]);
 }
 

@@ -3,7 +3,7 @@
 use crate::support::Random;
 use crate::support::bodies::{self, Mesh, bar, dot, largest, largest_difference, neo_hookean};
 use plushwright::physics::{
-    Energy, HessianForm, Material, Model, NeoHookean, Pin, Pins, StVenantKirchhoff, StaticsSettings, statics,
+    Energy, HessianForm, Hyperelastic, Model, NeoHookean, Pin, Pins, StVenantKirchhoff, StaticsSettings, statics,
 };
 use plushwright::soft_ik::contraction::GaussNewton;
 use plushwright::soft_ik::gradient::Gradient;
@@ -59,7 +59,7 @@ fn rigged(seed: u64) -> (Model, Actuation, Objective) {
         anchor: [0.6, 0.2],
         stiffness: 0.5,
     });
-    let material: Box<dyn Material> = if seed.is_multiple_of(3) {
+    let material: Box<dyn Hyperelastic> = if seed.is_multiple_of(3) {
         Box::new(StVenantKirchhoff { mu: 1.0, lambda: 1.5 })
     } else {
         Box::new(NeoHookean { mu: 1.0, kappa: 1.5 })
@@ -171,7 +171,7 @@ fn the_derivative_by_contraction_of_every_element_agrees_too() {
 }
 
 /// A cantilever with tendons along its upper and lower side, each slack by `slack` at `beta = 0`.
-fn tendon_bar(slack: f64, material: Box<dyn Material>) -> (Mesh, Model) {
+fn tendon_bar(slack: f64, material: Box<dyn Hyperelastic>) -> (Mesh, Model) {
     let mesh = bar(1.0, 0.25, 8, 2);
     let row = |j| (0..=8).map(|i| mesh.at(i, j)).collect::<Vec<_>>();
     let mut elements = vec![mesh.element(&row(2), 10.0, 2e-3), mesh.element(&row(0), 10.0, 2e-3)];
@@ -293,7 +293,7 @@ fn the_gradient_method_lowers_the_objective_where_elements_are_taut() {
 }
 
 /// A 60-node bar with a fibre on each of its 147 edges; the left end is pinned.
-fn fiber_bar(material: Box<dyn Material>) -> (Mesh, Model) {
+fn fiber_bar(material: Box<dyn Hyperelastic>) -> (Mesh, Model) {
     let mesh = bar(1.0, 0.25, 11, 4);
     let model = mesh.model(material, mesh.fibers(3.0), mesh.left_pins(1e3), Vec::new());
     (mesh, model)

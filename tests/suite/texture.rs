@@ -5,8 +5,7 @@ use plushwright::design::{Design, file};
 use plushwright::engine::Shape;
 use plushwright::outline::Point;
 use plushwright::picture::palette::{Palette, Theme};
-use plushwright::picture::scene::{Options, scene};
-use plushwright::picture::{Texture, raster};
+use plushwright::picture::{Layers, Subject, Texture, raster};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::Arc;
@@ -235,9 +234,9 @@ fn the_halves_of_a_texture_are_where_they_are_at_rest_and_in_a_pose() {
         [r * sin + 0.2 * p[1], -r * cos]
     };
     for nodes in [rest.clone(), rest.iter().map(bent).collect()] {
-        let shape = Shape { nodes: nodes.clone(), ..Shape::default() };
-        let options = Options { texture: Some(&texture), fibers: false, ..Options::default() };
-        let scene = scene(&design, &shape, &options);
+        let shape = Arc::new(Shape { nodes: nodes.clone(), ..Shape::default() });
+        let (texture, design) = (Some(&texture), Arc::new(design.clone()));
+        let scene = Layers::of(&Subject { texture, fibers: false, ..Subject::new(&design, &shape) }).scene();
         let png = raster::png(&scene, &scene, SIZE, Palette::of(Theme::Light).background).unwrap();
         let picture = image::load_from_memory(&png).unwrap().into_rgba8();
         let (mut red, mut blue) = (0, 0);

@@ -1,21 +1,21 @@
 //! Closed forms: states that need no solver, or only one equation in one unknown.
 
-use crate::physics::Double;
+use crate::physics::DoubleDouble;
 use crate::problem::{Problem, Statics};
 
 /// Halvings of an interval: all digits of a double-double.
 const HALVINGS: usize = 220;
 
 /// The root of a falling or rising function in an interval where it changes sign.
-pub fn root(function: impl Fn(Double) -> Double, low: f64, high: f64) -> Double {
-    let (mut low, mut high) = (Double::from(low), Double::from(high));
-    let sign = |v: Double| v < Double::ZERO;
+pub fn root(function: impl Fn(DoubleDouble) -> DoubleDouble, low: f64, high: f64) -> DoubleDouble {
+    let (mut low, mut high) = (DoubleDouble::from(low), DoubleDouble::from(high));
+    let sign = |v: DoubleDouble| v < DoubleDouble::ZERO;
     let at_low = sign(function(low));
     for _ in 0..HALVINGS {
-        let middle = (low + high) * Double::from(0.5);
+        let middle = (low + high) * DoubleDouble::from(0.5);
         if sign(function(middle)) == at_low { low = middle } else { high = middle }
     }
-    (low + high) * Double::from(0.5)
+    (low + high) * DoubleDouble::from(0.5)
 }
 
 /// The unit square of two triangles with one element on its diagonal, nothing held: it stretches by `a` along the element and
@@ -35,8 +35,8 @@ impl Diagonal {
     pub fn of(problem: &Problem) -> Option<Self> {
         let (element, contraction) = (problem.elements.first()?, *problem.contractions.as_ref()?.first()?);
         Some(Self {
-            mu: problem.material.mu,
-            kappa: problem.material.kappa,
+            mu: problem.material.value("mu"),
+            kappa: problem.material.value("kappa"),
             stiffness: element.stiffness,
             epsilon: element.epsilon,
             alpha: element.alpha0 - contraction,
@@ -44,38 +44,39 @@ impl Diagonal {
     }
 
     /// `(a, b)`.
-    pub fn stretches(&self) -> (Double, Double) {
-        let along = |a: Double| self.along(a, self.across(a));
+    pub fn stretches(&self) -> (DoubleDouble, DoubleDouble) {
+        let along = |a: DoubleDouble| self.along(a, self.across(a));
         let a = root(along, 1e-3, 50.0);
         (a, self.across(a))
     }
 
     /// `b` without force across. With `kappa = 0` it is 1.
-    fn across(&self, a: Double) -> Double {
-        let (mu, kappa) = (Double::from(self.mu), Double::from(self.kappa));
-        root(|b| mu * (b.square() - Double::ONE) + kappa * (a * b).ln(), 1e-4, 1e4)
+    fn across(&self, a: DoubleDouble) -> DoubleDouble {
+        let (mu, kappa) = (DoubleDouble::from(self.mu), DoubleDouble::from(self.kappa));
+        root(|b| mu * (b.square() - DoubleDouble::ONE) + kappa * (a * b).ln(), 1e-4, 1e4)
     }
 
-    fn along(&self, a: Double, b: Double) -> Double {
-        let root_two = Double::from(2.0).sqrt();
-        let gamma = root_two * a - Double::from(self.alpha);
-        let (k, eps, two) = (Double::from(self.stiffness), Double::from(self.epsilon), Double::from(2.0));
+    fn along(&self, a: DoubleDouble, b: DoubleDouble) -> DoubleDouble {
+        let root_two = DoubleDouble::from(2.0).sqrt();
+        let gamma = root_two * a - DoubleDouble::from(self.alpha);
+        let (k, eps, two) =
+            (DoubleDouble::from(self.stiffness), DoubleDouble::from(self.epsilon), DoubleDouble::from(2.0));
         let tension = if gamma <= -eps {
-            Double::ZERO
+            DoubleDouble::ZERO
         } else if gamma <= eps {
             k / (two * eps) * (gamma + eps).square()
         } else {
             two * k * gamma
         };
-        Double::from(self.mu) * (a.square() - b.square()) / a + root_two * tension
+        DoubleDouble::from(self.mu) * (a.square() - b.square()) / a + root_two * tension
     }
 
     /// Error of an answer: of both diagonals, as a part of the diagonal.
     pub fn error(&self, answer: &Statics) -> f64 {
         let (a, b) = self.stretches();
         let length = |i: usize, j: usize| {
-            let [dx, dy] = [0, 1].map(|axis| Double::difference(answer.x[i][axis], answer.x[j][axis]));
-            (dx.square() + dy.square()).sqrt() / Double::from(2.0).sqrt()
+            let [dx, dy] = [0, 1].map(|axis| DoubleDouble::difference(answer.x[i][axis], answer.x[j][axis]));
+            (dx.square() + dy.square()).sqrt() / DoubleDouble::from(2.0).sqrt()
         };
         (length(0, 2) - a).abs().value().max((length(1, 3) - b).abs().value())
     }
@@ -86,7 +87,7 @@ impl Diagonal {
 ///
 /// In the interior the nodal forces of a constant stress cancel; at the boundary they are `P N` times half the sides there.
 pub fn hold_affine(problem: &mut Problem, f: [[f64; 2]; 2], stiffness: f64) {
-    let (mu, kappa) = (problem.material.mu, problem.material.kappa);
+    let (mu, kappa) = (problem.material.value("mu"), problem.material.value("kappa"));
     let j = f[0][0] * f[1][1] - f[0][1] * f[1][0];
     let c = (kappa * j.ln() - mu) / j;
     let p = [
@@ -143,14 +144,14 @@ mod tests {
 
     #[test]
     fn roots_have_all_digits() {
-        let found = root(|x| x.square() - Double::from(2.0), 0.0, 2.0);
-        assert!((found - Double::from(2.0).sqrt()).abs().value() < 1e-30);
+        let found = root(|x| x.square() - DoubleDouble::from(2.0), 0.0, 2.0);
+        assert!((found - DoubleDouble::from(2.0).sqrt()).abs().value() < 1e-30);
     }
 
     #[test]
     fn without_an_element_the_square_stays_as_it_is() {
         let square = Diagonal { mu: 1.0, kappa: 3.0, stiffness: 0.0, epsilon: 0.1, alpha: 1.0 };
         let (a, b) = square.stretches();
-        assert!((a - Double::ONE).abs().value() < 1e-28 && (b - Double::ONE).abs().value() < 1e-28);
+        assert!((a - DoubleDouble::ONE).abs().value() < 1e-28 && (b - DoubleDouble::ONE).abs().value() < 1e-28);
     }
 }

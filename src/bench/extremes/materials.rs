@@ -39,7 +39,7 @@ fn incompressible_square(short: bool) -> Row {
     let case = |ratio: f64| {
         let mut problem = square();
         fiber(&mut problem, &[0, 2], 0.3);
-        problem.material.kappa = ratio * MU;
+        problem.material.set("kappa", ratio * MU);
         diagonal_case(format!("{ratio:e}"), problem)
     };
     let cases = decades(0, 6, short).into_iter().map(case).collect();
@@ -49,7 +49,7 @@ fn incompressible_square(short: bool) -> Row {
 fn incompressible_arm(short: bool) -> Row {
     let case = |ratio: f64| {
         let mut problem = bent_arm(0.3);
-        problem.material.kappa = ratio * MU;
+        problem.material.set("kappa", ratio * MU);
         Case::solved(format!("{ratio:e}"), problem)
     };
     let cases = decades(0, 6, short).into_iter().map(case).collect();

@@ -50,8 +50,7 @@ fn scaled(short: bool) -> Row {
     // Units of force may be anything too.
     for modulus in if short { vec![1e-9] } else { vec![1e-9, 1e-3, 1e3, 1e9] } {
         let mut problem = bent_arm(0.3);
-        problem.material.mu *= modulus;
-        problem.material.kappa *= modulus;
+        problem.material.each_mut().for_each(|(_, values)| values[0] *= modulus);
         problem.elements.iter_mut().for_each(|e| e.stiffness *= modulus);
         problem.pins.iter_mut().for_each(|p| p.stiffness *= modulus);
         cases.push(Case::solved(format!("1, mu = {modulus:e} N/m"), problem));

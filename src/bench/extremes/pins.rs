@@ -14,7 +14,7 @@ pub fn rows(short: bool) -> Vec<Row> {
 }
 
 fn with_pins(mut problem: Problem, stiffness: f64) -> Problem {
-    problem.pins.iter_mut().for_each(|p| p.stiffness = stiffness * problem.material.mu);
+    problem.pins.iter_mut().for_each(|p| p.stiffness = stiffness * problem.material.value("mu"));
     problem
 }
 

@@ -4,7 +4,7 @@
 //! file; nothing is shared with the solver but the arithmetic. Newton's method starts at the solver's answer; its matrix is a
 //! difference quotient of that gradient, so an error in the solver's Hessian cannot hide either.
 
-use crate::physics::Double;
+use crate::physics::DoubleDouble;
 use crate::problem::Problem;
 use nalgebra::{DMatrix, DVector};
 
@@ -35,18 +35,18 @@ const POINT: f64 = 1e-9;
 pub fn near(problem: &Problem, from: &[[f64; 2]], rigid_motions: usize) -> Option<Reference> {
     let terms = terms(problem);
     let size = size(problem);
-    let mut x: Vec<Double> = from.iter().flatten().map(|&v| v.into()).collect();
+    let mut x: Vec<DoubleDouble> = from.iter().flatten().map(|&v| v.into()).collect();
     for _ in 0..STEPS {
         let gradient = gradient(&terms, &x);
         let hessian = self::hessian(&terms, &x, DIFFERENCE * size);
-        let held = HELD * problem.material.mu;
+        let held = HELD * problem.material.value("mu");
         let mut matrix = hessian.clone();
         if rigid_motions > 0 {
             (0..matrix.nrows()).for_each(|d| matrix[(d, d)] += held);
         }
         let right = DVector::from_iterator(x.len(), gradient.iter().map(|g| g.value()));
         let step = matrix.lu().solve(&right)?;
-        x.iter_mut().zip(step.iter()).for_each(|(x, s)| *x = *x - Double::from(*s));
+        x.iter_mut().zip(step.iter()).for_each(|(x, s)| *x = *x - DoubleDouble::from(*s));
         if !x.iter().all(|v| v.is_finite()) {
             return None;
         }
@@ -79,38 +79,62 @@ fn size(problem: &Problem) -> f64 {
 
 /// One term of the energy with all its figures in two words.
 enum Term {
-    Triangle { nodes: [usize; 3], inverse: [Double; 4], area: Double, mu: Double, kappa: Double },
-    Element { nodes: Vec<usize>, stiffness: Double, epsilon: Double, alpha: Double, point: Double },
-    Pin { node: usize, at: [Double; 2], stiffness: Double },
-    Weight { node: usize, force: [Double; 2] },
+    Triangle {
+        nodes: [usize; 3],
+        inverse: [DoubleDouble; 4],
+        area: DoubleDouble,
+        mu: DoubleDouble,
+        kappa: DoubleDouble,
+    },
+    Element {
+        nodes: Vec<usize>,
+        stiffness: DoubleDouble,
+        epsilon: DoubleDouble,
+        alpha: DoubleDouble,
+        point: DoubleDouble,
+    },
+    Pin {
+        node: usize,
+        at: [DoubleDouble; 2],
+        stiffness: DoubleDouble,
+    },
+    Weight {
+        node: usize,
+        force: [DoubleDouble; 2],
+    },
 }
 
 fn terms(problem: &Problem) -> Vec<Term> {
     let mut terms = Vec::new();
-    let [mu, kappa] = [problem.material.mu, problem.material.kappa].map(Double::from);
+    let [mu, kappa] = [problem.material.value("mu"), problem.material.value("kappa")].map(DoubleDouble::from);
     for t in &problem.mesh.triangles {
         let [p, q, r] = t.map(|n| problem.mesh.nodes[n]);
-        let d = [0, 1].map(|axis| [Double::difference(q[axis], p[axis]), Double::difference(r[axis], p[axis])]);
+        let d =
+            [0, 1].map(|axis| [DoubleDouble::difference(q[axis], p[axis]), DoubleDouble::difference(r[axis], p[axis])]);
         let twice = d[0][0] * d[1][1] - d[0][1] * d[1][0];
         let inverse = [d[1][1] / twice, -d[1][0] / twice, -d[0][1] / twice, d[0][0] / twice];
-        let area = twice * Double::from(0.5);
+        let area = twice * DoubleDouble::from(0.5);
         terms.push(Term::Triangle { nodes: *t, inverse, area, mu, kappa });
         if let (Some(g), Some(density)) = (problem.gravity, problem.surface_density) {
-            let mass = area * Double::from(density) / Double::from(3.0);
-            let force = g.map(|g| mass * Double::from(g));
+            let mass = area * DoubleDouble::from(density) / DoubleDouble::from(3.0);
+            let force = g.map(|g| mass * DoubleDouble::from(g));
             terms.extend(t.iter().map(|&node| Term::Weight { node, force }));
         }
     }
     let contractions = problem.contractions.clone().unwrap_or_else(|| vec![0.0; problem.elements.len()]);
     for (e, c) in problem.elements.iter().zip(contractions) {
-        let point = Double::from(POINT * e.alpha0).square();
-        let [stiffness, epsilon] = [e.stiffness, e.epsilon].map(Double::from);
+        let point = DoubleDouble::from(POINT * e.alpha0).square();
+        let [stiffness, epsilon] = [e.stiffness, e.epsilon].map(DoubleDouble::from);
         // The rest length as the solver has it, one word: rounding of what is given is not its error.
-        let alpha = Double::from(e.alpha0 - c);
+        let alpha = DoubleDouble::from(e.alpha0 - c);
         terms.push(Term::Element { nodes: e.routing.clone(), stiffness, epsilon, alpha, point });
     }
     for pin in problem.pins.iter().filter(|p| p.stiffness > 0.0) {
-        terms.push(Term::Pin { node: pin.node, at: pin.target.map(Double::from), stiffness: pin.stiffness.into() });
+        terms.push(Term::Pin {
+            node: pin.node,
+            at: pin.target.map(DoubleDouble::from),
+            stiffness: pin.stiffness.into(),
+        });
     }
     terms
 }
@@ -129,7 +153,7 @@ impl Term {
     }
 
     /// The gradient by the coordinates of its nodes, in their order (a node may occur more than once).
-    fn gradient(&self, x: &[[Double; 2]]) -> Vec<[Double; 2]> {
+    fn gradient(&self, x: &[[DoubleDouble; 2]]) -> Vec<[DoubleDouble; 2]> {
         match self {
             Self::Triangle { inverse, area, mu, kappa, .. } => triangle(x, inverse, *area, *mu, *kappa),
             Self::Element { .. } => self.pull(x).1,
@@ -139,10 +163,12 @@ impl Term {
     }
 
     /// Tension and gradient of an element.
-    fn pull(&self, x: &[[Double; 2]]) -> (Double, Vec<[Double; 2]>) {
-        let Self::Element { stiffness, epsilon, alpha, point, .. } = self else { return (Double::ZERO, Vec::new()) };
-        let mut by_length = vec![[Double::ZERO; 2]; x.len()];
-        let mut length = Double::ZERO;
+    fn pull(&self, x: &[[DoubleDouble; 2]]) -> (DoubleDouble, Vec<[DoubleDouble; 2]>) {
+        let Self::Element { stiffness, epsilon, alpha, point, .. } = self else {
+            return (DoubleDouble::ZERO, Vec::new());
+        };
+        let mut by_length = vec![[DoubleDouble::ZERO; 2]; x.len()];
+        let mut length = DoubleDouble::ZERO;
         for k in 1..x.len() {
             let d = [0, 1].map(|axis| x[k][axis] - x[k - 1][axis]);
             let l = (d[0].square() + d[1].square() + *point).sqrt();
@@ -153,9 +179,9 @@ impl Term {
             }
         }
         let gamma = length - *alpha;
-        let two = Double::from(2.0);
+        let two = DoubleDouble::from(2.0);
         let tension = if gamma <= -*epsilon {
-            Double::ZERO
+            DoubleDouble::ZERO
         } else if gamma <= *epsilon {
             *stiffness / (two * *epsilon) * (gamma + *epsilon).square()
         } else {
@@ -165,13 +191,19 @@ impl Term {
         (tension, gradient)
     }
 
-    fn tension(&self, x: &[Double]) -> Option<f64> {
+    fn tension(&self, x: &[DoubleDouble]) -> Option<f64> {
         matches!(self, Self::Element { .. }).then(|| self.pull(&gather(self.nodes(), x)).0.value())
     }
 }
 
 /// `A P b_a` with `P = mu F + (kappa ln J - mu) F^-T`.
-fn triangle(x: &[[Double; 2]], inverse: &[Double; 4], area: Double, mu: Double, kappa: Double) -> Vec<[Double; 2]> {
+fn triangle(
+    x: &[[DoubleDouble; 2]],
+    inverse: &[DoubleDouble; 4],
+    area: DoubleDouble,
+    mu: DoubleDouble,
+    kappa: DoubleDouble,
+) -> Vec<[DoubleDouble; 2]> {
     // Columns of the deformed edges, then F = d D^-1, entries by row and column.
     let edge = |k: usize, row: usize| x[k][row] - x[0][row];
     let f = |row: usize, column: usize| edge(1, row) * inverse[2 * column] + edge(2, row) * inverse[2 * column + 1];
@@ -185,12 +217,12 @@ fn triangle(x: &[[Double; 2]], inverse: &[Double; 4], area: Double, mu: Double, 
     vec![[0, 1].map(|row| -(second[row] + third[row])), second, third]
 }
 
-fn gather(nodes: &[usize], x: &[Double]) -> Vec<[Double; 2]> {
+fn gather(nodes: &[usize], x: &[DoubleDouble]) -> Vec<[DoubleDouble; 2]> {
     nodes.iter().map(|&n| [x[2 * n], x[2 * n + 1]]).collect()
 }
 
-fn gradient(terms: &[Term], x: &[Double]) -> Vec<Double> {
-    let mut out = vec![Double::ZERO; x.len()];
+fn gradient(terms: &[Term], x: &[DoubleDouble]) -> Vec<DoubleDouble> {
+    let mut out = vec![DoubleDouble::ZERO; x.len()];
     for term in terms {
         for (&n, g) in term.nodes().iter().zip(term.gradient(&gather(term.nodes(), x))) {
             for axis in 0..2 {
@@ -201,7 +233,7 @@ fn gradient(terms: &[Term], x: &[Double]) -> Vec<Double> {
     out
 }
 
-fn hessian(terms: &[Term], x: &[Double], h: f64) -> DMatrix<f64> {
+fn hessian(terms: &[Term], x: &[DoubleDouble], h: f64) -> DMatrix<f64> {
     let mut out = DMatrix::zeros(x.len(), x.len());
     for term in terms.iter().filter(|t| !t.is_linear()) {
         let nodes = term.nodes();
@@ -209,9 +241,9 @@ fn hessian(terms: &[Term], x: &[Double], h: f64) -> DMatrix<f64> {
         for (b, &column) in nodes.iter().enumerate() {
             for axis in 0..2 {
                 let here = at[b][axis];
-                at[b][axis] = here + Double::from(h);
+                at[b][axis] = here + DoubleDouble::from(h);
                 let plus = term.gradient(&at);
-                at[b][axis] = here - Double::from(h);
+                at[b][axis] = here - DoubleDouble::from(h);
                 let minus = term.gradient(&at);
                 at[b][axis] = here;
                 for ((&row, p), m) in nodes.iter().zip(&plus).zip(&minus) {

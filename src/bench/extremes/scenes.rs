@@ -1,7 +1,8 @@
 //! Bodies for the rows: small problems in SI units, built up step by step.
 
+use crate::physics::NeoHookean;
 use crate::problem::Problem;
-use crate::problem::file::{ElementData, MaterialData, MeshData, ObjectiveData, PinData, TargetData};
+use crate::problem::file::{ElementData, MeshData, ObjectiveData, PinData, TargetData};
 
 /// Shear modulus of every scene unless a row sweeps it, N/m.
 pub const MU: f64 = 1.0;
@@ -77,7 +78,7 @@ pub fn horseshoe() -> Problem {
 pub fn body(nodes: Vec<[f64; 2]>, triangles: Vec<[usize; 3]>) -> Problem {
     Problem {
         mesh: MeshData { nodes, triangles },
-        material: MaterialData { mu: MU, kappa: KAPPA },
+        material: NeoHookean { mu: MU, kappa: KAPPA }.into(),
         contractions: Some(Vec::new()),
         ..Problem::default()
     }
@@ -126,7 +127,7 @@ pub fn weigh(mut problem: Problem, part: f64) -> Problem {
     let size = super::measure::size(&problem);
     let area: f64 = problem.mesh.triangles.iter().map(|t| problem.mesh.area(t)).sum();
     problem.gravity = Some([0.0, -10.0]);
-    problem.surface_density = Some(part * problem.material.mu * size / (10.0 * area));
+    problem.surface_density = Some(part * problem.material.value("mu") * size / (10.0 * area));
     problem
 }
 

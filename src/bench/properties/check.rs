@@ -2,7 +2,7 @@
 
 use super::draw::Drawn;
 use crate::physics::Model;
-use crate::problem::{self, Answered, Failure, Options, Problem, Quality, answer};
+use crate::problem::{self, Answered, Failure, Options, Problem, Quality, model};
 use serde_json::Value;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
@@ -57,6 +57,9 @@ impl End {
 }
 
 /// Runs a problem; what is wrong with what came out is the error.
+///
+/// # Errors
+/// What was violated, in words.
 pub fn problem(drawn: &Drawn) -> Result<End, String> {
     let clock = Instant::now();
     let run = catch_unwind(AssertUnwindSafe(|| run(drawn)));
@@ -110,7 +113,7 @@ fn judge(problem: &Problem, answered: &Answered) -> Result<(), String> {
     if let Some(place) = not_finite(document, "") {
         return Err(format!("{place} is not finite"));
     }
-    let body = answer::model(problem).map_err(|e| e.to_string())?;
+    let body = model(problem).map_err(|e| e.to_string())?;
     let mut poses = vec![("x", &document["x"])];
     if let Some(ik) = document.get("soft_ik") {
         poses.push(("soft_ik.x", &ik["x"]));
@@ -142,7 +145,8 @@ fn energy_falls(problem: &Problem, model: &Model, document: &Value) -> Result<()
     let jitter: f64 = rounding.iter().zip(&start).map(|(r, x)| 1e-9 * r * (1e-15 * x.abs())).sum();
     let size = crate::bench::extremes::measure::size(problem);
     // An energy of zero carries the rounding of a body at unit strain.
-    let scale = before.abs().max(reached.abs()) + (problem.material.mu + problem.material.kappa) * size * size * 1e-5;
+    let scale = before.abs().max(reached.abs())
+        + (problem.material.value("mu") + problem.material.value("kappa")) * size * size * 1e-5;
     let weight = gravity_rounding(problem, &start);
     if reached > before + ENERGY_ROUNDING * scale + jitter + weight {
         return Err(format!("energy rose from {before:e} to {reached:e}"));

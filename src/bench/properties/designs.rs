@@ -7,6 +7,8 @@ use crate::design::{
 use crate::engine::{Question, Request, Shape, Solver};
 use crate::mesh::{BodyPoint, Mesh};
 use crate::outline::Outline;
+use crate::physics::terms::GRAVITY;
+use crate::physics::{NeoHookean, StVenantKirchhoff};
 use crate::soft_ik::Quality;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -18,6 +20,9 @@ const EDITS: usize = 40;
 const SHOWN_EVERY: usize = 10;
 
 /// A sequence of edits; what is wrong with what came of it is the error. Returns how many edits took effect.
+///
+/// # Errors
+/// What was violated, in words.
 pub fn sequence(seed: u64, number: u64) -> Result<usize, String> {
     let run = catch_unwind(AssertUnwindSafe(|| run(Random::of(seed, "design", number))));
     run.map_err(|_| "panic".to_owned())?
@@ -189,7 +194,8 @@ fn change(random: &mut Random, design: &mut Design) -> Result<(), EditError> {
         }
         _ => {
             let surface_density = if random.index(2) == 0 { 0.0 } else { 10f64.powf(random.between(-9.0, -4.0)) };
-            edit::set_gravity(design, Some(Gravity { acceleration: [0.0, -9.81], surface_density }))
+            let gravity = Gravity { acceleration: [0.0, -9.81], surface_density };
+            edit::set_term(design, GRAVITY, Some(gravity.into()))
         }
     }
 }
@@ -198,9 +204,9 @@ fn material(random: &mut Random) -> Material {
     let mu = 10f64.powf(random.between(-4.0, 3.0));
     let ratio = if random.index(3) == 0 { 10f64.powf(random.between(0.0, 5.0)) } else { random.between(-0.1, 3.0) };
     if random.index(3) == 0 {
-        Material::StVenantKirchhoff { mu, lambda: ratio * mu }
+        StVenantKirchhoff { mu, lambda: ratio * mu }.into()
     } else {
-        Material::NeoHookean { mu, kappa: ratio * mu }
+        NeoHookean { mu, kappa: ratio * mu }.into()
     }
 }
 

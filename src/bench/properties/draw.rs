@@ -2,10 +2,9 @@
 
 use crate::bench::extremes::scenes;
 use crate::bench::random::Random;
+use crate::physics::NeoHookean;
 use crate::problem::Problem;
-use crate::problem::file::{
-    DragData, ElementData, MaterialData, MeshData, ObjectiveData, PinData, SoftIkData, TargetData,
-};
+use crate::problem::file::{DragData, ElementData, MeshData, ObjectiveData, PinData, SoftIkData, TargetData};
 
 /// The problem with this number. One in sixteen is broken on purpose ([`Drawn::broken`]).
 pub fn problem(seed: u64, number: u64) -> Drawn {
@@ -87,7 +86,7 @@ fn material(random: &mut Random, problem: &mut Problem) {
         1 => power(random, 1.0, 6.0),
         _ => random.between(0.2, 5.0),
     };
-    problem.material = MaterialData { mu, kappa: ratio * mu };
+    problem.material = NeoHookean { mu, kappa: ratio * mu }.into();
 }
 
 fn elements(random: &mut Random, problem: &mut Problem) {
@@ -102,8 +101,8 @@ fn elements(random: &mut Random, problem: &mut Problem) {
             routing.push((last + 1 + random.index(nodes - 1)) % nodes);
         }
         let length = scenes::rest_length(problem, &routing);
-        let stiffness =
-            problem.material.mu * if chance(random, 0.3) { power(random, -3.0, 9.0) } else { random.between(0.0, 5.0) };
+        let stiffness = problem.material.value("mu")
+            * if chance(random, 0.3) { power(random, -3.0, 9.0) } else { random.between(0.0, 5.0) };
         let epsilon = length * if chance(random, 0.3) { power(random, -9.0, -1.0) } else { 1e-2 };
         let alpha0 = length * if chance(random, 0.2) { random.between(0.1, 2.0) } else { 1.0 };
         contractions
@@ -127,14 +126,14 @@ fn pins(random: &mut Random, problem: &mut Problem) {
             1 => 0.0,
             _ => 1e3,
         };
-        problem.pins.push(PinData { node, target, stiffness: ratio * problem.material.mu });
+        problem.pins.push(PinData { node, target, stiffness: ratio * problem.material.value("mu") });
     }
 }
 
 fn weight(random: &mut Random, problem: &mut Problem) {
     let direction = random.direction();
     problem.gravity = Some(direction.map(|d| 9.81 * d));
-    problem.surface_density = Some(problem.material.mu * power(random, -6.0, -0.5) / 9.81);
+    problem.surface_density = Some(problem.material.value("mu") * power(random, -6.0, -0.5) / 9.81);
 }
 
 /// A state to start from: the body a little bent, or no body at all.
@@ -172,7 +171,7 @@ fn objective(random: &mut Random, problem: &mut Problem) {
             .map(|_| home.iter().map(|p| p.map(|v| v + random.between(-far, far))).collect())
             .collect();
         let report = (0..frames.len()).collect();
-        let weight = power(random, -6.0, -2.0) / (problem.material.mu * problem.material.mu);
+        let weight = power(random, -6.0, -2.0) / (problem.material.value("mu") * problem.material.value("mu"));
         problem.drag = Some(DragData { frames, report, tension_regulariser: weight });
     }
 }
@@ -198,7 +197,8 @@ fn damage(random: &mut Random, problem: &mut Problem) -> &'static str {
             "a node out of range"
         }
         2 => {
-            problem.material.mu = -problem.material.mu;
+            let mu = problem.material.value("mu");
+            problem.material.set("mu", -mu);
             "mu below zero"
         }
         3 => {
@@ -219,7 +219,7 @@ fn damage(random: &mut Random, problem: &mut Problem) -> &'static str {
             "a pin on no node"
         }
         7 => {
-            problem.material.kappa = f64::MAX;
+            problem.material.set("kappa", f64::MAX);
             "kappa without measure"
         }
         8 => {

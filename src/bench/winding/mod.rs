@@ -9,7 +9,7 @@
 pub mod rigs;
 
 use self::rigs::{Rig, rig};
-use super::report::significant;
+use super::figures::significant;
 use super::statistics::Summary;
 use super::{BenchError, Cell, Report, Session, Table};
 use crate::design::Target;
@@ -58,6 +58,10 @@ struct Scan {
 }
 
 impl Winding {
+    /// Runs the study.
+    ///
+    /// # Errors
+    /// A shape that cannot be meshed, or the study was cancelled.
     pub fn run(&self, session: &Session) -> Result<Report, BenchError> {
         let headings = [
             "rig",

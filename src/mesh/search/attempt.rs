@@ -2,13 +2,15 @@
 
 use super::budget::{REFINE_WORK, SMOOTH_WORK, VERTEX_WORK};
 use super::candidate::Candidate;
-use super::{Subject, most_nodes};
+use super::subject::{Subject, most_nodes};
+use crate::mesh::boundary::Boundary;
+use crate::mesh::order::order;
 use crate::mesh::quality::Quality;
 use crate::mesh::refine::{Fill, Refiner};
-use crate::mesh::sample::{Bends, Boundary, Closeness, Extra, sample};
+use crate::mesh::sample::{Bends, Closeness, Extra, sample};
 use crate::mesh::smooth::Sliding;
 use crate::mesh::symmetry::unfold;
-use crate::mesh::{Mesh, generate, smooth, tracks};
+use crate::mesh::{Mesh, smooth, tracks};
 
 /// Boundary spacings tried, relative to the evenly dense one.
 const SPACINGS: [f64; 18] =
@@ -149,7 +151,7 @@ impl<'a> Subject<'a> {
         let mut rim = Sliding { places, curves: self.rim.curves, stray: close.stray, mirror };
         smooth::smooth(&mut tri, &mut rim);
         let mut mesh = Mesh { nodes: tri.points, triangles: tri.corners };
-        generate::order(&mut mesh.triangles);
+        order(&mut mesh.triangles);
         if let Some(axis) = self.axis {
             let (low, high) = self.whole.bounding_box();
             mesh = unfold(&mesh, axis, (high[0] - low[0]).max(high[1] - low[1]));

@@ -1,8 +1,9 @@
 //! The reduced Hessian against differences of the gradient, and the ways to solve with it against each other.
 
+use super::damped::{Model as Quadratic, Point};
+use super::form::Form;
 use super::interior;
-use super::quadratic::{Model as Quadratic, Point};
-use super::saddle::{Form, Step};
+use super::saddle::Step;
 use super::*;
 use crate::physics::{Body, Contractile, Element, Model, NeoHookean, Pin, Pins};
 use crate::soft_ik::{Actuation, Objective, PointTarget, Winch, sensitivity};

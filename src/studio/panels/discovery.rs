@@ -1,9 +1,12 @@
 //! Proposing networks: parameters, progress, the proposals and their stages (fig. 6).
 
-use super::{Actions, State, heading, primary, wide};
-use crate::engine::Proposal;
-use crate::picture::scene::Stage;
+use super::{Actions, State, buttons, heading};
+use crate::picture::Stage;
+use crate::rigging::Proposal;
 use crate::studio::action::Action;
+use crate::studio::canvas::Hit;
+use crate::studio::commands::discovery::{ACCEPT, CANCEL, PROPOSE, REJECT};
+use crate::studio::commands::document::ESCAPE;
 use crate::studio::session::Session;
 use crate::studio::style;
 use eframe::egui::{
@@ -16,7 +19,10 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Act
     heading(ui, "Network discovery");
     match &session.discovery.running {
         Some(running) => progress(ui, running.started.elapsed(), actions),
-        None => propose(ui, session, actions),
+        None => {
+            let width = ui.available_width();
+            buttons::primary(ui, session, &PROPOSE, true, width, actions);
+        }
     }
     parameters(ui, session, actions);
     if session.discovery.proposals.is_empty() {
@@ -32,22 +38,10 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Act
             row(ui, session, index, proposal, actions);
         }
     });
-    if let Some(index) = session.discovery.shown.filter(|&i| i < session.discovery.proposals.len()) {
-        verdict(ui, index, actions);
+    if session.shown_proposal().is_some() {
+        verdict(ui, session, actions);
         ui.add_space(2.0);
         stages(ui, session, state, actions);
-    }
-}
-
-fn propose(ui: &mut Ui, session: &Session, actions: &mut Actions) {
-    let why_not = session.cannot_propose();
-    let width = ui.available_width();
-    let response = primary(ui, why_not.is_none(), "Propose networks", width);
-    let response = response
-        .on_hover_text("Look for winch-tendon networks that reach this pose (G)")
-        .on_disabled_hover_text(why_not.unwrap_or_default());
-    if response.clicked() {
-        actions.push(Action::Propose);
     }
 }
 
@@ -57,8 +51,8 @@ fn progress(ui: &mut Ui, elapsed: Duration, actions: &mut Actions) {
         // How long it takes is not known; the bar comes nearer and nearer to the end.
         let bar = ProgressBar::new(1.0 - (-seconds / 4.0).exp()).desired_width(ui.available_width() - 70.0);
         ui.add(bar.text(format!("{seconds:.0} s"))).on_hover_text("Trying candidates in simulation");
-        if ui.button("Cancel").on_hover_text("Stop looking (Esc)").clicked() {
-            actions.push(Action::CancelPropose);
+        if ui.button("Cancel").on_hover_text(ESCAPE.hint(CANCEL.tip)).clicked() {
+            actions.push(Action::Run(&CANCEL, Hit::Nothing));
         }
     });
     // The seconds go on counting.
@@ -153,15 +147,10 @@ fn thumbnail(ui: &mut Ui, session: &Session, state: &mut State, stage: Stage, na
     response
 }
 
-fn verdict(ui: &mut Ui, index: usize, actions: &mut Actions) {
+fn verdict(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     ui.horizontal(|ui| {
         let width = (ui.available_width() - 6.0) / 2.0;
-        if primary(ui, true, "Accept", width).on_hover_text("Build this network in (Enter)").clicked() {
-            actions.push(Action::Accept(index));
-        }
-        let reject = wide(ui, true, Button::new("Reject"), width);
-        if reject.on_hover_text("Drop this proposal (Backspace)").clicked() {
-            actions.push(Action::Reject(index));
-        }
+        buttons::primary(ui, session, &ACCEPT, true, width, actions);
+        buttons::wide(ui, session, &REJECT, width, actions);
     });
 }

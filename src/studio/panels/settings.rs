@@ -1,7 +1,8 @@
 //! Settings of the document: body, fibres, tendons, fabrication, motors.
 
 use super::{Actions, heading};
-use crate::design::Material;
+use crate::design::Term;
+use crate::physics::{Kind, MaterialKind, Setting, TermKind};
 use crate::studio::action::Action;
 use crate::studio::change::Change;
 use crate::studio::session::Session;
@@ -16,6 +17,7 @@ const VALUE: [f32; 2] = [130.0, 24.0];
 pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
         section(ui, "Body", |ui| body(ui, session, actions));
+        section(ui, "Forces", |ui| terms(ui, session, actions));
         section(ui, "Muscle fibres", |ui| fibers(ui, session, actions));
         section(ui, "Tendons", |ui| tendons(ui, session, actions));
         section(ui, "Fabrication", |ui| fabrication(ui, session, actions));
@@ -32,7 +34,7 @@ fn section(ui: &mut Ui, name: &str, rows: impl FnOnce(&mut Ui)) {
 /// A row with a number. True if it was changed.
 fn number(ui: &mut Ui, name: &str, unit: &str, tip: &str, value: &mut f64, range: RangeInclusive<f64>) -> bool {
     let label = ui.label(name).on_hover_text(tip);
-    let speed = (*value * 0.01).max(1e-3);
+    let speed = (value.abs() * 0.01).max(1e-3);
     let suffix = if unit.is_empty() { String::new() } else { format!(" {unit}") };
     let drag = DragValue::new(value).range(range).speed(speed).max_decimals(3).suffix(suffix);
     let changed = ui.add_sized(VALUE, drag).labelled_by(label.id).on_hover_text(tip).changed();
@@ -54,26 +56,56 @@ fn count(ui: &mut Ui, name: &str, unit: &str, tip: &str, value: &mut u32, range:
 fn body(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     let mut material = session.design().material;
     let label = ui.label("Material").on_hover_text("How the stuffed body answers to strain");
-    let (neo, stvk) = ("Neo-Hookean", "St. Venant-Kirchhoff");
-    let (shear, other) = match material {
-        Material::NeoHookean { mu, kappa } => (mu, kappa),
-        Material::StVenantKirchhoff { mu, lambda } => (mu, lambda),
-    };
-    let name = if matches!(material, Material::NeoHookean { .. }) { neo } else { stvk };
+    let name = material.kind().label;
     let combo = ComboBox::from_id_salt("material").selected_text(name).width(VALUE[0]).truncate().show_ui(ui, |ui| {
-        ui.selectable_value(&mut material, Material::NeoHookean { mu: shear, kappa: other }, neo);
-        ui.selectable_value(&mut material, Material::StVenantKirchhoff { mu: shear, lambda: other }, stvk);
+        for kind in MaterialKind::all() {
+            let other =
+                if kind.name == material.kind().name { material } else { session.design().material.turned_into(kind) };
+            ui.selectable_value(&mut material, other, kind.label);
+        }
     });
     combo.response.labelled_by(label.id);
     ui.end_row();
-    let (mu, second, second_name) = match &mut material {
-        Material::NeoHookean { mu, kappa } => (mu, kappa, "Kappa"),
-        Material::StVenantKirchhoff { mu, lambda } => (mu, lambda, "Lambda"),
-    };
-    number(ui, "Mu", "N/mm", "Shear modulus, thickness multiplied in", mu, 1e-3..=1e3);
-    number(ui, second_name, "N/mm", "Resistance to change of area, thickness multiplied in", second, 1e-3..=1e3);
+    parameters(ui, &mut material);
     if material != session.design().material {
         actions.push(Action::Live(Change::Material(material)));
+    }
+}
+
+/// The optional energy terms of the catalogue, each with a switch.
+fn terms(ui: &mut Ui, session: &Session, actions: &mut Actions) {
+    let present = session.design().all_terms();
+    for &kind in TermKind::all() {
+        let mut term = present.iter().find(|t| t.kind().name == kind.name).copied();
+        let before = term;
+        let mut on = term.is_some();
+        let label = ui.label(kind.label).on_hover_text(kind.tip);
+        if ui.checkbox(&mut on, "").labelled_by(label.id).on_hover_text(kind.tip).changed() {
+            term = on.then(|| Term::default_of(kind));
+        }
+        ui.end_row();
+        if let Some(term) = &mut term {
+            parameters(ui, term);
+        }
+        if term != before {
+            actions.push(Action::Live(Change::Term(kind, term)));
+        }
+    }
+}
+
+/// A row for every number of a choice from a catalogue.
+fn parameters<K: Kind>(ui: &mut Ui, setting: &mut Setting<K>) {
+    for (parameter, values) in setting.each_mut() {
+        let (unit, factor) = parameter.shown.unwrap_or((parameter.unit, 1.0));
+        let [low, high] = parameter.offered.map(|end| end * factor);
+        for (value, axis) in values.iter_mut().zip(["x", "y"]) {
+            let name =
+                if parameter.size == 1 { parameter.label.to_owned() } else { format!("{} {axis}", parameter.label) };
+            let mut shown = *value * factor;
+            if number(ui, &name, unit, parameter.tip, &mut shown, low..=high) {
+                *value = shown / factor;
+            }
+        }
     }
 }
 

@@ -1,111 +1,54 @@
-//! What a view shows, made anew only when something it depends on has changed.
+//! What a view shows, made anew only when the inputs of one of its layers have changed.
 
 use super::geometry::Geometry;
 use super::renderer::ViewCallback;
-use super::{Pane, Plushie, solved};
-use crate::design::Design;
-use crate::engine::{Proposal, Shape};
-use crate::picture::palette::Theme;
-use crate::picture::scene::{self, Options, Stage};
-use crate::picture::{Scene, Texture};
-use crate::studio::session::{Mode, Selection, Session};
+use crate::engine::Shape;
+use crate::picture::{Layers, Subject};
+use crate::studio::canvas::{Canvas, Plushie};
+use crate::studio::session::{Selection, Session};
 use eframe::egui::Ui;
 use std::sync::Arc;
-
-/// Everything a drawing depends on. It keeps what it was made from alive, so that equal addresses mean equal things.
-struct Drawn {
-    design: Arc<Design>,
-    shape: Option<Arc<Shape>>,
-    proposal: Option<Arc<Proposal>>,
-    texture: Option<Arc<Texture>>,
-    options: (Stage, Option<usize>, Mode, Selection, Theme, bool, bool),
-}
-
-impl Drawn {
-    fn new(session: &Session, plushie: Plushie) -> Self {
-        let look = &session.look;
-        Self {
-            design: session.design().clone(),
-            shape: solved(session, plushie).cloned(),
-            proposal: session.shown_proposal().cloned(),
-            texture: shown_texture(session).cloned(),
-            options: (
-                session.discovery.stage,
-                session.pose,
-                session.mode,
-                session.selection,
-                look.theme,
-                look.fibers,
-                look.networks,
-            ),
-        }
-    }
-
-    fn same(&self, other: &Self) -> bool {
-        fn same<T>(a: &Option<Arc<T>>, b: &Option<Arc<T>>) -> bool {
-            a.as_ref().map(Arc::as_ptr) == b.as_ref().map(Arc::as_ptr)
-        }
-        Arc::ptr_eq(&self.design, &other.design)
-            && same(&self.shape, &other.shape)
-            && same(&self.proposal, &other.proposal)
-            && same(&self.texture, &other.texture)
-            && self.options == other.options
-    }
-}
 
 /// The drawing of a view, and what it was made from.
 #[derive(Default)]
 pub struct Picture {
-    made: Option<(Drawn, Arc<Geometry>)>,
+    made: Option<(Layers, Arc<Geometry>)>,
 }
 
 impl Picture {
-    pub fn paint(&mut self, ui: &Ui, pane: &Pane<'_>, shape: &Shape) {
-        let drawn = Drawn::new(pane.session, pane.plushie);
+    pub fn paint(&mut self, ui: &Ui, canvas: &Canvas<'_>, plushie: Plushie, shape: &Arc<Shape>) {
+        let layers = Layers::of(&subject(canvas.session, plushie, shape));
         let geometry = match &self.made {
-            Some((before, geometry)) if before.same(&drawn) => geometry.clone(),
+            Some((before, geometry)) if *before == layers => geometry.clone(),
             _ => {
-                let geometry = Arc::new(Geometry::of(&draw(pane.session, pane.plushie, shape)));
-                self.made = Some((drawn, geometry.clone()));
+                let geometry = Arc::new(Geometry::of(&layers.scene()));
+                self.made = Some((layers, geometry.clone()));
                 geometry
             }
         };
-        let (slot, size) = (pane.plushie as u64, pane.rect.size());
-        let callback = ViewCallback { slot, camera: pane.camera, size, geometry };
-        ui.painter().add(egui_wgpu::Callback::new_paint_callback(pane.rect, callback));
+        let (slot, size) = (plushie as u64, canvas.rect.size());
+        let callback = ViewCallback { slot, camera: canvas.camera, size, geometry };
+        ui.painter().add(egui_wgpu::Callback::new_paint_callback(canvas.rect, callback));
     }
 }
 
-fn shown_texture(session: &Session) -> Option<&Arc<Texture>> {
-    session.texture().filter(|_| session.look.texture)
-}
-
-fn draw(session: &Session, plushie: Plushie, shape: &Shape) -> Scene {
-    let look = &session.look;
+/// What the view of a plushie is a picture of.
+fn subject<'a>(session: &'a Session, plushie: Plushie, shape: &'a Arc<Shape>) -> Subject<'a> {
     let selected_target = match session.selection {
         Selection::Target(index) => Some(index),
         _ => None,
     };
-    let options = Options {
-        theme: look.theme,
-        texture: shown_texture(session),
-        fibers: look.fibers && plushie == Plushie::Idealized,
-        networks: look.networks,
-        pins: true,
+    let proposal = session.shown_proposal();
+    let idealized = plushie == Plushie::Idealized;
+    Subject {
+        fibers: idealized,
+        theme: session.look.theme,
+        shown: &session.look.shown,
+        texture: session.texture(),
         targets: session.targets(),
         selected_target,
-        stage: None,
-    };
-    match (plushie, session.shown_proposal()) {
-        (Plushie::Idealized, Some(proposal)) => {
-            let stage = Some((session.discovery.stage, &proposal.stages));
-            scene::scene(session.design(), shape, &Options { stage, ..options })
-        }
-        (Plushie::Realizable, Some(proposal)) => {
-            let mut design = Design::clone(session.design());
-            design.networks.push(proposal.network.clone());
-            scene::scene(&design, shape, &options)
-        }
-        _ => scene::scene(session.design(), shape, &options),
+        proposed: proposal.filter(|_| !idealized).map(|proposal| &proposal.network),
+        stage: proposal.filter(|_| idealized).map(|proposal| (session.discovery.stage, &proposal.stages)),
+        ..Subject::new(session.design(), shape)
     }
 }

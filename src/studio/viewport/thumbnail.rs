@@ -1,12 +1,15 @@
 //! The stages of a discovery as small pictures, like the paper's fig. 6.
 
-use super::camera::Camera;
 use super::geometry::Geometry;
 use super::renderer::ViewCallback;
 use crate::design::Design;
-use crate::engine::{Proposal, Shape};
+use crate::engine::Shape;
+use crate::outline::polygon;
+use crate::picture::layers::{Layer, Pins};
 use crate::picture::palette::Theme;
-use crate::picture::scene::{Options, Stage, scene};
+use crate::picture::{Layers, Shown, Stage, Subject};
+use crate::rigging::Proposal;
+use crate::studio::canvas::Camera;
 use crate::studio::session::Session;
 use eframe::egui::{Rect, Ui};
 use std::sync::Arc;
@@ -43,7 +46,7 @@ impl Thumbnails {
             self.made = Some(Made { design: design.clone(), proposal: proposal.clone(), theme, pictures });
         }
         let Some(made) = &self.made else { return };
-        let (low, high) = super::bounds(design);
+        let (low, high) = polygon::bounding_box(&design.mesh.nodes);
         let callback = ViewCallback {
             slot: FIRST_SLOT + stage as u64,
             camera: Camera::fit(low, high, rect.size()),
@@ -55,10 +58,12 @@ impl Thumbnails {
 }
 
 /// The rest shape with the stage on it.
-fn picture(design: &Design, proposal: &Proposal, theme: Theme, stage: Stage) -> Geometry {
-    let rest = Shape { nodes: design.mesh.nodes.clone(), ..Shape::default() };
-    let options = Options { theme, pins: false, stage: Some((stage, &proposal.stages)), ..Options::default() };
-    let mut geometry = Geometry::of(&scene(design, &rest, &options));
+fn picture(design: &Arc<Design>, proposal: &Proposal, theme: Theme, stage: Stage) -> Geometry {
+    let rest = Arc::new(Shape { nodes: design.mesh.nodes.clone(), ..Shape::default() });
+    let shown = Shown::default().with(Pins::NAME, false);
+    let stage = Some((stage, &proposal.stages));
+    let subject = Subject { theme, shown: &shown, stage, ..Subject::new(design, &rest) };
+    let mut geometry = Geometry::of(&Layers::of(&subject).scene());
     for capsule in &mut geometry.capsules {
         capsule.radius *= THINNER;
         capsule.inner *= THINNER;

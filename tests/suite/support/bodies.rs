@@ -1,7 +1,7 @@
 //! Small bodies for the tests of the solvers: bars with fibres, tendons and pins.
 
 use super::Random;
-use plushwright::physics::{Body, Contractile, Element, Energy, Material, Model, NeoHookean, Pin, Pins};
+use plushwright::physics::{Body, Contractile, Element, Energy, Hyperelastic, Model, NeoHookean, Pin, Pins};
 
 /// Nodes and counter-clockwise triangles.
 #[derive(Clone)]
@@ -90,13 +90,13 @@ impl Mesh {
         Pins { pins: (0..=self.rows).map(pin).collect() }
     }
 
-    pub fn body(&self, material: Box<dyn Material>, stiffness: Option<&[f64]>) -> Body {
+    pub fn body(&self, material: Box<dyn Hyperelastic>, stiffness: Option<&[f64]>) -> Body {
         Body::new(&self.nodes, &self.triangles, material, stiffness).expect("the mesh is valid")
     }
 
     pub fn model(
         &self,
-        material: Box<dyn Material>,
+        material: Box<dyn Hyperelastic>,
         elements: Vec<Element>,
         pins: Pins,
         terms: Vec<Box<dyn Energy>>,
@@ -106,7 +106,7 @@ impl Mesh {
     }
 }
 
-pub fn neo_hookean() -> Box<dyn Material> {
+pub fn neo_hookean() -> Box<dyn Hyperelastic> {
     Box::new(NeoHookean { mu: 1.0, kappa: 2.0 })
 }
 

@@ -1,0 +1,92 @@
+//! What a compiled model depends on.
+
+use crate::design::{Design, FiberSettings, Material, Network, Pin, TendonSettings, Term};
+use crate::mesh::Mesh;
+
+/// The parts of a design that a model is compiled from, and nothing else: two designs with equal specs have the same model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BodySpec<'a> {
+    pub mesh: &'a Mesh,
+    pub material: Material,
+    pub stiffness_map: Option<&'a [f64]>,
+    pub fibers: &'a FiberSettings,
+    pub tendons: &'a TendonSettings,
+    pub pins: &'a [Pin],
+    pub networks: &'a [Network],
+    pub terms: Vec<Term>,
+}
+
+impl<'a> BodySpec<'a> {
+    pub fn of(design: &'a Design) -> Self {
+        // Taken apart in full: a field added to the document has to be sorted here.
+        let Design {
+            mesh,
+            material,
+            stiffness_map,
+            fibers,
+            tendons,
+            pins,
+            networks,
+            gravity: _,
+            terms: _,
+            version: _,
+            name: _,
+            outline: _,
+            poses: _,
+            keyframes: _,
+            fabrication: _,
+            controller: _,
+            drawing: _,
+            texture: _,
+            texture_box: _,
+        } = design;
+        Self {
+            mesh,
+            material: *material,
+            stiffness_map: stiffness_map.as_deref(),
+            fibers,
+            tendons,
+            pins,
+            networks,
+            terms: design.all_terms(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::{Gravity, testing};
+
+    #[test]
+    fn what_the_physics_reads_makes_another_body_and_nothing_else_does() {
+        let design = testing::sample();
+        let same: [fn(&mut Design); 4] = [
+            |d| d.name.push('x'),
+            |d| d.poses.clear(),
+            |d| d.keyframes.clear(),
+            |d| d.fabrication.seam_allowance_mm += 1.0,
+        ];
+        let other: [fn(&mut Design); 8] = [
+            |d| d.mesh.nodes[0][0] += 1e-9,
+            |d| d.material.set("mu", 0.5),
+            |d| d.stiffness_map = Some(vec![1.0; d.mesh.triangles.len()]),
+            |d| d.fibers.stiffness *= 2.0,
+            |d| d.tendons.stiffness *= 2.0,
+            |d| d.pins.clear(),
+            |d| d.networks.clear(),
+            |d| d.gravity = Some(Gravity { acceleration: [0.0, -9.81], surface_density: 1e-6 }),
+        ];
+        let changed = |change: fn(&mut Design)| {
+            let mut design = design.clone();
+            change(&mut design);
+            design
+        };
+        for change in same {
+            assert_eq!(BodySpec::of(&changed(change)), BodySpec::of(&design));
+        }
+        for change in other {
+            assert_ne!(BodySpec::of(&changed(change)), BodySpec::of(&design));
+        }
+    }
+}

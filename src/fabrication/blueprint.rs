@@ -1,0 +1,85 @@
+//! The files of a blueprint: every product by every writer, in memory and on the disk.
+
+use super::error::ExportError;
+use super::product::{Section, Source};
+use super::products::PRODUCTS;
+use super::writers;
+use crate::design::Design;
+use crate::files::folder::{self, Listed, MANIFEST};
+use crate::motion::{self, Trajectory};
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+const MANIFEST_FORMAT: &str = "plushwright-blueprint/1";
+/// The beginning of the format of an earlier export, whatever its version.
+const ANY_VERSION: &str = "plushwright-blueprint/";
+
+/// The contents of an export.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Manifest {
+    /// `plushwright-blueprint/1`.
+    pub format: String,
+    pub design: String,
+    /// Every file but the manifest itself.
+    pub files: Vec<Listed>,
+    /// Remarks for the user on this blueprint (a motor too slow, a gap too small, ...).
+    pub remarks: Vec<String>,
+}
+
+/// One file of a blueprint, in memory.
+#[derive(Clone, Debug, PartialEq)]
+pub struct File {
+    pub name: String,
+    pub bytes: Vec<u8>,
+}
+
+/// Writes the blueprint of a design as a folder, which appears whole or not at all. An earlier export there is
+/// replaced; a folder that holds anything else is refused.
+///
+/// # Errors
+/// A folder that is not ours or was changed by hand, what [`blueprint`] refuses, and what the system says of the disk.
+pub fn export(design: &Design, dir: &Path) -> Result<Manifest, ExportError> {
+    folder::check(dir, ANY_VERSION)?;
+    let (files, manifest) = blueprint(design)?;
+    let files: Vec<(&str, &[u8])> = files.iter().map(|file| (file.name.as_str(), file.bytes.as_slice())).collect();
+    folder::write(dir, ANY_VERSION, &files)?;
+    Ok(manifest)
+}
+
+/// Makes all files of the blueprint, the manifest last. The same design gives the same bytes.
+///
+/// # Errors
+/// A design that is not sound or has no networks, and an animation that the motors cannot be told.
+pub fn blueprint(design: &Design) -> Result<(Vec<File>, Manifest), ExportError> {
+    motion::check(design)?;
+    design.validate()?;
+    if design.networks.is_empty() {
+        return Err(ExportError::NoNetworks);
+    }
+    let trajectory = Trajectory::of(design)?;
+    let (mut files, mut sections, mut remarks) = (Vec::new(), Vec::new(), Vec::new());
+    for make in PRODUCTS {
+        let source = Source { design, trajectory: &trajectory, sections: &sections, remarks: &remarks };
+        let part = make(&source)?;
+        let written: Vec<File> = part.products.iter().flat_map(writers::written).map(File::from).collect();
+        sections.push(Section { files: written.iter().map(|file| file.name.clone()).collect(), guide: part.guide });
+        remarks.extend(part.remarks);
+        files.extend(written);
+    }
+    let manifest = Manifest {
+        format: MANIFEST_FORMAT.into(),
+        design: design.name.clone(),
+        files: files.iter().map(|file: &File| Listed::of(&file.name, &file.bytes)).collect(),
+        remarks,
+    };
+    let json = serde_json::to_string_pretty(&manifest)
+        .map_err(|e| ExportError::Write { path: MANIFEST.into(), source: e.into() })?;
+    files.push(File { name: MANIFEST.into(), bytes: (json + "\n").into_bytes() });
+    Ok((files, manifest))
+}
+
+impl From<(String, Vec<u8>)> for File {
+    fn from((name, bytes): (String, Vec<u8>)) -> Self {
+        Self { name, bytes }
+    }
+}

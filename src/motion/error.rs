@@ -1,0 +1,19 @@
+//! The errors of motion.
+
+use super::limits::{MAX_COUNTS, MAX_NODES, MAX_RESOLUTION, MAX_STEPS};
+use thiserror::Error;
+
+/// An animation that the motors cannot be told.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum MotionError {
+    #[error(
+        "the animation has {steps:.3e} steps, more than {MAX_STEPS:.0}: shorten it or lower controller.track_rate_hz"
+    )]
+    TooLong { steps: f64 },
+    #[error("winch {winch:?} would have to go to {counts:.3e} counts, beyond the controller's {MAX_COUNTS:.0}")]
+    TooFar { winch: String, counts: f64 },
+    #[error("{winches} winches are more than the {MAX_NODES} nodes of the controllers' network")]
+    TooManyWinches { winches: usize },
+    #[error("controller.encoder_lines: 4 x {lines} is more than the {MAX_RESOLUTION} the controllers take")]
+    EncoderTooFine { lines: u32 },
+}

@@ -1,0 +1,10 @@
+//! Limits of the controllers and their files.
+
+/// Most steps of a trajectory: over five hours at the default rate. A guard against a file of many gigabytes.
+pub const MAX_STEPS: f64 = 1e6;
+/// Largest position the classic controllers take, counts (unconfirmed, from their manuals' command list).
+pub const MAX_COUNTS: f64 = 1.8e9;
+/// Nodes of the RS-232 network are numbered 1 to this (0 is the factory setting).
+pub const MAX_NODES: usize = 255;
+/// Largest encoder resolution, counts per revolution.
+pub const MAX_RESOLUTION: u32 = 65535;

@@ -1,0 +1,92 @@
+//! Trajectories of the winches: how much cable each spool has wound at each step of the animation.
+
+use super::error::MotionError;
+use super::limits::{MAX_COUNTS, MAX_STEPS};
+use super::winches::winch_labels;
+use crate::design::{Design, Keyframe, animation};
+use std::f64::consts::PI;
+
+/// Positions of all winches over the animation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trajectory {
+    /// Names of the winches, in the order of the networks: the columns of the rows below.
+    pub winches: Vec<String>,
+    pub times_s: Vec<f64>,
+    /// Cable wound on a spool of ratio 1, mm, rounded to the six decimals of the table; 0 is the just-slack rest state.
+    pub lengths_mm: Vec<Vec<f64>>,
+    /// Encoder counts of the rounded lengths.
+    pub counts: Vec<Vec<i64>>,
+}
+
+/// `4 * encoder_lines * gear_ratio / (2 pi * spool_radius)`, counts per mm of cable.
+pub fn counts_per_mm(design: &Design) -> f64 {
+    let lines = f64::from(design.controller.encoder_lines);
+    4.0 * lines * design.controller.gear_ratio / (2.0 * PI * design.fabrication.spool_radius_mm)
+}
+
+/// Refuses an animation that is beyond what a trajectory can hold, by its keyframes alone: the design need not be sound.
+///
+/// # Errors
+/// Too many steps, or a position beyond the controllers'.
+pub fn check(design: &Design) -> Result<(), MotionError> {
+    let steps = animation::track_steps(design);
+    if steps.is_nan() || steps > MAX_STEPS {
+        return Err(MotionError::TooLong { steps });
+    }
+    let (scale, winches) = (counts_per_mm(design), winch_labels(design));
+    let lengths = |k: &'_ Keyframe| winches.iter().cloned().zip(k.activations_mm.clone()).collect::<Vec<_>>();
+    for (winch, length) in design.keyframes.iter().flat_map(lengths) {
+        let counts = (scale * length).round();
+        if counts.is_nan() || counts.abs() > MAX_COUNTS {
+            return Err(MotionError::TooFar { winch, counts });
+        }
+    }
+    Ok(())
+}
+
+impl Trajectory {
+    /// The whole animation at the track rate; a single step of zeros without keyframes.
+    ///
+    /// # Errors
+    /// Too many steps, or a position beyond the controllers'.
+    pub fn of(design: &Design) -> Result<Self, MotionError> {
+        check(design)?;
+        let winches = winch_labels(design);
+        let scale = counts_per_mm(design);
+        let times_s = animation::track_times(design);
+        let mut lengths_mm = Vec::with_capacity(times_s.len());
+        let mut counts = Vec::with_capacity(times_s.len());
+        for &time in &times_s {
+            let lengths: Vec<f64> = animation::activations_at(design, time).into_iter().map(six_decimals).collect();
+            let mut row = Vec::with_capacity(lengths.len());
+            for (winch, length) in winches.iter().zip(&lengths) {
+                let position = (scale * length).round();
+                if position.is_nan() || position.abs() > MAX_COUNTS {
+                    return Err(MotionError::TooFar { winch: winch.clone(), counts: position });
+                }
+                row.push(position as i64);
+            }
+            lengths_mm.push(lengths);
+            counts.push(row);
+        }
+        Ok(Self { winches, times_s, lengths_mm, counts })
+    }
+
+    /// Lowest and highest position of a winch, counts.
+    pub fn range(&self, winch: usize) -> (i64, i64) {
+        let positions = || self.counts.iter().map(|row| row[winch]);
+        (positions().min().unwrap_or(0), positions().max().unwrap_or(0))
+    }
+
+    /// Fastest motor speed that the trajectory asks of a winch, rpm.
+    pub fn peak_rpm(&self, winch: usize, encoder_lines: u32) -> f64 {
+        let steps = self.times_s.windows(2).zip(self.counts.windows(2));
+        let speeds = steps.map(|(t, c)| (c[1][winch] - c[0][winch]).abs() as f64 / (t[1] - t[0]));
+        speeds.fold(0.0, f64::max) * 60.0 / (4.0 * f64::from(encoder_lines))
+    }
+}
+
+/// Rounds as the table prints, so that the counts beside a length are those of that length; never a negative zero.
+fn six_decimals(v: f64) -> f64 {
+    format!("{v:.6}").parse::<f64>().unwrap_or(v) + 0.0
+}

@@ -1,0 +1,26 @@
+//! Lines and discs that several layers draw, and their sizes in logical pixels.
+
+use crate::engine::Shape;
+use crate::outline::Point;
+use crate::picture::scene::{Color, Item};
+
+pub const SEAM: f32 = 3.0;
+pub const FIBER_PASSIVE: f32 = 1.0;
+pub const FIBER_ACTIVE: f32 = 3.2;
+pub const TENDON: f32 = 3.4;
+pub const CASING: f32 = 6.0;
+pub const VIA: f32 = 2.6;
+pub const WINCH: f32 = 8.5;
+pub const PIN: f32 = 6.0;
+pub const TARGET: f32 = 5.0;
+pub const GOAL: f32 = 7.0;
+
+/// A line through nodes of a shape; those that it does not have are left out.
+pub fn path(routing: &[usize], shape: &Shape, width: f32, color: Color) -> Item {
+    let points = routing.iter().filter_map(|&n| shape.nodes.get(n).copied()).collect();
+    Item::Line { points, width, color, closed: false }
+}
+
+pub fn disc(center: Point, radius: f32, fill: Color, stroke: Option<(f32, Color)>) -> Item {
+    Item::Disc { center, radius, fill, stroke }
+}

@@ -1,0 +1,80 @@
+//! The layers of a picture, from the body upward: one file each, one line each in [`LAYERS`].
+//!
+//! A layer takes its own inputs from the [`Subject`] and draws from these alone. [`Layers`] are the inputs of a whole picture:
+//! whoever keeps what was drawn compares them, and draws anew where they differ.
+
+mod felt;
+mod fibers;
+mod layer;
+mod marks;
+mod pins;
+mod seam;
+mod stages;
+mod subject;
+mod targets;
+mod tendons;
+mod texture;
+
+pub use felt::Felt;
+pub use fibers::Fibers;
+pub use layer::{Entry, Layer, Shared, Stroke, Switch};
+pub use pins::Pins;
+pub use seam::Seam;
+pub use stages::Discovery;
+pub use subject::{Shown, Stage, Subject};
+pub use targets::Targets;
+pub use tendons::Tendons;
+pub use texture::Textured;
+
+use super::scene::Scene;
+use layer::Inputs;
+
+/// All layers in painting order.
+pub const LAYERS: &[Entry] = &[
+    Entry::of::<Felt>(),
+    Entry::of::<Textured>(),
+    Entry::of::<Seam>(),
+    Entry::of::<Fibers>(),
+    Entry::of::<Discovery>(),
+    Entry::of::<Tendons>(),
+    Entry::of::<Pins>(),
+    Entry::of::<Targets>(),
+];
+
+impl Shown {
+    /// Whether a layer is shown; `false` for a name that no layer has.
+    pub fn shows(&self, name: &str) -> bool {
+        LAYERS.iter().any(|entry| entry.name == name && entry.is_shown(self))
+    }
+}
+
+/// The inputs of all layers of a picture. Equal ones make the same picture.
+#[derive(Debug, Default)]
+pub struct Layers(Vec<Box<dyn Inputs>>);
+
+impl Layers {
+    /// Takes the inputs of every layer that is shown. A shape of another mesh has none.
+    pub fn of(subject: &Subject<'_>) -> Self {
+        if subject.shape.nodes.len() != subject.design.mesh.nodes.len() {
+            return Self::default();
+        }
+        let shown = LAYERS.iter().filter(|entry| entry.is_shown(subject.shown));
+        Self(shown.filter_map(|entry| (entry.take)(subject)).collect())
+    }
+
+    /// Draws them.
+    pub fn scene(&self) -> Scene {
+        let mut scene = Scene::default();
+        self.0.iter().for_each(|layer| layer.draw(&mut scene.items));
+        scene
+    }
+}
+
+impl PartialEq for Layers {
+    fn eq(&self, other: &Self) -> bool {
+        self.0.len() == other.0.len() && self.0.iter().zip(&other.0).all(|(a, b)| a.same(&**b))
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,126 @@
+//! Items that the layers draw, and pictures that are the same.
+
+use super::*;
+use crate::design::{Design, Network, Pin, Target, Tendon};
+use crate::discovery::Stages;
+use crate::engine::Shape;
+use crate::mesh::{BodyPoint, Mesh};
+use crate::outline::Outline;
+use crate::picture::palette::{Palette, Theme};
+use crate::picture::scene::{Color, Item};
+use std::sync::Arc;
+
+/// A square of two triangles with a pin, a target and a network along its diagonal.
+fn design() -> Arc<Design> {
+    let mesh =
+        Mesh { nodes: vec![[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0]], triangles: vec![[0, 1, 2], [0, 2, 3]] };
+    let at = BodyPoint { triangle: 0, weights: [1.0, 0.0, 0.0] };
+    let outline = Outline { outer: mesh.nodes.clone(), holes: Vec::new() };
+    let mut design = Design::new("square", outline, mesh);
+    design.pins.push(Pin { at, position: None, stiffness: 1.0 });
+    let tendon = Tendon { routing: vec![0, 2], ratio: 1.0, slack_mm: 0.0 };
+    design.networks.push(Network { name: "A".to_owned(), tendons: vec![tendon] });
+    Arc::new(design)
+}
+
+fn rest(design: &Design) -> Arc<Shape> {
+    Arc::new(Shape { nodes: design.mesh.nodes.clone(), ..Shape::default() })
+}
+
+fn lines_of(scene: &Scene, wanted: Color) -> usize {
+    scene.items.iter().filter(|item| matches!(item, Item::Line { color, .. } if *color == wanted)).count()
+}
+
+#[test]
+fn every_part_is_drawn_once() {
+    let design = design();
+    let palette = Palette::of(Theme::Light);
+    let target = Target { at: design.pins[0].at, to: [5.0, 20.0], weight: 1.0 };
+    let scene = Layers::of(&Subject { targets: &[target], ..Subject::new(&design, &rest(&design)) }).scene();
+    assert_eq!(lines_of(&scene, palette.seam), 1);
+    assert_eq!(lines_of(&scene, palette.fiber_passive), 5);
+    assert_eq!(lines_of(&scene, palette.winch(0)), 1);
+    let winches = scene.items.iter().filter(|i| matches!(i, Item::Disc { fill, .. } if *fill == palette.winch_fill));
+    assert_eq!(winches.count(), 1);
+    let goals = scene.items.iter().filter(|i| matches!(i, Item::Disc { center, .. } if *center == [5.0, 20.0]));
+    assert_eq!(goals.count(), 2);
+}
+
+#[test]
+fn the_most_contracted_fibre_is_the_reddest_and_on_top() {
+    let design = design();
+    let contracted = Shape { fiber_contractions_mm: vec![0.0, 3.0, 1.0, 0.0, 0.0], ..Shape::clone(&rest(&design)) };
+    let shape = Arc::new(contracted);
+    let shown = Shown::default().with(Tendons::NAME, false).with(Pins::NAME, false);
+    let scene = Layers::of(&Subject { shown: &shown, ..Subject::new(&design, &shape) }).scene();
+    let Some(Item::Line { points, color, .. }) = scene.items.last() else { panic!("no fibre") };
+    assert_eq!(*color, Palette::of(Theme::Light).fiber_active);
+    assert_eq!(*points, vec![[0.0, 0.0], [10.0, 10.0]]);
+}
+
+#[test]
+fn a_shape_of_another_mesh_is_not_drawn() {
+    let design = design();
+    assert_eq!(Layers::of(&Subject::new(&design, &Arc::default())).scene(), Scene::default());
+}
+
+#[test]
+fn every_stage_of_discovery_has_its_colours() {
+    let design = design();
+    let palette = Palette::of(Theme::Dark);
+    let stages = Arc::new(Stages {
+        weights: vec![1.0, 2.0, 0.0, 0.5, 0.0],
+        seeds: vec![[0, 1], [2, 3]],
+        start: vec![[0, 1]],
+        joins: vec![vec![1, 2]],
+        tree: vec![[0, 1], [1, 2], [2, 3]],
+        winch: 1,
+        tendons: vec![vec![1, 0], vec![1, 2, 3]],
+        score: 1.0,
+    });
+    let draw = |stage| {
+        let (theme, stage) = (Theme::Dark, Some((stage, &stages)));
+        Layers::of(&Subject { theme, stage, ..Subject::new(&design, &rest(&design)) }).scene()
+    };
+    assert_eq!(lines_of(&draw(Stage::Activation), palette.fiber_active), 1);
+    assert_eq!(lines_of(&draw(Stage::Seeds), palette.start), 1);
+    assert_eq!(lines_of(&draw(Stage::Tree), palette.join), 1);
+    assert_eq!(lines_of(&draw(Stage::Result), palette.proposed), 2);
+}
+
+#[test]
+fn a_picture_is_the_same_until_the_inputs_of_a_layer_differ() {
+    let design = design();
+    let shape = rest(&design);
+    let subject = Subject::new(&design, &shape);
+    let before = Layers::of(&subject);
+    assert_eq!(before, Layers::of(&subject));
+    let target = Target { at: design.pins[0].at, to: [5.0, 20.0], weight: 1.0 };
+    let (moved, hidden) = (rest(&design), Shown::default().with(Fibers::NAME, false));
+    let changed = Arc::new(Design { name: "other".into(), ..Design::clone(&design) });
+    let others = [
+        Subject { design: &changed, ..subject.clone() },
+        Subject { shape: &moved, ..subject.clone() },
+        Subject { theme: Theme::Dark, ..subject.clone() },
+        Subject { shown: &hidden, ..subject.clone() },
+        Subject { targets: &[target], ..subject.clone() },
+        Subject { proposed: Some(&design.networks[0]), ..subject.clone() },
+    ];
+    for other in &others {
+        assert_ne!(before, Layers::of(other), "{other:?}");
+    }
+    // What no layer takes is no reason to draw anew.
+    assert_eq!(before, Layers::of(&Subject { selected_target: Some(3), ..subject }));
+}
+
+#[test]
+fn names_and_keys_are_told_apart() {
+    let mut names: Vec<_> = LAYERS.iter().map(|entry| entry.name).collect();
+    let mut keys: Vec<_> = LAYERS.iter().filter_map(|entry| entry.switch?.key).collect();
+    let counts = (names.len(), keys.len());
+    names.sort_unstable();
+    names.dedup();
+    keys.sort_unstable();
+    keys.dedup();
+    assert_eq!((names.len(), keys.len()), counts);
+}

@@ -1,0 +1,50 @@
+//! The texture: the picture that the plushie was made of, on the felt.
+
+use super::layer::{Layer, Shared, Stroke, Switch};
+use super::subject::Subject;
+use crate::design::Design;
+use crate::engine::Shape;
+use crate::outline::Point;
+use crate::picture::scene::Item;
+use crate::picture::texture::Texture;
+use std::sync::Arc;
+
+/// The design's texture on the deformed body.
+#[derive(Debug, PartialEq)]
+pub struct Textured {
+    design: Shared<Design>,
+    shape: Shared<Shape>,
+    texture: Shared<Texture>,
+}
+
+/// A picture in its frame: a hill and the sun.
+const ICON: &[Stroke] = &[
+    Stroke::Line(&[(0.06, 0.12), (0.94, 0.12), (0.94, 0.88), (0.06, 0.88), (0.06, 0.12)]),
+    Stroke::Line(&[(0.08, 0.8), (0.36, 0.46), (0.56, 0.68), (0.7, 0.54), (0.92, 0.8)]),
+    Stroke::Dot(0.7, 0.33, 0.09),
+];
+
+impl Layer for Textured {
+    const NAME: &'static str = "texture";
+    const SWITCH: Option<Switch> = Some(Switch {
+        label: "Show the texture",
+        tip: "Show the texture: the picture that the plushie was made of",
+        key: Some('X'),
+        icon: ICON,
+        at_first: true,
+    });
+
+    fn of(subject: &Subject<'_>) -> Option<Self> {
+        let (design, shape) = (Shared::of(subject.design), Shared::of(subject.shape));
+        Some(Self { design, shape, texture: Shared::of(subject.texture?) })
+    }
+
+    fn draw(&self, items: &mut Vec<Item>) {
+        let [low, high] = self.design.texture_rect();
+        let place = |p: &Point| [(p[0] - low[0]) / (high[0] - low[0]), (high[1] - p[1]) / (high[1] - low[1])];
+        let mesh = &self.design.mesh;
+        let places = mesh.nodes.iter().map(place).collect();
+        let (points, triangles) = (self.shape.nodes.clone(), mesh.triangles.clone());
+        items.push(Item::Picture { points, places, triangles, texture: Arc::clone(&self.texture) });
+    }
+}
