@@ -1,4 +1,4 @@
-//! `bench cold --scenes N`: how often is the best pose missed?
+//! `bench cold` over many scenes: how often is the best pose missed?
 //!
 //! A scene is a bundled shape or one that is made from the seed ([`silhouettes`]), at rest, and one to six targets 8 to 45 % of the body
 //! length away. Three answers to it are compared with the best pose known: that of `soft_ik`'s default method, what a

@@ -1,13 +1,12 @@
 //! `export`: the blueprint, a folder that appears whole or not at all.
 
-use super::document;
-use super::error::{CommandError, check_cancel};
+use super::error::CommandError;
 use super::output::{say, say_json};
-use crate::design::Design;
-use crate::fabrication::{self, ExportError, Manifest};
+use super::{document, words};
+use crate::operations::{Context, export};
 use clap::Args;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
 /// Write the blueprint: patterns, routings, winch tracks, controller program
@@ -29,7 +28,10 @@ pub struct Export {
 impl Export {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
         let design = document::load(&self.design)?;
-        let manifest = export(&design, &self.design, &self.output, cancel)?;
+        let manifest = export::run(&design, &self.output, &Context::new(cancel)).map_err(|error| match error {
+            export::Error::Export(error) => words::unexported(&self.design, error),
+            export::Error::Cancelled(_) => CommandError::Cancelled,
+        })?;
         if self.json {
             return say_json(out, &manifest);
         }
@@ -41,14 +43,4 @@ impl Export {
         }
         Ok(())
     }
-}
-
-/// Writes the blueprint of `design`, which was read from `source`.
-pub fn export(design: &Design, source: &Path, folder: &Path, cancel: &AtomicBool) -> Result<Manifest, CommandError> {
-    check_cancel(cancel)?;
-    fabrication::export(design, folder).map_err(|error| match error {
-        ExportError::Write { path, source } => CommandError::write(&path, source),
-        ExportError::NotOurs { .. } | ExportError::Changed { .. } => CommandError::Usage(error.to_string()),
-        error => CommandError::input(source, error),
-    })
 }

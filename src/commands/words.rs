@@ -1,39 +1,75 @@
-//! What outlines have to say, in the words of the command line: every setting by its option.
+//! What the core has to say, in the words of the command line: its options by name.
 
-use crate::outline::{Changes, Note, OutlineError, Remedy};
+use super::error::CommandError;
+use crate::fabrication::ExportError;
+use crate::operations::{Progress, Unbalanced, new_design, reshape};
+use crate::outline::{Change, Changes, Note, OutlineError, Remedy};
+use crate::rigging;
 use serde::Serialize;
+use std::path::Path;
 
-/// The report of a clean-up as `--json` prints it.
-#[derive(Serialize)]
-pub struct CleanUp<'a> {
-    #[serde(flatten)]
-    changes: &'a Changes,
-    notes: Vec<String>,
-}
-
-impl<'a> CleanUp<'a> {
-    pub fn of(changes: &'a Changes) -> Self {
-        Self { changes, notes: changes.notes.iter().map(note).collect() }
+/// Why an outline made no design.
+pub fn unmade(path: &Path, error: new_design::Error) -> CommandError {
+    match error {
+        new_design::Error::Outline(error) => CommandError::input(path, outline(&error)),
+        new_design::Error::Mesh(error) => CommandError::input(path, error),
+        new_design::Error::Cancelled(_) => CommandError::Cancelled,
     }
 }
 
-/// A note, and the option that would change it.
-pub fn note(note: &Note) -> String {
-    if let Note::MoreFibers { asked, count } = note {
-        return format!("the outline needs more than {asked} fibers; it has {count}");
+/// Why a design was not given another silhouette.
+pub fn unshaped(design: &Path, path: &Path, error: reshape::Error) -> CommandError {
+    match error {
+        reshape::Error::Outline(error) => CommandError::input(path, outline(&error)),
+        reshape::Error::Mesh(error) => CommandError::input(path, error),
+        reshape::Error::Edit(error) => CommandError::input(design, error),
+        reshape::Error::Cancelled(_) => CommandError::Cancelled,
     }
+}
+
+/// Why there is no blueprint of a design.
+pub fn unexported(design: &Path, error: ExportError) -> CommandError {
+    match error {
+        ExportError::Write { path, source } => CommandError::write(&path, source),
+        ExportError::NotOurs { .. } | ExportError::Changed { .. } => CommandError::Usage(error.to_string()),
+        ExportError::NoNetworks => CommandError::input(design, format!("{error}; run `plushwright rig` first")),
+        error => CommandError::input(design, error),
+    }
+}
+
+/// Fails where a plushie did not come to equilibrium; for the end of a command, when what was found is written.
+pub fn balanced<'a>(unbalanced: impl IntoIterator<Item = &'a Unbalanced>) -> Result<(), CommandError> {
+    let told: Vec<String> = unbalanced.into_iter().map(Unbalanced::to_string).collect();
+    if told.is_empty() { Ok(()) } else { Err(CommandError::NotConverged(told.join("; "))) }
+}
+
+/// One line about a step of an operation.
+pub fn progress(step: &Progress) -> String {
+    match step {
+        Progress::Rig(rigging::Progress::Candidates { winch, count }) => {
+            format!("winch {}: {count} candidate networks", winch + 1)
+        }
+        Progress::Rig(rigging::Progress::Accepted { winch, tendons, errors }) => {
+            let errors: Vec<String> =
+                errors.iter().map(|(name, error)| format!("{name} {:.1} %", 100.0 * error)).collect();
+            format!("winch {}: {tendons} tendons; {}", winch + 1, errors.join(", "))
+        }
+    }
+}
+
+/// A note of a reader or the clean-up, and the option that would have it otherwise.
+fn note(note: &Note) -> String {
     match note.remedy() {
-        Some(Remedy::Unit) => format!("{note} (--unit sets another)"),
-        Some(Remedy::Threshold) => format!("{note} (--threshold sets another value)"),
-        Some(Remedy::Background) => format!("{note} (--background keep keeps it)"),
-        Some(Remedy::MinWidth) => format!("{note}; --min-width widens them"),
+        Some(remedy @ (Remedy::Unit | Remedy::Threshold | Remedy::Background)) => {
+            format!("{note} ({})", option(remedy))
+        }
         Some(remedy) => format!("{note}; {}", option(remedy)),
         None => note.to_string(),
     }
 }
 
-/// Why there is no outline, and the option that would help.
-pub fn outline_error(error: &OutlineError) -> String {
+/// Why there is no outline, and the option that may help.
+fn outline(error: &OutlineError) -> String {
     error.remedy().map_or_else(|| error.to_string(), |remedy| format!("{error}; {}", option(remedy)))
 }
 
@@ -46,5 +82,26 @@ fn option(remedy: Remedy) -> &'static str {
         Remedy::Holes => "--holes fill makes a solid body of it",
         Remedy::MinWidth => "--min-width widens them",
         Remedy::Pieces => "choose --pieces largest, or join them in the drawing",
+    }
+}
+
+/// The report of a clean-up as it is printed.
+#[derive(Serialize)]
+pub struct CleanUp<'a> {
+    #[serde(flatten)]
+    changes: &'a Changes,
+    notes: Vec<String>,
+}
+
+impl<'a> CleanUp<'a> {
+    /// `more`: what the operation has to say besides.
+    pub fn new<N: ToString>(changes: &'a Changes, more: &[N]) -> Self {
+        let notes = changes.notes.iter().map(note).chain(more.iter().map(N::to_string)).collect();
+        Self { changes, notes }
+    }
+
+    /// A line for each step and note.
+    pub fn lines(&self) -> impl Iterator<Item = String> {
+        self.changes.steps.iter().map(Change::line).chain(self.notes.iter().cloned())
     }
 }

@@ -5,6 +5,7 @@ use super::search::{Pool, Subject, Thoroughness};
 use super::symmetry::{self, Axis};
 use super::{Mesh, MeshError};
 use crate::outline::{Outline, Point};
+use serde::{Deserialize, Serialize};
 
 /// Most muscle fibres that are meshed: far beyond what a pose could be solved with.
 pub const MAX_FIBERS: usize = 200_000;
@@ -31,7 +32,7 @@ pub struct Request {
 }
 
 /// How fine a mesh is wanted.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Size {
     /// Number of edges: the muscle fibres.
     Fibers(usize),

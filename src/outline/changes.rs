@@ -51,7 +51,8 @@ pub struct Changes {
 }
 
 impl Change {
-    fn line(&self) -> String {
+    /// The step in words, for one line.
+    pub fn line(&self) -> String {
         let count = |one: &str, many: &str| match self.count {
             1 => format!("1 {one}"),
             n => format!("{n} {many}"),
@@ -70,11 +71,6 @@ impl Change {
 }
 
 impl Changes {
-    /// One line for each step and note, the notes in the given words.
-    pub fn lines(&self, words: impl Fn(&Note) -> String) -> Vec<String> {
-        self.steps.iter().map(Change::line).chain(self.notes.iter().map(words)).collect()
-    }
-
     pub(super) fn add(&mut self, what: What, count: usize, area: f64, asked: bool) {
         if count > 0 {
             self.steps.push(Change { what, count, area, asked });
@@ -88,17 +84,13 @@ mod tests {
 
     #[test]
     fn changes_are_told_in_words() {
-        let mut changes = Changes { notes: vec![Note::Filters], ..Default::default() };
+        let mut changes = Changes::default();
         changes.add(What::Specks, 0, 0.0, false);
         changes.add(What::Pinches, 1, 0.0001, false);
         changes.add(What::Holes, 3, 0.25, true);
         assert_eq!(
-            changes.lines(Note::to_string),
-            [
-                "1 pinched point joined (0.01 % of the area)",
-                "3 holes filled (25.00 % of the area)",
-                &Note::Filters.to_string()
-            ]
+            changes.steps.iter().map(Change::line).collect::<Vec<_>>(),
+            ["1 pinched point joined (0.01 % of the area)", "3 holes filled (25.00 % of the area)"]
         );
     }
 }

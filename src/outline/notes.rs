@@ -36,11 +36,6 @@ pub enum Note {
     },
     /// A silhouette of this height is small for a plushie, mm.
     Small(f64),
-    /// The outline needs more fibres than were asked for.
-    MoreFibers {
-        asked: usize,
-        count: usize,
-    },
 }
 
 /// A setting of [`super::Import`] that answers a [`Note`] or an error. Each front end has names of its own for them.
@@ -99,9 +94,6 @@ impl fmt::Display for Note {
             Self::ThinParts { count, width_mm } => write!(f, "{count} part(s) are thinner than {width_mm:.1} mm"),
             Self::Small(height_mm) => {
                 write!(f, "the silhouette is only {height_mm:.1} mm high, small for a plushie")
-            }
-            Self::MoreFibers { asked, count } => {
-                write!(f, "the outline needs more than {asked} fibres; it has {count}")
             }
         }
     }

@@ -1,5 +1,6 @@
 //! How to read an outline.
 
+use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 
 /// Largest file that is read, bytes. Reading the largest SVG takes about a gigabyte of memory and some seconds.
@@ -8,7 +9,7 @@ pub const MAX_FILE_BYTES: usize = 48 << 20;
 pub(super) const SIZES_MM: RangeInclusive<f64> = 1e-2..=1e6;
 
 /// What to do about several pieces.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Pieces {
     #[default]
     Refuse,
@@ -17,7 +18,7 @@ pub enum Pieces {
 }
 
 /// What to do about holes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Holes {
     #[default]
     Keep,
@@ -25,7 +26,7 @@ pub enum Holes {
 }
 
 /// What to do about a rectangle that fills the page below everything else.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Background {
     #[default]
     Drop,
@@ -33,7 +34,8 @@ pub enum Background {
 }
 
 /// How to read an outline.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Import {
     /// Height of the silhouette, mm; without it the file's own size counts.
     pub height_mm: Option<f64>,

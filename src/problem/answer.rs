@@ -181,13 +181,12 @@ impl Work<'_> {
         let (options, stop) = (self.options, self.stop);
         let actuation = free_actuation(self.inner)?;
         let beta_start = data.beta_start.clone().unwrap_or_else(|| vec![0.0; actuation.winches.len()]);
-        let method = soft_ik::method(&options.method).ok_or_else(|| ProblemError::Content {
-            key: "--method".into(),
-            what: format!("\"{}\" is unknown, choose one of {}", options.method, soft_ik::METHODS.join(", ")),
+        let method = soft_ik::method(&options.method).ok_or_else(|| {
+            let known = soft_ik::METHODS.join(", ");
+            ProblemError::Method(format!("\"{}\" is unknown, choose one of {known}", options.method))
         })?;
         if options.method == "tension" && !actuation.is_fibers_only() {
-            let what = "tension needs winches of one element each".into();
-            return Err(ProblemError::Content { key: "--method".into(), what });
+            return Err(ProblemError::Method("tension needs winches of one element each".into()));
         }
         let clock = Instant::now();
         let mut question = Question { model: &mut self.model, actuation: &actuation, objective };

@@ -9,6 +9,9 @@ pub enum ProblemError {
     Json(String),
     #[error("{key}: {what}")]
     Content { key: String, what: String },
+    /// The method asked for cannot answer this problem.
+    #[error("method: {0}")]
+    Method(String),
 }
 
 pub(super) fn content(key: impl Display, what: impl Into<String>) -> ProblemError {

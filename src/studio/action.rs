@@ -3,8 +3,10 @@
 use super::canvas::{Camera, Hit};
 use super::change::Change;
 use super::commands::Command;
-use super::files::{ImportChoice, PathDialog};
+use super::files::PathDialog;
+use super::importing::ImportChoice;
 use super::meshing::Resolution;
+use super::rigging::RigChoice;
 use super::session::{Overlay, Renamed, Selection};
 use super::sketching::Sketch;
 use crate::discovery::Parameters;
@@ -37,6 +39,7 @@ pub enum Action {
     Scrub(f64),
     SetParameters(Parameters),
     SetResolution(Resolution),
+    SetRig(RigChoice),
     ShowProposal(Option<usize>),
     ShowStage(Stage),
     /// Of the outline.

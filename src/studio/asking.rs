@@ -50,8 +50,7 @@ impl Session {
             question,
             quality: self.quality,
             show_idealized: self.look.views.shows(Plushie::Idealized),
-            // A keyframe is made of the winches' activations, seen or not.
-            show_realizable: self.look.views.shows(Plushie::Realizable) || self.key_wanted,
+            show_realizable: self.look.views.shows(Plushie::Realizable),
         };
         if self.asked.as_ref().is_some_and(|asked| asked.id >= self.first_id && same(asked, &request)) {
             return;

@@ -19,6 +19,7 @@ pub mod commands;
 mod discovering;
 pub mod files;
 pub mod icons;
+pub mod importing;
 pub mod jobs;
 pub mod keeper;
 pub mod keeping;
@@ -29,6 +30,7 @@ mod pacing;
 pub mod panels;
 mod playing;
 mod reading;
+pub mod rigging;
 pub mod safety;
 pub mod session;
 pub mod sketching;
@@ -37,8 +39,10 @@ pub mod style;
 mod texturing;
 pub mod tools;
 pub mod viewport;
+mod words;
 
 use crate::design::{Design, bundled};
+use crate::operations::{Context, export, propose};
 use crate::picture::palette::Theme;
 use app::Studio;
 use eframe::egui;
@@ -46,7 +50,7 @@ use session::Services;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 use store::Store;
 use thiserror::Error;
@@ -126,9 +130,15 @@ pub fn run(design: Option<Design>, path: Option<PathBuf>) -> Result<(), StudioEr
 /// The real engine and exporter.
 pub fn services() -> Services {
     Services {
-        propose: Arc::new(crate::rigging::propose),
+        propose: Arc::new(|design, targets, parameters, cancel| {
+            // That nothing was found is told where the proposals would be.
+            propose::for_targets(design, targets, parameters, &Context::new(cancel)).unwrap_or_default()
+        }),
         export: Arc::new(|design, folder| {
-            crate::fabrication::export(design, folder).map(|_| ()).map_err(|error| error.to_string())
+            export::run(design, folder, &Context::new(&AtomicBool::new(false))).map(drop).map_err(|error| match error {
+                export::Error::Export(error) => words::unexported(&error),
+                export::Error::Cancelled(_) => error.to_string(),
+            })
         }),
     }
 }

@@ -77,9 +77,16 @@ impl Session {
         &self.look
     }
 
-    /// Whether a thread is busy with a file.
+    /// Whether a thread is busy with a file, a keyframe or a rig.
     pub fn is_working(&self) -> bool {
-        self.files.working.is_some()
+        self.working().is_some()
+    }
+
+    /// What threads are busy with, ready to be shown.
+    pub fn working(&self) -> Option<&'static str> {
+        let keying = self.keying.is_some().then_some("Working out the keyframe");
+        let rigging = self.rigging.running.is_some().then_some("Looking for winches and tendons");
+        self.files.working.or(rigging).or(keying)
     }
 
     /// Whether the window is about to close.

@@ -4,10 +4,11 @@ use super::action::{Action, FileAction};
 use super::canvas::{Camera, Plushie};
 use super::change::{Change, Made};
 use super::files::Files;
-use super::jobs::{Jobs, Report, Wake};
+use super::jobs::{Finished, Jobs, Outcome, Running, Wake};
 use super::keeping::Kept;
 use super::meshing::Meshing;
 use super::messages::Messages;
+use super::rigging::Rigging;
 use super::safety::Safety;
 use super::sketching::{Sketch, Sketching};
 use super::texturing::Texturing;
@@ -24,7 +25,6 @@ use crate::rigging::Proposal;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
-use std::time::Instant;
 
 /// What is picked out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -116,13 +116,6 @@ pub struct Discovery {
     /// Which proposal the views show.
     pub shown: Option<usize>,
     pub stage: Stage,
-    /// Counts the runs; what an abandoned one reports is not wanted.
-    pub(super) serial: u64,
-}
-
-pub struct Running {
-    pub started: Instant,
-    pub(super) cancel: Arc<AtomicBool>,
 }
 
 /// The newest good shapes.
@@ -181,8 +174,9 @@ pub struct Session {
     /// Outcomes before this one belong to another document.
     pub(super) first_id: u64,
     pub(super) answered_id: Option<u64>,
-    /// A keyframe to be set once the solver has settled, on the winches too if their view is hidden.
-    pub(super) key_wanted: bool,
+    /// A keyframe that is worked out.
+    pub(super) keying: Option<Running>,
+    pub(super) rigging: Rigging,
     pub(super) warning: Option<String>,
 }
 
@@ -211,7 +205,6 @@ impl Session {
                 proposals: Vec::new(),
                 shown: None,
                 stage: Stage::Result,
-                serial: 0,
             },
             meshing: Meshing::default(),
             sketching: Sketching::default(),
@@ -226,7 +219,8 @@ impl Session {
             asked: None,
             first_id: 0,
             answered_id: None,
-            key_wanted: false,
+            keying: None,
+            rigging: Rigging::default(),
             warning: None,
         }
     }
@@ -253,7 +247,8 @@ impl Session {
         self.discovery.proposals.clear();
         self.discovery.shown = None;
         self.shapes = Shapes::default();
-        self.key_wanted = false;
+        self.cancel_keying();
+        self.cancel_rig();
         self.warning = None;
         self.first_id = self.asked.as_ref().map_or(0, |asked| asked.id + 1);
         self.answered_id = None;
@@ -280,6 +275,7 @@ impl Session {
             Action::Scrub(time_s) => self.scrub(time_s),
             Action::SetParameters(parameters) => self.discovery.parameters = parameters,
             Action::SetResolution(resolution) => self.meshing.wanted = Some(resolution),
+            Action::SetRig(choice) => self.rigging.choice = choice,
             Action::ShowProposal(index) => self.discovery.shown = index,
             Action::ShowStage(stage) => self.discovery.stage = stage,
             Action::Sketch(sketch) => self.sketch(sketch),
@@ -292,8 +288,8 @@ impl Session {
     /// `hands_off`: nobody holds a button or types, so gestures are over.
     pub fn tick(&mut self, now_s: f64, passed_s: f64, hands_off: bool) {
         self.messages.tick(now_s);
-        while let Some(report) = self.jobs.next() {
-            self.take_report(report);
+        while let Some(finished) = self.jobs.next() {
+            self.take_finished(finished);
         }
         self.take_outcome();
         if hands_off {
@@ -301,11 +297,6 @@ impl Session {
         }
         if self.playback.playing {
             self.advance(passed_s);
-        }
-        let winches_asked = self.asked.as_ref().is_some_and(|request| request.show_realizable);
-        if self.key_wanted && self.mode == Mode::Pose && winches_asked && self.is_settled() {
-            self.key_wanted = false;
-            self.key_pose();
         }
         self.clamp();
         self.follow_texture();
@@ -467,30 +458,40 @@ impl Session {
         self.clamp();
     }
 
-    fn take_report(&mut self, report: Report) {
-        match report {
-            Report::Proposed { serial, proposals } => {
-                if serial != self.discovery.serial {
-                    return;
-                }
-                self.discovery.running = None;
-                if proposals.is_empty() {
-                    self.messages
-                        .warning("No network was found for this pose. Try more seeds or longer joining paths.");
-                }
-                self.discovery.proposals = proposals.into_iter().map(Arc::new).collect();
-                self.discovery.shown = if self.discovery.proposals.is_empty() { None } else { Some(0) };
-                self.discovery.stage = Stage::Result;
-            }
-            Report::Meshed { serial, made } => self.take_mesh(serial, made),
-            Report::Textured { path, texture } => self.take_texture(path, texture),
-            Report::Broken { job, why } => {
-                self.discovery.running = None;
-                self.cancel_remesh();
-                self.files.working = None;
+    fn take_finished(&mut self, Finished { serial, outcome }: Finished) {
+        match outcome {
+            Outcome::Proposed(proposals) => self.take_proposals(serial, proposals),
+            Outcome::Remeshed(made) => self.take_mesh(serial, made),
+            Outcome::Reshaped(made) => self.take_body(serial, made),
+            Outcome::Rigged(rigged) => self.take_rig(serial, rigged),
+            Outcome::Keyed(keyed) => self.take_key(serial, keyed),
+            Outcome::Imported(result) => self.take_import(result),
+            Outcome::Exported { folder, result } => self.take_export(&folder, result),
+            Outcome::Textured { path, texture } => self.take_texture(path, texture),
+            Outcome::Picked { path, at_once } => self.take_path(path, at_once),
+            Outcome::Broken { job, why } => {
+                self.break_off(serial);
                 self.messages.error(format!("{job} failed: {why}"));
             }
-            other => self.take_file_report(other),
+        }
+    }
+
+    /// Nobody waits for a job any more that broke.
+    fn break_off(&mut self, serial: u64) {
+        let jobs = [
+            &mut self.discovery.running,
+            &mut self.meshing.running,
+            &mut self.rigging.running,
+            &mut self.keying,
+            &mut self.files.running,
+        ];
+        for running in jobs {
+            if Running::is(running.as_ref(), serial) {
+                *running = None;
+            }
+        }
+        if self.files.running.is_none() {
+            self.files.working = None;
         }
     }
 }
@@ -498,6 +499,9 @@ impl Session {
 impl Drop for Session {
     fn drop(&mut self) {
         self.cancel_propose();
+        self.cancel_remesh();
+        self.cancel_keying();
+        self.cancel_rig();
     }
 }
 

@@ -4,13 +4,14 @@
 
 use super::canvas::Camera;
 use super::change::Change;
-use super::jobs::{Made, Report};
+use super::jobs::Outcome;
 use super::session::{Mode, Session};
+use super::words;
 use crate::design::Design;
-use crate::design::edit::EditError;
-use crate::design::reshape::{Body, reshape};
+use crate::operations::reshape::{self, Error, Note, Options, Reshaped, Source};
+use crate::operations::{Context, FiberCount};
 use crate::outline::drawing::{Item, Primitive};
-use crate::outline::{Changes, Drawing, Import, Note, Outline};
+use crate::outline::{Drawing, Outline};
 
 /// The tool that an empty sheet begins with.
 pub const FREEHAND: &str = "tool.freehand";
@@ -120,32 +121,42 @@ impl Session {
         if self.meshing.running.is_some() {
             return;
         }
-        let resolution = self.resolution();
-        let drawing = self.drawing().clone();
-        let serial = self.begin_meshing();
-        self.jobs.start("Meshing", move || {
-            let imported = drawing.import(&Import::default()).map_err(|e| e.to_string());
-            let made = imported.and_then(|imported| {
-                let (changes, corner) = (imported.changes.clone(), imported.drawn_box[0]);
-                let body = Body::with_fibers(imported, resolution.fibers, resolution.finer, corner);
-                Ok(Made::Body(body.map_err(|e| e.to_string())?, changes))
-            });
-            Report::Meshed { serial, made: made.map(Box::new) }
-        });
+        let fibers = match self.meshing.wanted {
+            None => FiberCount::Usual,
+            // What an empty sheet begins with was nobody's wish.
+            Some(resolution) if self.sketching.fresh => FiberCount::AtLeast(resolution.fibers),
+            Some(resolution) => FiberCount::Exactly(resolution.fibers),
+        };
+        let options = Options { fibers, finer: self.resolution().finer, ..Options::default() };
+        let (design, drawing) = (self.design().clone(), self.drawing().clone());
+        self.meshing.running = Some(self.jobs.start("Meshing", move |cancel| {
+            let made = reshape::prepare(&design, Source::Drawing(&drawing), &options, &Context::new(cancel));
+            Outcome::Reshaped(made.map(Box::new))
+        }));
     }
 
-    pub(super) fn take_body(&mut self, body: Body, changes: &Changes) {
-        let report = match self.history.edit("New body", |design| Ok::<_, EditError>(reshape(design, body))) {
+    /// Gives the design as it is by now the body that was drawn.
+    pub(super) fn take_body(&mut self, serial: u64, made: Result<Box<Reshaped>, Error>) {
+        if !self.is_meshed(serial) {
+            return;
+        }
+        let told = made.as_ref().map(|made| (words::changes(&made.changes).collect::<Vec<_>>(), made.notes.clone()));
+        let (lines, notes) = told.unwrap_or_default();
+        let made = made.and_then(|made| Ok(self.history.edit("New body", |design| made.apply(design))?));
+        let report = match made {
             Ok(report) => report,
-            Err(error) => return self.messages.error(format!("New body: {error}")),
+            Err(error) => return self.messages.error(format!("New body: {}", words::unshaped(&error))),
         };
         self.meshing.wanted = None;
         self.look.camera = None;
         self.sketching.fresh = false;
         self.sketch(Sketch::Open(false));
         self.tell_carried(&report);
-        for line in changes.lines(Note::to_string) {
+        for line in lines {
             self.messages.info(line);
+        }
+        for Note::MoreFibers { asked, count } in notes {
+            self.messages.info(words::more_fibers(asked, count));
         }
     }
 }

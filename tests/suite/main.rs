@@ -21,6 +21,8 @@ mod networks_reference;
 mod outlines;
 #[cfg(feature = "studio")]
 mod palette;
+#[cfg(feature = "studio")]
+mod parity;
 mod physics;
 mod problems;
 mod properties;

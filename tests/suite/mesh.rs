@@ -111,7 +111,7 @@ const DRAWING: &str = "(parts: [
 #[test]
 fn the_tracks_of_a_drawing_are_edges_of_every_mesh_of_it() {
     let imported = Drawing::read(DRAWING.as_bytes()).unwrap().import(&Import::default()).unwrap();
-    let Body { outline, mesh, drawing, .. } = Body::with_fibers(imported.clone(), 400, 1, [0.0; 2]).unwrap();
+    let Body { outline, mesh, drawing, .. } = Body::new(imported.clone(), &Request::fibers(400), 1, [0.0; 2]).unwrap();
     let mut design = Design { drawing, ..Design::new("limb", outline, mesh) };
     // 30 mm to the right of the corner, and 30 mm above it.
     assert_eq!(design.tracks(), [[[160.0, 50.0], [90.0, 35.0], [-1e7 + 30.0, 35.0]]]);
@@ -126,9 +126,10 @@ fn the_tracks_of_a_drawing_are_edges_of_every_mesh_of_it() {
     };
     check(&design, "new");
     let request = Request { tracks: design.tracks().to_vec(), ..Request::fibers(800) };
-    remesh::remesh(&mut design, &request, 2).unwrap();
+    let (mesh, fibers) = remesh::body(&design.outline, &request, 2).unwrap();
+    remesh::carry(&mut design, mesh, fibers);
     check(&design, "another resolution");
-    let body = Body::with_fibers(imported, 500, 1, [0.0; 2]).unwrap();
+    let body = Body::new(imported, &Request::fibers(500), 1, [0.0; 2]).unwrap();
     reshape::reshape(&mut design, body);
     check(&design, "another body");
     // A silhouette that was not drawn keeps them too.
@@ -136,7 +137,7 @@ fn the_tracks_of_a_drawing_are_edges_of_every_mesh_of_it() {
     let mut plain = outline::import(&plain, &Import::default()).unwrap();
     edit::set_tracks(&mut design, vec![vec![[120.0, 110.0], [180.0, 110.0]]]).unwrap();
     reshape::keep_tracks(&design, &mut plain);
-    reshape::reshape(&mut design, Body::with_fibers(plain, 571, 1, [0.0; 2]).unwrap());
+    reshape::reshape(&mut design, Body::new(plain, &Request::fibers(571), 1, [0.0; 2]).unwrap());
     assert!(off_edges(&design.mesh, &[[120.0, 110.0], [180.0, 110.0]]).is_empty());
 }
 

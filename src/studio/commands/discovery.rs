@@ -4,7 +4,7 @@ use super::command::{Command, Keys, Scope};
 use crate::studio::session::Session;
 use eframe::egui::Key;
 
-pub static ALL: [&Command; 4] = [&PROPOSE, &CANCEL, &ACCEPT, &REJECT];
+pub static ALL: [&Command; 6] = [&PROPOSE, &CANCEL, &ACCEPT, &REJECT, &RIG, &CANCEL_RIG];
 
 pub static PROPOSE: Command = Command {
     keys: &[Keys::plain(Key::G)],
@@ -35,6 +35,23 @@ pub static REJECT: Command = Command {
     why_not: &|session, _| none_shown(session),
     run: &|session, _| session.reject(),
     ..Command::new("discovery.reject", "Reject", "Drop this proposal")
+};
+
+pub static RIG: Command = Command {
+    scope: Scope::Views,
+    why_not: &|session, _| session.cannot_rig(),
+    run: &|session, _| session.start_rig(),
+    ..Command::new(
+        "rig.start",
+        "Rig all poses",
+        "Look for winches and tendons that serve all poses, and lay the poses on an empty timeline",
+    )
+};
+
+pub static CANCEL_RIG: Command = Command {
+    why_not: &|session, _| session.rigging().running.is_none().then_some("No rig is being looked for"),
+    run: &|session, _| session.cancel_rig(),
+    ..Command::new("rig.cancel", "Cancel rigging", "Stop looking for winches and tendons; the plushie stays as it is")
 };
 
 fn none_shown(session: &Session) -> Option<&'static str> {

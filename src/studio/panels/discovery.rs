@@ -5,13 +5,13 @@ use crate::picture::Stage;
 use crate::rigging::Proposal;
 use crate::studio::action::Action;
 use crate::studio::canvas::Hit;
-use crate::studio::commands::discovery::{ACCEPT, CANCEL, PROPOSE, REJECT};
+use crate::studio::commands::discovery::{ACCEPT, CANCEL, CANCEL_RIG, PROPOSE, REJECT, RIG};
 use crate::studio::commands::document::ESCAPE;
 use crate::studio::session::Session;
 use crate::studio::style;
 use eframe::egui::{
     Align2, Button, CollapsingHeader, DragValue, FontId, Grid, ProgressBar, Rect, Response, RichText, Role, ScrollArea,
-    Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2,
+    Sense, Spinner, Stroke, StrokeKind, TextEdit, Ui, WidgetInfo, vec2,
 };
 use std::time::Duration;
 
@@ -25,6 +25,7 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Act
         }
     }
     parameters(ui, session, actions);
+    rig(ui, session, actions);
     if session.discovery.proposals.is_empty() {
         return;
     }
@@ -81,6 +82,48 @@ fn parameters(ui: &mut Ui, session: &Session, actions: &mut Actions) {
             actions.push(Action::SetParameters(p));
         }
     });
+}
+
+/// Networks for all poses at once.
+fn rig(ui: &mut Ui, session: &Session, actions: &mut Actions) {
+    CollapsingHeader::new("All poses").id_salt("rig").show(ui, |ui| {
+        let mut choice = session.rigging().choice.clone();
+        Grid::new("rig").num_columns(2).spacing([8.0, 4.0]).show(ui, |ui| {
+            let tip = "Winches that the plushie may have in the end";
+            let label = ui.label("Most winches").on_hover_text(tip);
+            ui.add(DragValue::new(&mut choice.max_winches).range(1..=64).speed(0.1)).labelled_by(label.id);
+            ui.end_row();
+            let tip = "One number for all (2), winch by winch (3,2), or what to choose from (1..4)";
+            let label = ui.label("Tendons of each winch").on_hover_text(tip);
+            let field = TextEdit::singleline(&mut choice.tendons).desired_width(70.0);
+            ui.add(field).labelled_by(label.id).on_hover_text(tip);
+            ui.end_row();
+        });
+        ui.checkbox(&mut choice.hold, "Hold the parameters").on_hover_text("Otherwise several are tried");
+        if choice != session.rigging().choice {
+            actions.push(Action::SetRig(choice));
+        }
+        match &session.rigging().running {
+            Some(running) => rigging(ui, session, running.started.elapsed(), actions),
+            None => {
+                let width = ui.available_width();
+                buttons::primary(ui, session, &RIG, true, width, actions);
+            }
+        }
+    });
+}
+
+fn rigging(ui: &mut Ui, session: &Session, elapsed: Duration, actions: &mut Actions) {
+    ui.horizontal(|ui| {
+        ui.add(Spinner::new());
+        ui.label(format!("{} s", elapsed.as_secs()));
+        if ui.button(CANCEL_RIG.label).on_hover_text(CANCEL_RIG.tip(session)).clicked() {
+            actions.push(Action::Run(&CANCEL_RIG, Hit::Nothing));
+        }
+    });
+    ui.label(RichText::new(session.rigging().step()).small().weak());
+    // The seconds go on counting.
+    ui.ctx().request_repaint_after(Duration::from_millis(200));
 }
 
 fn row(ui: &mut Ui, session: &Session, index: usize, proposal: &Proposal, actions: &mut Actions) {

@@ -16,7 +16,7 @@ pub fn show(ui: &mut Ui, session: &Session) {
     ui.add_space(2.0);
     let weak = ui.visuals().weak_text_color();
     let warn = ui.visuals().warn_fg_color;
-    let (text, color) = if let Some(working) = session.files.working {
+    let (text, color) = if let Some(working) = session.working() {
         (format!("{working}…"), ui.visuals().strong_text_color())
     } else if let Some(warning) = session.solver_warning() {
         (warning.to_owned(), warn)
