@@ -17,9 +17,7 @@ fn tidy(plushie: &Plushie, posture: &Posture) -> Vec<f64> {
         .iter()
         .zip(&posture.beta)
         .map(|(winch, beta)| {
-            let slack = |&(e, ratio): &(usize, f64)| {
-                (elements[e].alpha0 - elements[e].length(&posture.x) - elements[e].epsilon) / ratio
-            };
+            let slack = |&(e, ratio): &(usize, f64)| elements[e].just_slack(&posture.x) / ratio;
             let just_slack = winch.members.iter().map(slack).fold(f64::INFINITY, f64::min);
             if just_slack > *beta { just_slack.min(winch.upper) } else { *beta }
         })

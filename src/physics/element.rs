@@ -45,6 +45,16 @@ pub enum Law {
 }
 
 impl Element {
+    /// The largest contraction at which it does not pull yet at `x`: `alpha_0 - l - epsilon`.
+    pub fn just_slack(&self, x: &[f64]) -> f64 {
+        self.alpha0 - self.length(x) - self.epsilon
+    }
+
+    /// The smallest contraction at which it is taut at `x`: `alpha_0 - l + epsilon`.
+    pub fn just_taut(&self, x: &[f64]) -> f64 {
+        self.alpha0 - self.length(x) + self.epsilon
+    }
+
     /// `U(Gamma)`.
     pub fn energy(&self, gamma: f64) -> f64 {
         let (k, eps) = (self.stiffness, self.epsilon);

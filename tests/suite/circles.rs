@@ -186,7 +186,7 @@ fn without_tests(text: &str) -> String {
     let mut kept = String::new();
     let mut lines = code.iter().peekable();
     while let Some(line) = lines.next() {
-        if line.trim() == "#[cfg(test)]" {
+        if ["#[cfg(test)]", "#[cfg(all(test, unix))]"].contains(&line.trim()) {
             let next = lines.peek().map(|l| l.trim()).unwrap_or_default();
             if next.contains("mod ") && next.ends_with('{') {
                 break;
