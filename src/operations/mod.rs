@@ -26,7 +26,7 @@
 //! use plushwright::mesh::Size;
 //! use std::sync::atomic::AtomicBool;
 //!
-//! let svg = br#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 12 4" width="120mm"><rect width="12" height="4"/></svg>"#;
+//! let svg = br#"<svg xmlns="http://www.w3.org/2000/svg" width="120mm" height="40mm"><rect width="120mm" height="40mm"/></svg>"#;
 //! let cancel = AtomicBool::new(false);
 //! let context = Context::new(&cancel);
 //! let options = new_design::Options { name: "bar".into(), fibers: FiberCount::AtLeast(60), ..Default::default() };
