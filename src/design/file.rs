@@ -171,7 +171,7 @@ pub fn save(design: &Design, from: Option<&Path>, to: &Path, seen: Option<&Stamp
     let failed = |source| FileError::Write { path: to.into(), source };
     let carried = texture::carried(design, from.unwrap_or(to), to).map_err(failed)?;
     if let Some(seen) = seen
-        && Stamp::at(to).map_err(failed)?.is_some_and(|now| now != *seen)
+        && !seen.may_be_replaced(to, MAX_BYTES).map_err(failed)?
     {
         return Err(FileError::Changed { path: to.into() });
     }

@@ -317,7 +317,14 @@ impl Session {
     fn save(&mut self, path: PathBuf, replace: bool) {
         let path = if path.extension().is_none() { path.with_extension("plush") } else { path };
         let own = self.path.as_deref().is_some_and(|own| own == path || files::same(own, &path));
-        let there = std::fs::metadata(&path).is_ok_and(|found| found.is_file() && found.len() > 0);
+        let found = std::fs::metadata(&path);
+        if found.as_ref().is_ok_and(|found| !found.is_file() && !found.is_dir()) {
+            // A pipe or a device keeps nothing: it would count as saved.
+            self.files.after_save = None;
+            self.messages.error(format!("{} is not a regular file; nothing would be kept there", files::shown(&path)));
+            return;
+        }
+        let there = found.is_ok_and(|found| found.is_file() && found.len() > 0);
         if there && !own && !replace {
             let why = if file::is_design(&path) { Why::Exists } else { Why::Foreign };
             self.files.dialog = Some(Dialog::Replace(path, why));

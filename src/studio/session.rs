@@ -12,6 +12,7 @@ use super::rigging::Rigging;
 use super::safety::Safety;
 use super::sketching::{Sketch, Sketching};
 use super::texturing::Texturing;
+use crate::design::file::MAX_BYTES;
 use crate::design::history::History;
 use crate::design::{Design, Target, edit};
 use crate::discovery::Parameters;
@@ -183,7 +184,7 @@ pub struct Session {
 impl Session {
     pub fn new(design: Design, path: Option<PathBuf>, wake: Wake, services: Services) -> Self {
         let on_outcome = wake.clone();
-        let seen = path.as_deref().and_then(|path| Stamp::at(path).ok().flatten());
+        let seen = path.as_deref().and_then(|path| Stamp::at(path, MAX_BYTES).ok());
         Self {
             pose: first_pose(&design),
             history: History::new(design.clone()),
