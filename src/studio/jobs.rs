@@ -1,7 +1,7 @@
 //! Work that takes too long for a frame, each on a thread that reports back once.
 
-use super::importing::ImportChoice;
 use super::keeping::Kept;
+use super::session::{ImportChoice, Told};
 use crate::design::Design;
 use crate::operations::key::{self, Keyed};
 use crate::operations::new_design::Note;
@@ -46,6 +46,11 @@ pub enum Outcome {
         path: Option<PathBuf>,
         at_once: bool,
     },
+    /// A job of a panel.
+    Told {
+        owner: &'static str,
+        told: Told,
+    },
     /// The job itself broke.
     Broken {
         job: &'static str,
@@ -85,6 +90,13 @@ impl Running {
     /// Whether a report is that of this job.
     pub fn is(running: Option<&Self>, serial: u64) -> bool {
         running.is_some_and(|running| running.serial == serial)
+    }
+}
+
+/// Stops a job, and waits for it no more.
+pub fn cancel(running: &mut Option<Running>) {
+    if let Some(running) = running.take() {
+        running.cancel();
     }
 }
 

@@ -1,7 +1,6 @@
 //! The palette: every command by name, by keyboard alone.
 
-use super::Actions;
-use crate::studio::action::Action;
+use crate::studio::action::{Action, Actions};
 use crate::studio::commands::{self, Command};
 use crate::studio::session::{Overlay, Session};
 use eframe::egui::{

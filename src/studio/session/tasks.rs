@@ -1,0 +1,75 @@
+//! Jobs of panels: one for each panel, and what came of it.
+
+use crate::studio::jobs::Running;
+use std::any::Any;
+use std::collections::BTreeMap;
+use std::fmt;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+/// What a job of a panel came to; the panel alone knows what it is.
+pub type Told = Arc<dyn Any + Send + Sync>;
+
+/// Work for a thread, asked for by a panel. `work` is given what tells it to stop.
+#[derive(Clone)]
+pub struct Task {
+    /// The panel, by its name.
+    pub owner: &'static str,
+    /// Names the work should it break.
+    pub name: &'static str,
+    pub work: Arc<dyn Fn(&AtomicBool) -> Told + Send + Sync>,
+}
+
+#[derive(Default)]
+pub struct Tasks {
+    running: BTreeMap<&'static str, Running>,
+    told: BTreeMap<&'static str, Told>,
+}
+
+impl Tasks {
+    /// What the newest job of a panel came to.
+    pub fn told<T: Any>(&self, owner: &str) -> Option<&T> {
+        self.told.get(owner)?.downcast_ref()
+    }
+
+    pub fn running(&self, owner: &str) -> Option<&Running> {
+        self.running.get(owner)
+    }
+
+    /// Stops all of them.
+    pub fn cancel(&self) {
+        self.running.values().for_each(Running::cancel);
+    }
+
+    /// A job has begun in the place of the one before.
+    pub fn begin(&mut self, owner: &'static str, running: Running) {
+        if let Some(before) = self.running.insert(owner, running) {
+            before.cancel();
+        }
+    }
+
+    /// A job is over. What an abandoned one tells is not wanted.
+    pub fn finish(&mut self, owner: &'static str, serial: u64, told: Told) {
+        if Running::is(self.running.get(owner), serial) {
+            self.running.remove(owner);
+            self.told.insert(owner, told);
+        }
+    }
+
+    /// A job broke.
+    pub fn break_off(&mut self, serial: u64) {
+        self.running.retain(|_, running| running.serial != serial);
+    }
+}
+
+impl fmt::Debug for Task {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.owner)
+    }
+}
+
+impl PartialEq for Task {
+    fn eq(&self, other: &Self) -> bool {
+        self.owner == other.owner && Arc::ptr_eq(&self.work, &other.work)
+    }
+}
