@@ -6,9 +6,9 @@
 //! best of all that many starts lead to, the paper's gradient method among them.
 
 use super::drags::{places_on, points, positions, towards};
+use super::figures::significant;
 use super::posing::{at_rest, free_fibers, optimum};
 use super::random::Random;
-use super::report::significant;
 use super::shapes::{Field, Subject, design, names};
 use super::statistics::{Summary, wilson};
 use super::{BenchError, Cell, Quality, Report, Session, Table, Tracker, silhouettes};
@@ -61,6 +61,10 @@ struct Scene {
 }
 
 impl Misses {
+    /// Runs the study.
+    ///
+    /// # Errors
+    /// A shape that cannot be meshed, or the study was cancelled.
     pub fn run(&self, session: &Session) -> Result<Report, BenchError> {
         let mut scenes = Vec::new();
         for number in self.first..self.first + self.scenes {

@@ -7,10 +7,10 @@
 pub mod animation;
 pub mod bundled;
 pub mod edit;
+mod fault;
 mod figures;
 pub mod file;
 pub mod history;
-mod problem;
 pub mod ranges;
 pub mod remesh;
 pub mod reshape;
@@ -22,10 +22,10 @@ mod validate;
 mod version;
 
 pub use edit::EditError;
+pub use fault::{DesignError, Fault};
 pub use figures::MeshFigures;
 pub use file::FileError;
 pub use history::History;
-pub use problem::{DesignError, Problem};
 pub use settings::{
     ControllerSettings, FabricationSettings, FiberSet, FiberSettings, Gravity, Material, TendonSettings, Term,
 };

@@ -23,7 +23,7 @@ mod discover;
 mod error;
 mod graph;
 mod parameters;
-pub mod refine;
+pub mod path_variants;
 mod select;
 mod sets;
 mod stages;

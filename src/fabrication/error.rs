@@ -11,7 +11,7 @@ use thiserror::Error;
 /// A design without a blueprint, or a blueprint without a folder.
 #[derive(Debug, Error)]
 pub enum ExportError {
-    #[error("the design has no winch-tendon networks yet: accept a proposal, or let a rig be found")]
+    #[error("the design has no winch-tendon networks yet")]
     NoNetworks,
     #[error(transparent)]
     Invalid(#[from] DesignError),

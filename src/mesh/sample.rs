@@ -7,7 +7,7 @@
 
 use super::boundary::Boundary;
 use super::curve::Curve;
-use super::search::Budget;
+use super::search::WorkBudget;
 use crate::outline::{Outline, Point, polygon};
 
 /// Weights `a` of curvature in the density, tried in turn until the area is kept.
@@ -92,7 +92,13 @@ impl<'a> Bends<'a> {
 
 /// Samples all polygons of the outline. `None` where no choice of at most `most` nodes gives a boundary free of crossings.
 /// Nor where the budget does not suffice.
-pub(super) fn sample(bends: &Bends, extra: Extra, close: Closeness, most: usize, budget: &Budget) -> Option<Boundary> {
+pub(super) fn sample(
+    bends: &Bends,
+    extra: Extra,
+    close: Closeness,
+    most: usize,
+    budget: &WorkBudget,
+) -> Option<Boundary> {
     let Rim { curves, on_axis, .. } = bends.rim;
     let stray = (STRAY * bends.h).min(close.stray);
     let lost = |rings: &[Vec<f64>]| {

@@ -3,7 +3,7 @@
 use super::posing::{self, solve};
 use super::{Cancelled, Context, NoSuchPose, Unbalanced, View};
 use crate::design::{Design, Pose};
-use crate::engine::solver::target_error;
+use crate::engine::target_error;
 use crate::engine::{Question, Warning};
 use serde::{Deserialize, Serialize};
 use std::fmt;

@@ -47,6 +47,9 @@ pub struct Answered {
 const SOFT_IK_ITERATIONS: usize = 300;
 
 /// [`answer`] as a tree of values.
+///
+/// # Errors
+/// As [`answer`].
 pub fn solve(problem: &Problem, options: &Options) -> Result<Answered, ProblemError> {
     let document = answer(problem, options)?;
     // Text keys and finite numbers: nothing that a tree of values could not hold.
@@ -55,6 +58,9 @@ pub fn solve(problem: &Problem, options: &Options) -> Result<Answered, ProblemEr
 }
 
 /// Answers everything the problem asks for. The problem is solved in the frame of its own body and answered in its own units.
+///
+/// # Errors
+/// [`ProblemError`] where no model can be made. What does not converge is no error: the document says so.
 pub fn answer(problem: &Problem, options: &Options) -> Result<Document, ProblemError> {
     let deadline = Instant::now() + options.budget;
     let stop = || Instant::now() >= deadline;

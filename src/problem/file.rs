@@ -106,6 +106,9 @@ pub struct DragData {
 
 impl Problem {
     /// The problem as a file. Numbers keep every bit.
+    ///
+    /// # Errors
+    /// What JSON cannot write, which no problem has.
     pub fn to_text(&self) -> Result<String, ProblemError> {
         let whole = Written { format: FORMAT, problem: self };
         serde_json::to_string(&whole).map_err(|e| ProblemError::Json(e.to_string()))
@@ -138,6 +141,9 @@ impl Problem {
     }
 
     /// The winches that `fixed_winches` holds, with their activations.
+    ///
+    /// # Errors
+    /// [`ProblemError`]: a key that is no winch, a figure that is not finite.
     pub fn fixed_winches(&self) -> Result<BTreeMap<i64, f64>, ProblemError> {
         let known = self.all_winches();
         let mut out = BTreeMap::new();
@@ -154,6 +160,9 @@ impl Problem {
     }
 
     /// The free winches in the order of all arrays of `soft_ik`.
+    ///
+    /// # Errors
+    /// [`ProblemError`]: a winch that is unknown, listed twice, or fixed as well.
     pub fn free_winches(&self) -> Result<Vec<i64>, ProblemError> {
         let fixed = self.fixed_winches()?;
         let known = self.all_winches();

@@ -2,9 +2,12 @@
 
 use super::error::ProblemError;
 use super::file::Problem;
-use crate::physics::{Body, Contractile, Element, Energy, Gravity, Ground, Model, ModelError, Pin, Pins};
+use crate::physics::{Body, Contractile, Element, Energy, Gravity, Ground, Model, ModelError, PinSpring, Pins};
 
 /// The physics model of a problem, at its `contractions` (zero if absent).
+///
+/// # Errors
+/// [`ProblemError`]: a triangle without area, or a mesh beyond the memory.
 pub fn model(problem: &Problem) -> Result<Model, ProblemError> {
     take_model(&mut problem.clone())
 }
@@ -21,7 +24,7 @@ pub(super) fn take_model(problem: &mut Problem) -> Result<Model, ProblemError> {
         alpha0: e.alpha0,
     });
     let contractile = Contractile::new(elements.collect());
-    let pins = Pins { pins: problem.pins.iter().map(|p| Pin::node(p.node, p.target, p.stiffness)).collect() };
+    let pins = Pins { pins: problem.pins.iter().map(|p| PinSpring::node(p.node, p.target, p.stiffness)).collect() };
     let terms = terms(problem, &body.nodal_areas(problem.mesh.nodes.len()));
     let mut model = Model::new(&problem.mesh.nodes, body, contractile, pins, terms).map_err(|e| match e {
         ModelError::Triangle(k) => content(format!("mesh.triangles[{k}]"), "has no area"),

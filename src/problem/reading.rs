@@ -32,6 +32,9 @@ const KEYS: [&str; 13] = [
 const REMARKS: [&str; 5] = ["name", "note", "units", "tags", "n_edges"];
 
 /// Reads and checks a problem. Also returns the unknown top-level keys that were ignored, in ascending order.
+///
+/// # Errors
+/// [`ProblemError`]: the key or place of what is wrong.
 pub fn read(text: &str) -> Result<(Problem, Vec<String>), ProblemError> {
     let (problem, mut unknown) = match serde_json::from_str::<Streamed>(text) {
         Ok(Streamed { problem, unknown }) => (problem, unknown),

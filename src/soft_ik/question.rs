@@ -76,7 +76,7 @@ impl Question<'_> {
     /// The activations at which every winch has all its elements taut at `x`, whatever its bounds.
     pub(super) fn just_taut(&self, x: &[f64]) -> Vec<f64> {
         let elements = &self.model.contractile.elements;
-        let of = |&(e, r): &(usize, f64)| (elements[e].alpha0 - elements[e].length(x) + elements[e].epsilon) / r;
+        let of = |&(e, r): &(usize, f64)| elements[e].just_taut(x) / r;
         let winches = self.actuation.winches.iter();
         winches.map(|w| w.members.iter().map(of).fold(f64::NEG_INFINITY, f64::max)).collect()
     }

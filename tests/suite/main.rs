@@ -21,6 +21,7 @@ mod networks_reference;
 mod outlines;
 #[cfg(feature = "studio")]
 mod palette;
+#[cfg(feature = "studio")]
 mod parity;
 mod physics;
 mod problems;

@@ -3,7 +3,7 @@
 use crate::support::shapes::{nasty, ring};
 use plushwright::design::reshape::{self, Body};
 use plushwright::design::{Design, edit, remesh};
-use plushwright::mesh::quality::{Fit, Quality};
+use plushwright::mesh::quality::{Fit, MeshQuality};
 use plushwright::mesh::{self, MeshError, Request, Size};
 use plushwright::outline::{self, Drawing, Import, Outline, Point, polygon, svg};
 
@@ -13,8 +13,8 @@ const KINDS: usize = 12;
 const SEEDS: u64 = 1;
 
 /// What must hold for every mesh; its quality.
-fn check(name: &str, outline: &Outline, fibers: usize, mesh: &mesh::Mesh) -> (Quality, Fit) {
-    let (quality, fit) = (Quality::of(mesh), Fit::of(mesh, outline));
+fn check(name: &str, outline: &Outline, fibers: usize, mesh: &mesh::Mesh) -> (MeshQuality, Fit) {
+    let (quality, fit) = (MeshQuality::of(mesh), Fit::of(mesh, outline));
     assert_eq!(mesh.validate(), Ok(()), "{name}");
     assert_eq!(mesh.boundary().len(), 1 + outline.holes.len(), "{name}");
     assert!(quality.edges.abs_diff(fibers) * 100 <= 3 * fibers, "{name}: {} of {fibers}", quality.edges);
@@ -121,7 +121,7 @@ fn the_tracks_of_a_drawing_are_edges_of_every_mesh_of_it() {
         design.validate().unwrap();
         let off = off_edges(&design.mesh, &inside);
         assert!(off.is_empty(), "{what}: {off:?}");
-        let low = Quality::of(&design.mesh).below_20_deg;
+        let low = MeshQuality::of(&design.mesh).below_20_deg;
         assert!(low * 1000 <= design.mesh.triangles.len(), "{what}: {low}");
     };
     check(&design, "new");
@@ -146,7 +146,7 @@ fn a_size_in_mm_is_met() {
     let outline = Outline { outer: ring([0.0; 2], 200, |_| 100.0), holes: vec![] };
     for length in [6.0, 12.0, 25.0] {
         let request = Request { size: Size::EdgeMm(length), ..Request::fibers(0) };
-        let mean = Quality::of(&mesh::build(&outline, &request).unwrap().mesh).mean_edge;
+        let mean = MeshQuality::of(&mesh::build(&outline, &request).unwrap().mesh).mean_edge;
         assert!((mean / length - 1.0).abs() < 0.15, "{mean} {length}");
     }
 }

@@ -57,6 +57,9 @@ impl End {
 }
 
 /// Runs a problem; what is wrong with what came out is the error.
+///
+/// # Errors
+/// What was violated, in words.
 pub fn problem(drawn: &Drawn) -> Result<End, String> {
     let clock = Instant::now();
     let run = catch_unwind(AssertUnwindSafe(|| run(drawn)));

@@ -8,21 +8,21 @@
 
 mod attempt;
 mod budget;
-mod candidate;
+mod found_mesh;
 mod subject;
 
-pub(in crate::mesh) use budget::{Budget, Effort};
+pub(in crate::mesh) use budget::{Thoroughness, WorkBudget};
 pub(in crate::mesh) use subject::Subject;
 
 use super::Mesh;
 use super::curve::Curve;
-use super::quality::Quality;
+use super::quality::MeshQuality;
 use super::sample::{Closeness, Extra, Rim};
 use super::symmetry::{Axis, Half};
 use crate::outline::{Outline, Point};
 use attempt::FILLS;
 use budget::REFINE_WORK;
-use candidate::take_best;
+use found_mesh::take_best;
 use std::cell::{Cell, OnceCell, RefCell};
 use subject::most_nodes;
 
@@ -64,7 +64,7 @@ impl<'a> Subject<'a> {
             off: 0.0,
             vertices,
             spent: Cell::new(0),
-            budget: Budget::new(fibers),
+            budget: WorkBudget::new(fibers),
             has_fine_features: OnceCell::new(),
             lenient: Cell::new(false),
         }
@@ -103,7 +103,7 @@ impl<'a> Subject<'a> {
     }
 
     /// The best mesh found with `fibers` edges, or nearly.
-    pub fn mesh(&self, even: f64, fibers: usize, effort: Effort) -> Option<(Mesh, Quality)> {
+    pub fn mesh(&self, even: f64, fibers: usize, effort: Thoroughness) -> Option<(Mesh, MeshQuality)> {
         let mut found = Vec::new();
         let effort = effort.most(self.vertices + fibers);
         self.spent.set(0);

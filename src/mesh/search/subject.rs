@@ -1,6 +1,6 @@
 //! What is to be meshed.
 
-use super::budget::Budget;
+use super::budget::WorkBudget;
 use crate::mesh::sample::Rim;
 use crate::mesh::symmetry::Axis;
 use crate::mesh::tracks::Sampled;
@@ -23,7 +23,7 @@ pub(in crate::mesh) struct Subject<'a> {
     pub(super) vertices: usize,
     /// Work done for the mesh that is sought.
     pub(super) spent: Cell<usize>,
-    pub(super) budget: Budget,
+    pub(super) budget: WorkBudget,
     pub(super) has_fine_features: OnceCell<bool>,
     /// Whether an outline may be followed less closely than it should.
     pub(super) lenient: Cell<bool>,

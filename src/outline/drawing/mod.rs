@@ -50,7 +50,7 @@ pub struct Drawing {
 pub struct Part {
     pub primitive: Primitive,
     /// Cut out of what was drawn before, not joined to it.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "primitive::is_false")]
     pub cut: bool,
 }
 
@@ -156,10 +156,6 @@ impl Part {
     pub fn joined(primitive: Primitive) -> Self {
         Self { primitive, cut: false }
     }
-}
-
-fn is_false(value: &bool) -> bool {
-    !value
 }
 
 #[cfg(test)]

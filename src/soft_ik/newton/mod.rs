@@ -361,7 +361,8 @@ impl Search {
         true
     }
 
-    /// `dO/dbeta_j = lambda sum r alpha_c/alpha_0^2 - force_j . p`.
+    /// `dO/dbeta_j = lambda sum r alpha_c/alpha_0^2 - force_j . p`, from the rows at hand: what [`super::sensitivity::gradient`] finds
+    /// element by element, but for the order of the sums.
     fn gradient(&mut self, question: &Question, contractions: &[f64], p: &[f64]) {
         let elements = &question.model.contractile.elements;
         let lambda = question.objective.contraction_weight;

@@ -107,6 +107,9 @@ impl Saddle {
 
     /// Factorises the system with winches `held` where they are and all others free, each damped by `damping`. Needs
     /// [`Self::assemble`] in the same form.
+    ///
+    /// # Errors
+    /// [`NotConvex`] where the reduced Hessian is not positive definite.
     pub fn factorize(
         &mut self,
         question: &mut Question,
@@ -146,6 +149,9 @@ impl Saddle {
 
     /// The Newton step from a point at which the model has these `slopes`, with the last factor: the step, zero for held winches, and
     /// the first-order displacement in `z`.
+    ///
+    /// # Errors
+    /// [`NotConvex`] where the system could not be solved.
     pub fn solve(&mut self, rows: &Rows, slopes: &[f64]) -> Result<Vec<f64>, NotConvex> {
         let form = self.form;
         self.z.fill(0.0);

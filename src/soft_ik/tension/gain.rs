@@ -23,7 +23,7 @@ const STEADINESS_DECAY: f64 = 0.25;
 const LEAST_STEADINESS: f64 = 1e-3;
 /// Iterations in a row that end far from equilibrium, after which the run goes back to its best state; at once where they
 /// seem to lead to a worse one.
-const PATIENCE: usize = 6;
+const MOST_ADRIFT: usize = 6;
 /// A state is kept as the best where its Newton step towards equilibrium is at most this part of the body: farther away,
 /// another equilibrium may be nearer than the one expected.
 const VERIFIED: f64 = 1e-2;
@@ -60,7 +60,7 @@ impl Run {
             self.adrift += 1;
             self.nu = (self.nu * PROXIMAL_GROWTH).min(most);
             let astray = self.now > self.best.objective && !self.returned;
-            let lost = self.best.objective.is_finite() && (astray || self.adrift > PATIENCE);
+            let lost = self.best.objective.is_finite() && (astray || self.adrift > MOST_ADRIFT);
             return if lost { Verdict::Back } else { Verdict::On };
         }
         self.adrift = 0;

@@ -20,11 +20,12 @@ impl Default for State {
 }
 
 pub fn show(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actions) {
-    let open = session.panel(&ALL.map(|entry| entry.id));
+    let mut open = session.panel(&ALL.map(|entry| entry.id));
     ui.horizontal(|ui| {
         for command in commands::panels::ALL.iter() {
             let Some(entry) = ALL.into_iter().find(|entry| entry.id == command.id) else { continue };
             if ui.selectable_label(entry.id == open, entry.label).on_hover_text(entry.tip).clicked() {
+                open = entry.id;
                 actions.push(Action::Run(command, Hit::Nothing));
             }
         }

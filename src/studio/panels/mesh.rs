@@ -4,7 +4,7 @@ use super::buttons;
 use super::panel::{Entry, Panel};
 use super::widgets::heading;
 use crate::design::MeshFigures;
-use crate::mesh::quality::{HISTOGRAM_BARS, HISTOGRAM_STEP_DEG, Quality};
+use crate::mesh::quality::{HISTOGRAM_BARS, HISTOGRAM_STEP_DEG, MeshQuality};
 use crate::mesh::{MAX_FIBERS, Mesh};
 use crate::studio::action::{Action, Actions};
 use crate::studio::commands::document::REMESH;
@@ -100,7 +100,7 @@ fn resolution(ui: &mut Ui, session: &Session, actions: &mut Actions) {
 }
 
 /// Bars of triangles by their smallest angle, 0 to 60 degrees.
-fn histogram(ui: &mut Ui, quality: &Quality) {
+fn histogram(ui: &mut Ui, quality: &MeshQuality) {
     let size = vec2(ui.available_width(), HISTOGRAM_HEIGHT + LEGEND_HEIGHT);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
     let text = format!("Histogram of smallest angles, least {:.1} degrees", quality.min_angle_deg);

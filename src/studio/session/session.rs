@@ -14,6 +14,7 @@ use super::sketching::Sketching;
 use super::solver::{Shapes, Solver};
 use super::tasks::Tasks;
 use super::texturing::{Found, Texturing};
+use crate::design::file::MAX_BYTES;
 use crate::design::history::History;
 use crate::design::{Design, Target};
 use crate::discovery::Parameters;
@@ -77,7 +78,7 @@ pub struct Session {
 
 impl Session {
     pub fn new(design: Design, path: Option<PathBuf>, wake: Wake, services: Services) -> Self {
-        let seen = path.as_deref().and_then(|path| Stamp::at(path).ok().flatten());
+        let seen = path.as_deref().and_then(|path| Stamp::at(path, MAX_BYTES).ok());
         let document = Document::new(design, path);
         Self {
             picked: Picked::first(document.design()),

@@ -14,6 +14,9 @@ impl<'a> Tags<'a> {
     }
 
     /// The next pair, or none at the end of the file.
+    ///
+    /// # Errors
+    /// What is wrong with the line.
     pub fn next_tag(&mut self) -> Result<Option<(i32, &'a str)>, &'static str> {
         if let Some(tag) = self.pushed.take() {
             return Ok(Some(tag));

@@ -1,7 +1,7 @@
-//! From an equilibrium that is not stable to a state below it.
+//! Negative curvature: from an equilibrium that is not stable to a state below it.
 
-use super::energy::HessianForm;
-use super::model::Model;
+use crate::physics::energy::HessianForm;
+use crate::physics::model::Model;
 
 /// Shift of the Hessian at first, in shear moduli, and from try to try.
 const FIRST_SHIFT: f64 = 1e-3;

@@ -1,7 +1,7 @@
 //! A mesh that was found: whether it is good enough, and which of several is best.
 
 use crate::mesh::Mesh;
-use crate::mesh::quality::{Fit, Quality};
+use crate::mesh::quality::{Fit, MeshQuality};
 use crate::outline::Outline;
 use std::cell::OnceCell;
 
@@ -12,15 +12,15 @@ const CLOSE: f64 = 0.005;
 /// How near its area must be, as a part.
 const CLOSE_AREA: f64 = 0.01;
 
-pub(super) struct Candidate {
+pub(super) struct FoundMesh {
     pub mesh: Mesh,
-    pub quality: Quality,
+    pub quality: MeshQuality,
     /// Whether it follows the outline closely, once somebody asked.
     follows: OnceCell<bool>,
 }
 
-impl Candidate {
-    pub fn new(mesh: Mesh, quality: Quality) -> Self {
+impl FoundMesh {
+    pub fn new(mesh: Mesh, quality: MeshQuality) -> Self {
         Self { mesh, quality, follows: OnceCell::new() }
     }
 
@@ -52,14 +52,14 @@ impl Candidate {
 /// The candidate with the fewest poor triangles, then of the asked count, and among those the one with the least of what
 /// else is unwanted: an inner edge across a limb weighs as much as four degrees that the least angle is below a fine one,
 /// as ten degrees above, or as edges that differ by a factor of two more.
-pub(super) fn take_best(candidates: &mut Vec<Candidate>, fibers: usize) -> Option<Candidate> {
-    let unwanted = |q: &Quality| {
+pub(super) fn take_best(candidates: &mut Vec<FoundMesh>, fibers: usize) -> Option<FoundMesh> {
+    let unwanted = |q: &MeshQuality| {
         let angle = 0.1 * q.min_angle_deg - 0.25 * (FINE_DEG - q.min_angle_deg).max(0.0);
         q.bridges as f64 - angle + 0.5 * q.max_edge / q.min_edge
     };
-    let order = |a: &Quality, b: &Quality| {
-        let other = |q: &Quality| q.edges != fibers;
-        let poor = |q: &Quality| q.below_20_deg - q.corners_below_20_deg;
+    let order = |a: &MeshQuality, b: &MeshQuality| {
+        let other = |q: &MeshQuality| q.edges != fibers;
+        let poor = |q: &MeshQuality| q.below_20_deg - q.corners_below_20_deg;
         poor(a).cmp(&poor(b)).then(other(a).cmp(&other(b))).then(unwanted(a).total_cmp(&unwanted(b)))
     };
     let best = (0..candidates.len()).min_by(|&a, &b| order(&candidates[a].quality, &candidates[b].quality))?;

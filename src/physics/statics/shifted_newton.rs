@@ -1,6 +1,7 @@
-//! What Newton's method does where it is slow: two cures that ordinary bodies do not need, and do not pay for.
+//! Shifted Newton steps with a second-order correction, where Newton's method is slow: ordinary bodies do not need them, and do not
+//! pay for them.
 //!
-//! **Ridges.** The projected Hessian is too stiff wherever the exact one has a little negative curvature, and crosses such a region in
+//! **Negative curvature.** The projected Hessian is too stiff wherever the exact one has a little negative curvature, and crosses such a region in
 //! hundreds of equal steps. The exact one plus the smallest shift that makes it positive definite goes along that curvature in
 //! a few.
 //!
@@ -9,8 +10,8 @@
 //! optimisation). A correction with the same factor, `-H^-1 [g(x + t s) - (1 - t) g(x)]`, takes the stretch away before the
 //! step is judged.
 
-use super::energy::HessianForm;
-use super::model::Model;
+use crate::physics::energy::HessianForm;
+use crate::physics::model::Model;
 
 /// Shift of the exact Hessian at first and at least, in shear moduli; from try to try; tries.
 const FIRST_SHIFT: f64 = 1e-3;
@@ -23,7 +24,7 @@ const GOOD_STEP: f64 = 0.5;
 const CORRECTIONS: usize = 3;
 
 /// State between the steps of one search.
-pub(super) struct Patience {
+pub(super) struct ShiftedNewton {
     shift: f64,
     least: f64,
     /// Empty until the search is slow.
@@ -31,7 +32,7 @@ pub(super) struct Patience {
     corrected: Vec<f64>,
 }
 
-impl Patience {
+impl ShiftedNewton {
     pub fn new(model: &Model) -> Self {
         let mu = model.body.material().shear_modulus();
         Self { shift: FIRST_SHIFT * mu, least: LEAST_SHIFT * mu, correction: Vec::new(), corrected: Vec::new() }

@@ -6,16 +6,16 @@ use thiserror::Error;
 
 /// Where a document is unsound, and why.
 #[derive(Clone, Debug, PartialEq, Error)]
-#[error("{at}: {problem}")]
+#[error("{at}: {fault}")]
 pub struct DesignError {
     /// Path of the offending value, such as `poses[2].targets[0].to`.
     pub at: String,
-    pub problem: Problem,
+    pub fault: Fault,
 }
 
 /// What is wrong at the place a [`DesignError`] names.
 #[derive(Clone, Debug, PartialEq, Error)]
-pub enum Problem {
+pub enum Fault {
     #[error("{index} is out of range, the mesh has {len} {what}")]
     OutOfRange { index: usize, len: usize, what: &'static str },
     #[error("{0} is not a finite number")]
@@ -79,21 +79,21 @@ fn spaced(unit: &str) -> String {
 }
 
 pub(super) fn finite(at: &str, v: f64) -> Check {
-    require(v.is_finite(), at, || Problem::NotFinite(v))
+    require(v.is_finite(), at, || Fault::NotFinite(v))
 }
 
 pub(super) fn at_least(at: &str, found: usize, least: usize, what: &'static str) -> Check {
-    require(found >= least, at, || Problem::TooFew { found, least, what })
+    require(found >= least, at, || Fault::TooFew { found, least, what })
 }
 
 pub(super) fn same_length(at: &str, found: usize, expected: usize, what: &'static str) -> Check {
-    require(found == expected, at, || Problem::Length { found, expected, what })
+    require(found == expected, at, || Fault::Length { found, expected, what })
 }
 
-pub(super) fn require(holds: bool, at: &str, problem: impl FnOnce() -> Problem) -> Check {
-    if holds { Ok(()) } else { fail(at, problem()) }
+pub(super) fn require(holds: bool, at: &str, fault: impl FnOnce() -> Fault) -> Check {
+    if holds { Ok(()) } else { fail(at, fault()) }
 }
 
-pub(super) fn fail(at: impl Into<String>, problem: Problem) -> Check {
-    Err(DesignError { at: at.into(), problem })
+pub(super) fn fail(at: impl Into<String>, fault: Fault) -> Check {
+    Err(DesignError { at: at.into(), fault })
 }

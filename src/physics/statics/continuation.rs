@@ -7,10 +7,10 @@
 //! Pins are springs like any other, and so is a nearly incompressible material against changes of its area; that one shows only
 //! when Newton's method has been slow for a while.
 
-use super::contractile::Law;
-use super::hyperelastic::Hyperelastic;
-use super::model::Model;
-use super::statics::StaticsSettings;
+use super::state::StaticsSettings;
+use crate::physics::Law;
+use crate::physics::hyperelastic::Hyperelastic;
+use crate::physics::model::Model;
 
 /// Stiffness of the first stage, in shear moduli.
 const FIRST: f64 = 10.0;

@@ -6,8 +6,8 @@
 //! method goes on with residuals of twice the digits and the factor of the ordinary Hessian (iterative refinement). What
 //! comes out are forces in balance: the force of a stiff pin is what its node needs, as if its unknowns were eliminated.
 
-use super::contractile::{Element, Law};
 use super::double_double::DoubleDouble;
+use super::element::{Element, Law};
 use super::energy::{Energy, Scales};
 use super::model::Model;
 use super::statics::norm;
