@@ -1,4 +1,4 @@
-//! What panels and viewports ask for. They borrow the session, read only, and return these; the session alone acts.
+//! What panels, tools and keys ask for. They borrow the session, read only, and return these; [`acts`](super::acts) does them.
 
 use super::canvas::{Camera, Hit};
 use super::change::Change;

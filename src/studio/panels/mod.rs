@@ -26,3 +26,18 @@ pub use widgets::{frame, heading, name_field, primary, wide};
 
 /// The panels of the inspector, by their tabs; the first one is open at first.
 pub static ALL: [&Entry; 3] = [&networks::ENTRY, &mesh::ENTRY, &settings::ENTRY];
+
+#[cfg(test)]
+mod tests {
+    use super::ALL;
+    use crate::studio::commands;
+
+    #[test]
+    fn every_panel_has_a_tab_a_tip_and_a_command() {
+        for (k, entry) in ALL.iter().enumerate() {
+            assert!(ALL[..k].iter().all(|other| other.id != entry.id && other.label != entry.label), "{}", entry.id);
+            assert!(entry.id.starts_with("panel.") && entry.tip.len() > 10 && !entry.tip.ends_with('.'));
+            assert!(commands::all().any(|command| command.id == entry.id && command.label.ends_with(entry.label)));
+        }
+    }
+}

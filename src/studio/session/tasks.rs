@@ -73,3 +73,31 @@ impl PartialEq for Task {
         self.owner == other.owner && Arc::ptr_eq(&self.work, &other.work)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::studio::jobs::{Jobs, Outcome};
+
+    #[test]
+    fn what_an_abandoned_job_tells_is_not_wanted() {
+        let mut jobs = Jobs::new(Arc::new(|| ()));
+        let mut tasks = Tasks::default();
+        let mut start = |tasks: &mut Tasks, number: u32| {
+            let running =
+                jobs.start("Counting", move |_| Outcome::Told { owner: "panel.count", told: Arc::new(number) });
+            let serial = running.serial;
+            tasks.begin("panel.count", running);
+            serial
+        };
+        let (first, second) = (start(&mut tasks, 1), start(&mut tasks, 2));
+        tasks.finish("panel.count", first, Arc::new(1_u32));
+        assert!(tasks.told::<u32>("panel.count").is_none() && tasks.running("panel.count").is_some());
+        tasks.finish("panel.count", second, Arc::new(2_u32));
+        assert_eq!((tasks.told::<u32>("panel.count"), tasks.running("panel.count").is_none()), (Some(&2), true));
+        assert!(tasks.told::<f64>("panel.count").is_none() && tasks.told::<u32>("panel.other").is_none());
+        let third = start(&mut tasks, 3);
+        tasks.break_off(third);
+        assert!(tasks.running("panel.count").is_none());
+    }
+}
