@@ -1,7 +1,7 @@
 //! Work that takes too long for a frame, each on a thread that reports back once.
 
 use super::keeping::Kept;
-use super::session::{ImportChoice, Told};
+use super::session::ImportChoice;
 use crate::design::Design;
 use crate::operations::key::{self, Keyed};
 use crate::operations::new_design::Note;
@@ -11,6 +11,7 @@ use crate::operations::rig::{self, Rigged};
 use crate::outline::Changes;
 use crate::picture::Texture;
 use crate::rigging::Proposal;
+use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -24,6 +25,9 @@ pub struct Finished {
     pub serial: u64,
     pub outcome: Outcome,
 }
+
+/// What a job of a panel came to; the panel alone knows what it is.
+pub type Told = Arc<dyn Any + Send + Sync>;
 
 /// What a job came to.
 pub enum Outcome {

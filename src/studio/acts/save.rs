@@ -13,16 +13,17 @@ const PATIENCE: Duration = Duration::from_millis(500);
 /// Saves the document. What is not the document's own file, or is not what was read any more, is asked about, unless the answer was
 /// to `replace` it. Whether it was saved.
 pub fn save(session: &mut Session, path: PathBuf, replace: bool) -> bool {
-    let path = if path.extension().is_none() { path.with_extension("plush") } else { path };
-    let own = session.document.path.as_deref().is_some_and(|own| own == path || files::same(own, &path));
-    let found = std::fs::metadata(&path);
-    if found.as_ref().is_ok_and(|found| !found.is_file() && !found.is_dir()) {
+    let full = if path.extension().is_none() { path.with_extension("plush") } else { path.clone() };
+    let is_special = |path: &PathBuf| std::fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir());
+    if let Some(path) = [&path, &full].into_iter().find(|&path| is_special(path)) {
         // A pipe or a device keeps nothing: it would count as saved.
         session.files.after_save = None;
-        session.messages.error(format!("{} is not a regular file; nothing would be kept there", files::shown(&path)));
+        session.messages.error(format!("{} is not a regular file; nothing would be kept there", files::shown(path)));
         return false;
     }
-    let there = found.is_ok_and(|found| found.is_file() && found.len() > 0);
+    let path = full;
+    let own = session.document.path.as_deref().is_some_and(|own| own == path || files::same(own, &path));
+    let there = std::fs::metadata(&path).is_ok_and(|found| found.is_file() && found.len() > 0);
     if there && !own && !replace {
         let why = if file::is_design(&path) { Why::Exists } else { Why::Foreign };
         session.files.dialog = Some(Dialog::Replace(path, why));

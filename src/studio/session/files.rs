@@ -94,15 +94,15 @@ pub struct Files {
     /// What a thread is busy with, ready to be shown.
     pub working: Option<&'static str>,
     /// Waits for saving to succeed.
-    pub(in crate::studio) after_save: Option<FileAction>,
+    pub(crate) after_save: Option<FileAction>,
     /// The document whose changes may be dropped, as was answered.
-    pub(in crate::studio) granted: Option<Arc<Design>>,
+    pub(crate) granted: Option<Arc<Design>>,
     /// What that thread is at.
-    pub(in crate::studio) running: Option<Running>,
+    pub(crate) running: Option<Running>,
     /// Waits for an answer about the document that it would replace.
-    pub(in crate::studio) imported: Option<Box<New>>,
+    pub(crate) imported: Option<Box<New>>,
     /// The path that the desktop's dialog was opened for.
-    pub(in crate::studio) picking: Option<Purpose>,
+    pub(crate) picking: Option<Purpose>,
     /// Whether the desktop has dialogs.
     pub native_dialogs: bool,
     /// The window should close.

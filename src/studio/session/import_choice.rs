@@ -13,7 +13,7 @@ pub struct ImportChoice {
 
 impl ImportChoice {
     /// For the outline in a file, after which the design is called.
-    pub(in crate::studio) fn options(&self, path: &Path) -> Options {
+    pub(crate) fn options(&self, path: &Path) -> Options {
         let mut options = Options { name: new_design::name_of(path), ..self.options.clone() };
         let names = self.layers.split(',').map(str::trim).filter(|name| !name.is_empty());
         options.import.layers = names.map(str::to_owned).collect();

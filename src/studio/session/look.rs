@@ -47,7 +47,7 @@ impl Views {
 
 impl Look {
     /// Changes the scale about the middle.
-    pub(in crate::studio) fn zoom(&mut self, factor: f32) {
+    pub(crate) fn zoom(&mut self, factor: f32) {
         self.zoom = Some(self.zoom.unwrap_or(1.0) * factor);
     }
 }

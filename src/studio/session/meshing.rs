@@ -18,7 +18,7 @@ pub struct Resolution {
 #[derive(Default)]
 pub struct Meshing {
     /// What the controls say; `None`: that of the design.
-    pub(in crate::studio) wanted: Option<Resolution>,
+    pub(crate) wanted: Option<Resolution>,
     pub running: Option<Running>,
 }
 
@@ -38,7 +38,7 @@ impl Meshing {
     }
 
     /// Whether the mesh that is waited for is there; it is not waited for any more then.
-    pub(in crate::studio) fn take(&mut self, serial: u64) -> bool {
+    pub(crate) fn take(&mut self, serial: u64) -> bool {
         let wanted = Running::is(self.running.as_ref(), serial);
         if wanted {
             self.running = None;

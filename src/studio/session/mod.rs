@@ -18,6 +18,7 @@ mod solver;
 mod tasks;
 mod texturing;
 
+pub use super::jobs::Told;
 pub use discovery::Discovery;
 pub use document::Document;
 pub use files::{Dialog, FileAction, Files, PathDialog, Purpose, Why, desktop_has_dialogs};
@@ -32,5 +33,5 @@ pub use safety::Safety;
 pub use session::{Export, Propose, Services, Session};
 pub use sketching::{FREEHAND, Sketching};
 pub use solver::{Shapes, Solver};
-pub use tasks::{Task, Tasks, Told};
+pub use tasks::{Task, Tasks};
 pub use texturing::{Found, Texturing};

@@ -37,7 +37,7 @@ impl Picked {
     }
 
     /// After any change of the document: nothing may point beyond it.
-    pub(in crate::studio) fn clamp(&mut self, design: &Design) {
+    pub(crate) fn clamp(&mut self, design: &Design) {
         if self.pose.is_some_and(|pose| pose >= design.poses.len()) {
             self.pose = design.poses.len().checked_sub(1);
         }

@@ -25,7 +25,7 @@ impl Default for RigChoice {
 
 impl RigChoice {
     /// With the parameters of discovery.
-    pub(in crate::studio) fn options(&self, parameters: &Parameters) -> Result<Options, BadTendons> {
+    pub(crate) fn options(&self, parameters: &Parameters) -> Result<Options, BadTendons> {
         let held = |value: usize| self.hold.then_some(value);
         Ok(Options {
             max_winches: self.max_winches,
@@ -43,7 +43,7 @@ pub struct Rigging {
     pub choice: RigChoice,
     pub running: Option<Running>,
     /// What was done last, from the thread.
-    pub(in crate::studio) step: Arc<Mutex<String>>,
+    pub(crate) step: Arc<Mutex<String>>,
 }
 
 impl Rigging {

@@ -46,34 +46,34 @@ pub struct Services {
 
 /// Everything that the window knows. Panels and tools read it; only acts change it, each the parts that it is about.
 pub struct Session {
-    pub(in crate::studio) document: Document,
-    pub(in crate::studio) picked: Picked,
-    pub(in crate::studio) look: Look,
-    pub(in crate::studio) playback: Playback,
-    pub(in crate::studio) solver: Solver,
-    pub(in crate::studio) discovery: Discovery,
-    pub(in crate::studio) rigging: Rigging,
-    pub(in crate::studio) meshing: Meshing,
-    pub(in crate::studio) sketching: Sketching,
-    pub(in crate::studio) texturing: Texturing,
+    pub(crate) document: Document,
+    pub(crate) picked: Picked,
+    pub(crate) look: Look,
+    pub(crate) playback: Playback,
+    pub(crate) solver: Solver,
+    pub(crate) discovery: Discovery,
+    pub(crate) rigging: Rigging,
+    pub(crate) meshing: Meshing,
+    pub(crate) sketching: Sketching,
+    pub(crate) texturing: Texturing,
     /// A keyframe that is worked out.
-    pub(in crate::studio) keying: Option<Running>,
-    pub(in crate::studio) messages: Messages,
-    pub(in crate::studio) files: Files,
-    pub(in crate::studio) safety: Safety,
+    pub(crate) keying: Option<Running>,
+    pub(crate) messages: Messages,
+    pub(crate) files: Files,
+    pub(crate) safety: Safety,
     /// The tools that are taken, by name: of the views and of the sheet.
-    pub(in crate::studio) tools: [&'static str; 2],
+    pub(crate) tools: [&'static str; 2],
     /// The panel that is open, by name.
-    pub(in crate::studio) panel: &'static str,
+    pub(crate) panel: &'static str,
     /// Whether pictures can be drawn.
-    pub(in crate::studio) gpu: bool,
-    pub(in crate::studio) overlay: Option<Overlay>,
+    pub(crate) gpu: bool,
+    pub(crate) overlay: Option<Overlay>,
     /// A name that is being typed.
-    pub(in crate::studio) renaming: Option<(Renamed, String)>,
-    pub(in crate::studio) jobs: Jobs,
+    pub(crate) renaming: Option<(Renamed, String)>,
+    pub(crate) jobs: Jobs,
     /// Jobs of panels, and what came of them.
-    pub(in crate::studio) tasks: Tasks,
-    pub(in crate::studio) services: Services,
+    pub(crate) tasks: Tasks,
+    pub(crate) services: Services,
 }
 
 impl Session {

@@ -32,7 +32,7 @@ impl Sketching {
     }
 
     /// Nothing may point beyond the drawing, and there is one while it is open.
-    pub(in crate::studio) fn clamp(&mut self, design: &Design) {
+    pub(crate) fn clamp(&mut self, design: &Design) {
         if !self.open {
             return;
         }

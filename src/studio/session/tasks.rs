@@ -1,14 +1,11 @@
 //! Jobs of panels: one for each panel, and what came of it.
 
-use crate::studio::jobs::Running;
+use crate::studio::jobs::{Running, Told};
 use std::any::Any;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
-
-/// What a job of a panel came to; the panel alone knows what it is.
-pub type Told = Arc<dyn Any + Send + Sync>;
 
 /// Work for a thread, asked for by a panel. `work` is given what tells it to stop.
 #[derive(Clone)]

@@ -7,8 +7,8 @@ use std::sync::Arc;
 #[derive(Default)]
 pub struct Texturing {
     /// The file that was asked for last.
-    pub(in crate::studio) path: Option<PathBuf>,
-    pub(in crate::studio) found: Found,
+    pub(crate) path: Option<PathBuf>,
+    pub(crate) found: Found,
 }
 
 #[derive(Default)]
