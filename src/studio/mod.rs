@@ -10,7 +10,7 @@
 //! Whatever takes long runs on a thread: the solver on its worker, the rest as [`jobs`].
 
 pub mod action;
-mod acts;
+pub mod acts;
 pub mod app;
 mod blank;
 pub mod canvas;
