@@ -1,14 +1,14 @@
 //! Dialogs over the window: unsaved changes, and paths where the desktop has no dialogs of its own.
 
-use super::{Actions, primary};
+use super::widgets::primary;
 use crate::files::shown;
 use crate::mesh::MAX_FIBERS;
 use crate::operations::FiberCount;
 use crate::outline::{Background, Holes, Import, Pieces};
-use crate::studio::action::{Action, FileAction};
-use crate::studio::files::{Dialog, PathDialog, Purpose, Why};
-use crate::studio::importing::ImportChoice;
+use crate::studio::action::{Action, Actions, FileAction};
+use crate::studio::session::ImportChoice;
 use crate::studio::session::Session;
+use crate::studio::session::{Dialog, PathDialog, Purpose, Why};
 use eframe::egui::{
     Align, CollapsingHeader, Context, DragValue, Grid, Id, Key, Layout, Modal, RichText, TextEdit, Ui, emath,
 };
@@ -151,7 +151,7 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, actions: &mut Actio
         Purpose::Export => {
             "Pattern, routings, winch tracks and controller program. The folder appears whole or not at all."
         }
-        Purpose::SaveAs if path.is_file() && session.path.as_deref() != Some(path) => "This file exists.",
+        Purpose::SaveAs if path.is_file() && session.document.path.as_deref() != Some(path) => "This file exists.",
         Purpose::Open | Purpose::Import if is_wrong => "There is no such file.",
         Purpose::Import => "The filled shapes of the drawing are joined to one silhouette.",
         _ => "",
