@@ -21,7 +21,7 @@
 //! | [`rigging`] | finds winches and tendons: generators of candidates, criteria that judge them, the search |
 //! | [`motion`] | what motors are told: trajectories of winches, programs, links that carry them |
 //! | [`fabrication`] | the blueprint: products (patterns, routings, tracks, programs) and the writers of their files |
-//! | [`picture`] | a neutral drawing of both plushies in layers, rasterised without a graphics adapter |
+//! | [`picture`] | pictures of both plushies in layers, rasterised without a graphics adapter |
 //! | [`bench`] | whole studies of the solvers, repeatable from a seed |
 //! | [`commands`] | the headless commands |
 //! | `studio` | the window (feature `studio`) |
@@ -38,7 +38,9 @@
 //! has wound; the contraction of its tendons is `Z beta` (*winch synergy*). *Tension* `tau = dU/dGamma`, with the
 //! *deformation* `Gamma = length - alpha`. *Idealized plushie*: a fibre on every mesh edge beside the accepted
 //! networks. *Realizable plushie*: the accepted winch-tendon networks alone. *Track* of a drawing: a line along which mesh edges
-//! run; of a winch: its cable over time. *Texture*: the picture on the felt, in a box of rest coordinates.
+//! run. *Trajectory* of a winch: its cable over time (the file `tracks.csv`). *Texture*: the picture on the felt, in a box of rest
+//! coordinates. *Sheet*: a page in mm to be cut or looked at. *Program*: timed commands to motors. *Link*: the line that carries
+//! them. *Layer*: a part of a picture, drawn from its own inputs.
 //!
 //! # Invariants
 //! - The core never imports the window: `cargo build --no-default-features` builds everything but `studio`.

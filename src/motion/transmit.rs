@@ -29,9 +29,10 @@ pub fn transmit(program: &Program, link: &mut dyn Link, patience_s: f64) -> Resu
         send(link, command, patience_s)?;
         sent.commands += 1;
     }
-    let mut zero_s = None;
+    let mut first = None;
     for (time_s, commands) in program.steps() {
-        let due_s = time_s + *zero_s.get_or_insert(link.now_s() - time_s);
+        let (began_s, first_s) = *first.get_or_insert((link.now_s(), time_s));
+        let due_s = began_s + (time_s - first_s);
         link.wait_until(due_s)?;
         sent.latest_s = sent.latest_s.max(link.now_s() - due_s);
         for command in commands {
@@ -105,9 +106,10 @@ mod tests {
             send(&mut drive, command, PATIENCE_S).unwrap();
         }
         // 10 rev/s after 0.5 s (2.5 revolutions), 0.25 s to stop (1.25), the rest at full speed: 1.375 s in all.
-        let start = drive.now_s();
+        // The reply to M, four bytes, came while it moved.
+        let start = drive.now_s() - 4.0 * 10.0 / 9600.0;
         drive.wait_until(start + 0.5).unwrap();
-        assert!((drive.position(1).unwrap() - 2500).abs() < 40);
+        assert!((drive.position(1).unwrap() - 2500).abs() < 20, "{:?}", drive.position(1));
         drive.settle();
         assert!((drive.now_s() - start - 1.375).abs() < 0.02, "{}", drive.now_s() - start);
         assert_eq!(drive.position(1), Some(10_000));

@@ -1,4 +1,4 @@
-//! A neutral drawing of a plushie: what the window and the headless pictures both show.
+//! Pictures of plushies: what the window and the headless commands both show.
 //!
 //! A [`Subject`] says what a picture is of; its [`layers`] make a [`Scene`] of it, primitives in painting order with
 //! coordinates in mm (y up). Line widths and disc radii are in logical pixels, so that they stay crisp at every zoom.

@@ -1,10 +1,10 @@
-//! A neutral drawing: primitives in painting order.
+//! Scenes: primitives in painting order, for any renderer.
 
 use super::texture::Texture;
 use crate::outline::Point;
 use std::sync::Arc;
 
-/// Straight (not premultiplied) sRGB colour with alpha.
+/// An sRGB colour with alpha, straight (not premultiplied).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Color(pub u8, pub u8, pub u8, pub u8);
 
@@ -40,7 +40,7 @@ pub enum Item {
     },
 }
 
-/// A drawing: items in painting order.
+/// Items in painting order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scene {
     pub items: Vec<Item>,

@@ -10,4 +10,4 @@ mod tracks;
 use super::product::Make;
 
 /// All parts in the order of their files. Each sees what those before it have made; the page that explains them is last.
-pub const PRODUCTS: [Make; 5] = [pattern::make, routing::make, tracks::make, controller::make, readme::make];
+pub const PRODUCTS: &[Make] = &[pattern::make, routing::make, tracks::make, controller::make, readme::make];

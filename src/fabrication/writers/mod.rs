@@ -17,7 +17,7 @@ pub struct Writer {
 }
 
 /// All formats. A product is written in each that knows its kind.
-pub const WRITERS: [Writer; 4] = [
+pub const WRITERS: &[Writer] = &[
     Writer { extension: "svg", write: svg::write },
     Writer { extension: "csv", write: csv::write },
     Writer { extension: "txt", write: text::write },
@@ -29,4 +29,28 @@ pub fn written(product: &Product) -> impl Iterator<Item = (String, Vec<u8>)> {
     let file =
         |writer: &Writer| Some((format!("{}.{}", product.name, writer.extension), (writer.write)(&product.content)?));
     WRITERS.iter().filter_map(file)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fabrication::{Sheet, Solid, Table};
+    use crate::motion::Program;
+
+    #[test]
+    fn every_kind_is_written_and_no_two_files_have_one_name() {
+        let kinds = [
+            Content::Sheet(Sheet::default()),
+            Content::Solid(Solid::default()),
+            Content::Table(Table::default()),
+            Content::Program(Program::new("\r")),
+            Content::Page(String::new()),
+        ];
+        for content in kinds {
+            let names: Vec<String> = written(&Product::new("x", content.clone())).map(|(name, _)| name).collect();
+            let mut once = names.clone();
+            once.dedup();
+            assert!(!names.is_empty() && once == names, "{content:?}: {names:?}");
+        }
+    }
 }

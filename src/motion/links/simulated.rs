@@ -128,6 +128,7 @@ impl Link for SimulatedLink {
     fn wait_until(&mut self, time_s: f64) -> Result<(), LinkError> {
         if time_s > self.now_s {
             self.pass(time_s - self.now_s);
+            self.now_s = time_s;
         }
         Ok(())
     }

@@ -30,7 +30,7 @@ use super::scene::Scene;
 use layer::Inputs;
 
 /// All layers in painting order.
-pub const LAYERS: [Entry; 8] = [
+pub const LAYERS: &[Entry] = &[
     Entry::of::<Felt>(),
     Entry::of::<Textured>(),
     Entry::of::<Seam>(),
