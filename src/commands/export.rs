@@ -46,7 +46,7 @@ impl Export {
 /// Writes the blueprint of `design`, which was read from `source`.
 pub fn export(design: &Design, source: &Path, folder: &Path, cancel: &AtomicBool) -> Result<Manifest, CommandError> {
     check_cancel(cancel)?;
-    fabrication::export(design, folder).map_err(|error| match error {
+    fabrication::export(design, folder, &Default::default()).map_err(|error| match error {
         ExportError::Write { path, source } => CommandError::write(&path, source),
         ExportError::NotOurs { .. } | ExportError::Changed { .. } => CommandError::Usage(error.to_string()),
         error => CommandError::input(source, error),

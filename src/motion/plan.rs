@@ -8,8 +8,7 @@
 use super::error::MotionError;
 use super::limits::Limits;
 use super::profile::{Profile, ROUNDING, Trapezoid};
-use super::trajectory::counts_per_mm;
-use super::winches::winch_labels;
+use super::winches::{counts_per_mm, winch_labels};
 use crate::design::animation::SAME_TIME_S;
 use crate::design::{Design, Easing};
 
@@ -73,7 +72,11 @@ impl Plan {
     pub fn of(design: &Design, too_fast: TooFast) -> Result<Self, MotionError> {
         let (limits, winches) = (limits(design), winch_labels(design));
         let mut notes = Vec::new();
-        let mut keys: Vec<Key> = design.keyframes.iter().map(|k| Key { time_s: k.time_s, easing: k.easing, lengths: k.activations_mm.clone() }).collect();
+        let mut keys: Vec<Key> = design
+            .keyframes
+            .iter()
+            .map(|k| Key { time_s: k.time_s, easing: k.easing, lengths: k.activations_mm.clone() })
+            .collect();
         for key in &mut keys {
             for (winch, length) in winches.iter().zip(&mut key.lengths) {
                 if *length < 0.0 {
@@ -106,8 +109,7 @@ impl Plan {
     pub fn steps(&self, rate_hz: f64) -> Vec<f64> {
         let mut steps = vec![self.times_s.first().copied().unwrap_or(0.0)];
         for pair in self.times_s.windows(2) {
-            let duration = pair[1] - pair[0];
-            let count = ((duration - SAME_TIME_S) * rate_hz).ceil().max(1.0);
+            let (duration, count) = (pair[1] - pair[0], steps_of(pair, rate_hz));
             let inner = (1..count as u64).map(|k| pair[0] + duration * k as f64 / count);
             steps.extend(inner);
             steps.push(pair[1]);
@@ -115,10 +117,15 @@ impl Plan {
         steps
     }
 
-    /// How many steps [`Plan::steps`] has, about.
+    /// How many steps [`Plan::steps`] has.
     pub fn count(&self, rate_hz: f64) -> f64 {
-        self.times_s.windows(2).map(|t| ((t[1] - t[0]) * rate_hz).ceil().max(1.0)).sum::<f64>() + 1.0
+        self.times_s.windows(2).map(|pair| steps_of(pair, rate_hz)).sum::<f64>() + 1.0
     }
+}
+
+/// Steps between two keyframes.
+fn steps_of(times_s: &[f64], rate_hz: f64) -> f64 {
+    ((times_s[1] - times_s[0] - SAME_TIME_S) * rate_hz).ceil().max(1.0)
 }
 
 /// A keyframe on its way into the plan.
@@ -145,7 +152,13 @@ fn lead(keys: &mut Vec<Key>, limits: Limits, notes: &mut Vec<Note>) {
 }
 
 /// A profile for each winch in each section; sections that are too quick are stretched or refused.
-fn fit(keys: &mut [Key], winches: &[String], limits: Limits, too_fast: TooFast, notes: &mut Vec<Note>) -> Result<Vec<Vec<Profile>>, MotionError> {
+fn fit(
+    keys: &mut [Key],
+    winches: &[String],
+    limits: Limits,
+    too_fast: TooFast,
+    notes: &mut Vec<Note>,
+) -> Result<Vec<Vec<Profile>>, MotionError> {
     let before: Vec<f64> = keys.iter().map(|key| key.time_s).collect();
     let mut stretches = 0;
     let mut k = 0;
@@ -162,7 +175,13 @@ fn fit(keys: &mut [Key], winches: &[String], limits: Limits, too_fast: TooFast, 
             let slow = (0..winches.len()).find(|&winch| profile(keys, k, winch, limits).is_none()).unwrap_or(0);
             let by = keys[k + 1].lengths[slow] - keys[k].lengths[slow];
             let [from_s, to_s] = [before[k], before[k + 1]];
-            return Err(MotionError::TooFast { winch: winches[slow].clone(), from_s, to_s, by_mm: by, needs_s: Trapezoid::shortest(by, limits) });
+            return Err(MotionError::TooFast {
+                winch: winches[slow].clone(),
+                from_s,
+                to_s,
+                by_mm: by,
+                needs_s: Trapezoid::shortest(by, limits),
+            });
         }
         stretches += 1;
         if stretches > MAX_STRETCHES {

@@ -42,7 +42,10 @@ impl Trapezoid {
         // Where the ramps fill the time, above and below.
         let (mut low, mut high) = (middle.min(0.5 * (start + end - room)), middle.max(0.5 * (start + end + room)));
         (low, high) = (low.max(-speed), high.min(speed));
-        if low > high || with(low).distance() > by + ROUNDING * by.abs() || with(high).distance() < by - ROUNDING * by.abs() {
+        if low > high
+            || with(low).distance() > by + ROUNDING * by.abs()
+            || with(high).distance() < by - ROUNDING * by.abs()
+        {
             return None;
         }
         for _ in 0..HALVINGS {
@@ -55,7 +58,11 @@ impl Trapezoid {
     /// Shortest time in which a winch gets `by` from rest to rest, s.
     pub fn shortest(by: f64, Limits { speed, acceleration }: Limits) -> f64 {
         let by = by.abs();
-        if by * acceleration <= speed * speed { 2.0 * (by / acceleration).sqrt() } else { by / speed + speed / acceleration }
+        if by * acceleration <= speed * speed {
+            2.0 * (by / acceleration).sqrt()
+        } else {
+            by / speed + speed / acceleration
+        }
     }
 
     /// Durations of the two ramps, s.
@@ -140,8 +147,13 @@ mod tests {
             let way: Vec<f64> = (0..=steps).map(|k| trapezoid.at(f64::from(k) * dt)).collect();
             let speeds: Vec<f64> = way.windows(2).map(|w| (w[1] - w[0]) / dt).collect();
             assert!(speeds.iter().all(|v| v.abs() <= 100.0 + 1e-6));
-            assert!(speeds.windows(2).all(|v| ((v[1] - v[0]) / dt).abs() <= 200.0 * (1.0 + 1e-3) + 1e-3), "{trapezoid:?}");
-            assert!((speeds[0] - ends[0]).abs() <= 200.0 * dt && (speeds[speeds.len() - 1] - ends[1]).abs() <= 200.0 * dt);
+            assert!(
+                speeds.windows(2).all(|v| ((v[1] - v[0]) / dt).abs() <= 200.0 * (1.0 + 1e-3) + 1e-3),
+                "{trapezoid:?}"
+            );
+            assert!(
+                (speeds[0] - ends[0]).abs() <= 200.0 * dt && (speeds[speeds.len() - 1] - ends[1]).abs() <= 200.0 * dt
+            );
         }
         assert!(found > 300, "{found}");
     }

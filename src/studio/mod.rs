@@ -126,7 +126,9 @@ pub fn services() -> Services {
     Services {
         propose: Arc::new(crate::rigging::propose),
         export: Arc::new(|design, folder| {
-            crate::fabrication::export(design, folder).map(|_| ()).map_err(|error| error.to_string())
+            crate::fabrication::export(design, folder, &Default::default())
+                .map(|_| ())
+                .map_err(|error| error.to_string())
         }),
     }
 }
