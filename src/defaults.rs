@@ -47,9 +47,9 @@ pub const TENDON_NUM: usize = 2;
 /// Trade between a large mean and a small spread of the tendons' net contractions (phi of Algorithm 2).
 pub const PHI: f64 = 0.5;
 
-/// Height of a new plushie when its outline has no physical size, mm: a soft toy for one hand.
-pub const HEIGHT_MM: f64 = 250.0;
-/// Muscle fibres of a new design. The paper's designs have 276 to 571.
+/// Muscle fibres of a new design, unless its file brings its own mesh. The paper's designs have 276 to 571. A new design has no
+/// default height: it is as large as its file says (plain numbers of an SVG and pixels measure 1/96 inch, those of a DXF or OBJ
+/// 1 mm), and one that is small for a plushie is told.
 pub const FIBERS: usize = 414;
 
 /// Seam allowance, mm. Shop guides for hand-made plush: 6 to 10.

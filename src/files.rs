@@ -18,6 +18,7 @@ mod draft;
 pub mod folder;
 mod hold;
 mod mark;
+mod paths;
 mod place;
 mod signals;
 mod stamp;
@@ -25,6 +26,7 @@ mod sweep;
 
 pub use hold::Hold;
 pub use mark::{is_marked_png, marked_png};
+pub use paths::parent;
 pub use place::same;
 pub use signals::{before_exit, survive_size_limits};
 pub use stamp::{Stamp, sha256};
@@ -33,7 +35,7 @@ use draft::Draft;
 use place::Place;
 use std::fs;
 use std::io::{self, Read, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Puts `bytes` in the place of `path`: afterwards the file holds either the old content or the new. A terminal, a pipe or the null
 /// device is written to as it is.
@@ -113,14 +115,6 @@ pub fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     if bytes.len() as u64 > most { Err(too_large()) } else { Ok(bytes) }
 }
 
-/// The folder of a file.
-pub fn parent(path: &Path) -> &Path {
-    match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    }
-}
-
 /// A path in a message: what a terminal would obey or hide is written out.
 pub fn shown(path: &Path) -> String {
     printable(&path.to_string_lossy())
@@ -165,28 +159,6 @@ fn stream(path: &Path, bytes: &[u8]) -> io::Result<()> {
     rustix::fs::fcntl_setfl(&stream, rustix::fs::fcntl_getfl(&stream)? - rustix::fs::OFlags::NONBLOCK)?;
     stream.write_all(bytes)?;
     stream.flush()
-}
-
-/// The name itself is on the disk once its folder is. Not every system can flush a folder; the content is safe anyway.
-fn sync_folder(folder: &Path) {
-    #[cfg(unix)]
-    if let Ok(folder) = fs::File::open(folder) {
-        let _ = folder.sync_all();
-    }
-    #[cfg(not(unix))]
-    let _ = folder;
-}
-
-/// What is still to be named, beside its place: `.plushwright-`, six letters, `.tmp`.
-fn temporary() -> tempfile::Builder<'static, 'static> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(sweep::PREFIX).suffix(sweep::SUFFIX);
-    builder
-}
-
-/// An absolute path, so that a change of the working folder between two steps does no harm.
-fn absolute(path: &Path) -> io::Result<PathBuf> {
-    std::path::absolute(path)
 }
 
 #[cfg(test)]

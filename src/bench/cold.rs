@@ -40,6 +40,10 @@ pub struct Cold {
 type Course = Vec<(usize, f64)>;
 
 impl Cold {
+    /// Runs the study.
+    ///
+    /// # Errors
+    /// A shape that cannot be meshed, or the study was cancelled.
     pub fn run(&self, session: &Session) -> Result<Report, BenchError> {
         let mut headings = vec!["shape", "fibres", "targets", "draw", "O rest", "O best"];
         let marks = MARKS.map(|k| format!("after {k}"));
@@ -84,8 +88,8 @@ impl Cold {
         let median = Summary::of(needed.iter().copied()).median;
         let remarks = vec![format!(
             "Within 40 factorisations {good} of {drags} drags are within 1 %; the worst misses {}. Median to 1 %: {}.",
-            super::report::significant(worst),
-            super::report::significant(median)
+            super::figures::significant(worst),
+            super::figures::significant(median)
         )];
         let plot = Plot {
             name: "cold".into(),

@@ -3,11 +3,11 @@
 
 use super::baseline::{Comparison, EQUAL_ERROR, End, follow};
 use super::drags::{Path, goals, places, points, towards};
+use super::figures::significant;
 use super::linear::Unit;
 use super::plot::{Plot, Series};
 use super::posing::{at_rest, distance_from_equilibrium, free_fibers, may_be_shown, optimum};
 use super::random::Random;
-use super::report::significant;
 use super::shapes::Subject;
 use super::statistics::{Summary, growth_exponent};
 use super::{BenchError, Cell, Quality, Report, Session, Table, Tracker};
@@ -53,47 +53,57 @@ struct Measured {
     handed: Comparison,
 }
 
+/// Times and errors of all drags, still empty.
+fn tables() -> [Table; 2] {
+    let key = ["shape", "fibres", "targets", "path"];
+    let time = [
+        "median",
+        "p95",
+        "worst",
+        "assembly",
+        "factor",
+        "solves",
+        "dual",
+        "line search",
+        "iterations",
+        "factorisations",
+        "fastest factor",
+        "in factors",
+        "p95 in factors",
+        "worst in factors",
+        "Alg. 1 / ours",
+        "from ours",
+        "reached",
+        "gave up",
+        "stalled",
+    ];
+    let quality = [
+        "error, median",
+        "p95",
+        "worst",
+        "excess, median",
+        "excess, worst",
+        "unbalanced, median",
+        "unbalanced, worst",
+        "claimed, worst",
+        "not showable",
+    ];
+    let times = Table::new("drag-times", "Time of a frame, ms (phases: medians)", &[&key[..], &time].concat());
+    let errors = Table::new(
+        "drag-errors",
+        "Target error and its excess over the converged optimum, in body lengths; unbalanced force over forces at work",
+        &[&key[..], &quality].concat(),
+    );
+    [times, errors]
+}
+
 impl Drag {
+    /// Runs the study.
+    ///
+    /// # Errors
+    /// A shape that cannot be meshed, or the study was cancelled.
     pub fn run(&self, session: &Session) -> Result<Report, BenchError> {
-        let key = ["shape", "fibres", "targets", "path"];
-        let time = [
-            "median",
-            "p95",
-            "worst",
-            "assembly",
-            "factor",
-            "solves",
-            "dual",
-            "line search",
-            "iterations",
-            "factorisations",
-            "fastest factor",
-            "in factors",
-            "p95 in factors",
-            "worst in factors",
-            "Alg. 1 / ours",
-            "from ours",
-            "reached",
-            "gave up",
-            "stalled",
-        ];
-        let quality = [
-            "error, median",
-            "p95",
-            "worst",
-            "excess, median",
-            "excess, worst",
-            "unbalanced, median",
-            "unbalanced, worst",
-            "claimed, worst",
-            "not showable",
-        ];
-        let mut times = Table::new("drag-times", "Time of a frame, ms (phases: medians)", &[&key[..], &time].concat());
-        let mut errors = Table::new(
-            "drag-errors",
-            "Target error and its excess over the converged optimum, in body lengths; unbalanced force over forces at work",
-            &[&key[..], &quality].concat(),
-        );
+        let [mut times, mut errors] = tables();
         let mut curves: Vec<Series> = Vec::new();
         let mut remarks = Vec::new();
         for shape in &self.shapes {

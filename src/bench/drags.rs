@@ -40,11 +40,17 @@ impl Path {
 }
 
 /// Seeded points of a shape: `count` nodes of the bundled mesh, by their rest positions.
+///
+/// # Errors
+/// A name that is no shape, or a shape with too few nodes away from its pins.
 pub fn places(shape: &str, count: usize, random: &mut Random) -> Result<Vec<Point>, BenchError> {
     places_on(&original(shape)?, shape, count, random)
 }
 
 /// Seeded points of any design: `count` nodes of its mesh, away from pins and from each other.
+///
+/// # Errors
+/// A design with too few nodes away from its pins.
 pub fn places_on(design: &Design, shape: &str, count: usize, random: &mut Random) -> Result<Vec<Point>, BenchError> {
     let (mesh, length) = (&design.mesh, design.body_length_mm());
     let pins: Vec<Point> = design.pins.iter().map(|pin| mesh.position(&pin.at, &mesh.nodes)).collect();
@@ -83,6 +89,9 @@ pub fn points(subject: &Subject, places: &[Point]) -> Vec<BodyPoint> {
 }
 
 /// A point of the bundled design on the mesh of `subject`.
+///
+/// # Errors
+/// A name that is no shape.
 pub fn carried(subject: &Subject, at: &BodyPoint) -> Result<Option<BodyPoint>, BenchError> {
     Ok(carry(&original(&subject.name)?.mesh, at, &subject.design.mesh))
 }
@@ -104,6 +113,9 @@ pub fn positions(objective: &Objective, x: &[f64]) -> Vec<Point> {
 }
 
 /// The goals of every frame of a drag, mm. The same seed, shape, count and path give the same drag.
+///
+/// # Errors
+/// A name that is no shape, a pose without equilibrium, or the study was cancelled.
 pub fn goals(
     subject: &mut Subject,
     points: &[BodyPoint],

@@ -351,7 +351,7 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
             collect(&path, files);
         } else if path
             .extension()
-            .is_some_and(|e| outline::EXTENSIONS.iter().any(|known| e.eq_ignore_ascii_case(known)))
+            .is_some_and(|e| outline::extensions().iter().any(|known| e.eq_ignore_ascii_case(known)))
         {
             files.push(path);
         }

@@ -83,6 +83,9 @@ pub fn variants(subject: &Subject) -> Vec<(&'static str, &'static str, Variant)>
 }
 
 /// The Hessian of `subject` at a deformed equilibrium.
+///
+/// # Errors
+/// No equilibrium at the contractions, or the study was cancelled.
 pub fn deformed_hessian(subject: &mut Subject, session: &Session) -> Result<Matrix, BenchError> {
     let mut random = Random::of(session.seed, &subject.name, 0);
     let original = super::shapes::original(&subject.name)?;
@@ -99,6 +102,9 @@ pub fn deformed_hessian(subject: &mut Subject, session: &Session) -> Result<Matr
 
 /// Times of the variants, `None` for one that cannot factorise the matrix. They take turns, so that whatever else the machine
 /// does falls on all of them alike.
+///
+/// # Errors
+/// The study was cancelled.
 pub fn measure(
     matrix: &Matrix,
     variants: &[Variant],
@@ -172,6 +178,10 @@ pub struct Unit {
 }
 
 impl Unit {
+    /// Measures the fastest variant on a shape's Hessian: the unit of other studies' times.
+    ///
+    /// # Errors
+    /// As [`deformed_hessian`] and [`measure`].
     pub fn of(subject: &mut Subject, session: &Session) -> Result<Self, BenchError> {
         let matrix = deformed_hessian(subject, session)?;
         let tried: Vec<Variant> = variants(subject).into_iter().map(|(_, _, variant)| variant).collect();
@@ -197,6 +207,10 @@ impl Unit {
 }
 
 impl Linear {
+    /// Times every variant on every shape.
+    ///
+    /// # Errors
+    /// A shape that does not exist or cannot be meshed, no equilibrium, or the study was cancelled.
     pub fn run(&self, session: &Session) -> Result<Report, BenchError> {
         let mut table = Table::new(
             "linear",
@@ -254,7 +268,7 @@ impl Linear {
                     }
                 }
                 if let Some((time, label)) = best {
-                    let time = super::report::significant(time);
+                    let time = super::figures::significant(time);
                     remarks.push(format!("{name}, {} fibres: fastest is {label}, {time} ms", subject.fibers()));
                 }
             }

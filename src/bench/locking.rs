@@ -32,6 +32,10 @@ pub struct Locking {
 }
 
 impl Locking {
+    /// Runs the study.
+    ///
+    /// # Errors
+    /// A mesh without equilibrium, or the study was cancelled.
     pub fn run(&self, session: &Session) -> Result<(Table, Plot), BenchError> {
         let mut table = Table::new(
             "locking",

@@ -1,4 +1,4 @@
-//! `bench cold --scenes N`: how often is the best pose missed?
+//! `bench cold` over many scenes: how often is the best pose missed?
 //!
 //! A scene is a bundled shape or one that is made from the seed ([`silhouettes`]), at rest, and one to six targets 8 to 45 % of the body
 //! length away. Three answers to it are compared with the best pose known: that of `soft_ik`'s default method, what a
@@ -6,9 +6,9 @@
 //! best of all that many starts lead to, the paper's gradient method among them.
 
 use super::drags::{places_on, points, positions, towards};
+use super::figures::significant;
 use super::posing::{at_rest, free_fibers, optimum};
 use super::random::Random;
-use super::report::significant;
 use super::shapes::{Field, Subject, design, names};
 use super::statistics::{Summary, wilson};
 use super::{BenchError, Cell, Quality, Report, Session, Table, Tracker, silhouettes};
@@ -61,6 +61,10 @@ struct Scene {
 }
 
 impl Misses {
+    /// Runs the study.
+    ///
+    /// # Errors
+    /// A shape that cannot be meshed, or the study was cancelled.
     pub fn run(&self, session: &Session) -> Result<Report, BenchError> {
         let mut scenes = Vec::new();
         for number in self.first..self.first + self.scenes {

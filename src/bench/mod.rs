@@ -23,6 +23,7 @@ pub mod cold;
 pub mod drag;
 pub mod drags;
 pub mod extremes;
+pub mod figures;
 pub mod import;
 pub mod linear;
 pub mod locking;
@@ -35,6 +36,7 @@ pub mod random;
 pub mod report;
 pub mod resolution;
 pub mod scene;
+mod session;
 pub mod shapes;
 pub mod silhouettes;
 pub mod statistics;
@@ -44,55 +46,4 @@ pub mod winding;
 
 pub use crate::soft_ik::{Quality, Tracker};
 pub use report::{Cell, Report, Table};
-
-use crate::mesh::MeshError;
-use crate::physics::{Cause, ModelError};
-use std::sync::atomic::AtomicBool;
-
-/// What all studies share.
-pub struct Session<'a> {
-    /// All random numbers follow from it.
-    pub seed: u64,
-    /// Asked between steps of work; `true` ends the study.
-    pub stop: &'a dyn Fn() -> bool,
-    /// The same for work that asks a flag.
-    pub cancel: &'a AtomicBool,
-    /// Told what is being worked on, in a few words.
-    pub progress: &'a dyn Fn(&str),
-}
-
-/// Why a study has no result.
-#[derive(Debug, thiserror::Error)]
-pub enum BenchError {
-    #[error(
-        "no shape is called `{0}`; there are {known}, and {made} with a number, such as hand-1",
-        known = shapes::names().join(", "),
-        made = silhouettes::FAMILIES.join(", ")
-    )]
-    NoSuchShape(String),
-    #[error("{shape}: {source}")]
-    Mesh { shape: String, source: MeshError },
-    #[error("{shape}: {source}")]
-    Model { shape: String, source: ModelError },
-    #[error("{shape} at {fibers} fibres: {source}")]
-    Statics { shape: String, fibers: usize, source: Cause },
-    #[error("{0}")]
-    Nothing(String),
-    #[error("the plot cannot be drawn: {0}")]
-    Plot(String),
-    #[error("cancelled")]
-    Cancelled,
-}
-
-impl Session<'_> {
-    /// Says what comes next, or ends the study.
-    pub fn next(&self, what: &str) -> Result<(), BenchError> {
-        self.check()?;
-        (self.progress)(what);
-        Ok(())
-    }
-
-    pub fn check(&self) -> Result<(), BenchError> {
-        if (self.stop)() { Err(BenchError::Cancelled) } else { Ok(()) }
-    }
-}
+pub use session::{BenchError, Session};

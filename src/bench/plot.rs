@@ -56,6 +56,9 @@ impl Series {
 
 impl Plot {
     /// The plot as an SVG document.
+    ///
+    /// # Errors
+    /// [`BenchError::Plot`] with what the plotting library says.
     pub fn svg(&self) -> Result<String, BenchError> {
         let x = self.range(self.log_x, |p| p.0);
         let y = self.range(self.log_y, |p| p.1);
@@ -150,7 +153,7 @@ impl Plot {
 
 /// A number beside an axis: three digits without idle zeros.
 fn tick(value: f64) -> String {
-    let text = super::report::significant(value);
+    let text = super::figures::significant(value);
     match text.contains('.') && !text.contains('e') {
         true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
         false => text,

@@ -1,11 +1,9 @@
 //! The result of a study: tables of figures, remarks and plots, as aligned text, JSON and CSV.
 
+use super::figures::significant;
 use super::plot::Plot;
 use crate::files::printable;
 use serde_json::{Map, Value, json};
-
-/// Digits shown in the text table; JSON and CSV have them all.
-const SHOWN_DIGITS: i32 = 3;
 
 /// Most characters that a column is padded to.
 const WIDEST: usize = 200;
@@ -111,23 +109,6 @@ fn quoted(text: &str) -> String {
     let is_formula = text.trim_start().starts_with(['=', '+', '-', '@']) && text != "-";
     let text = if is_formula { format!("'{text}") } else { text };
     if text.contains([',', '"', ';']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text }
-}
-
-/// A number with [`SHOWN_DIGITS`] digits: plain between 0.001 and a million, else with an exponent.
-pub fn significant(value: f64) -> String {
-    if !value.is_finite() {
-        return "-".into();
-    }
-    if value == 0.0 {
-        return "0".into();
-    }
-    let magnitude = value.abs().log10().floor() as i32;
-    if (-3..6).contains(&magnitude) {
-        let decimals = (SHOWN_DIGITS - 1 - magnitude).max(0) as usize;
-        format!("{value:.decimals$}")
-    } else {
-        format!("{value:.*e}", SHOWN_DIGITS as usize - 1)
-    }
 }
 
 impl Table {

@@ -53,6 +53,10 @@ struct Network {
 }
 
 impl Resolution {
+    /// Runs the study.
+    ///
+    /// # Errors
+    /// A shape that cannot be meshed or posed, or the study was cancelled.
     pub fn run(&self, session: &Session) -> Result<Report, BenchError> {
         let mut table = Table::new(
             "resolution",

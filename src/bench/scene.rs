@@ -43,6 +43,10 @@ struct Run<'a> {
 }
 
 impl Scene {
+    /// Runs the study.
+    ///
+    /// # Errors
+    /// A shape that cannot be meshed, or the study was cancelled.
     pub fn run(&self, session: &Session) -> Result<Report, BenchError> {
         let mut table = Table::new(
             "scene",

@@ -32,14 +32,23 @@ pub fn names() -> Vec<String> {
 }
 
 /// The bundled design as it is, networks and poses included; or the one that is made from the number in a name such as `hand-3`.
+///
+/// # Errors
+/// A name that is no shape.
 pub fn original(name: &str) -> Result<Design, BenchError> {
     if let Some((family, number)) = seeded(name) {
         return silhouettes::design(family, defaults::FIBERS, &mut Random::of(number, family, 0));
     }
     let found = bundled::ALL.iter().find(|b| b.name.to_lowercase() == name.to_lowercase());
-    let found = found.ok_or_else(|| BenchError::NoSuchShape(name.to_owned()))?;
+    let found = found.ok_or_else(|| no_such(name))?;
     // A test reads every bundled design; what it cannot read is not there.
-    found.design().map_err(|_| BenchError::NoSuchShape(name.to_owned()))
+    found.design().map_err(|_| no_such(name))
+}
+
+/// The refusal of a name, with all that there are.
+fn no_such(name: &str) -> BenchError {
+    let made = silhouettes::FAMILIES.map(str::to_owned).to_vec();
+    BenchError::NoSuchShape { name: name.to_owned(), known: names(), made }
 }
 
 /// Family and number of a shape that is made from the seed.
@@ -51,6 +60,9 @@ fn seeded(name: &str) -> Option<(&'static str, u64)> {
 
 /// The bundled design with about `fibers` fibres, its pins and the targets of its poses carried over by their rest positions.
 /// Networks stay behind: their routings mean other nodes.
+///
+/// # Errors
+/// A name that is no shape, or no mesh with so many fibres.
 pub fn design(name: &str, fibers: usize) -> Result<Design, BenchError> {
     let old = original(name)?;
     let mesh = meshed(name, &old, fibers)?;
@@ -87,6 +99,9 @@ pub fn carry(old: &Mesh, at: &BodyPoint, new: &Mesh) -> Option<BodyPoint> {
 
 impl Subject {
     /// Compiles a design, as the idealized plushie.
+    ///
+    /// # Errors
+    /// A design that does not compile.
     pub fn of(name: &str, design: Design) -> Result<Self, BenchError> {
         let fail = |source| BenchError::Model { shape: name.to_owned(), source };
         let plushie = compile(&design, View::Idealized).map_err(fail)?;
@@ -94,6 +109,9 @@ impl Subject {
     }
 
     /// A bundled shape at a number of fibres.
+    ///
+    /// # Errors
+    /// A name that is no shape, no mesh with so many fibres, or a design that does not compile.
     pub fn new(name: &str, fibers: usize) -> Result<Self, BenchError> {
         Self::of(name, design(name, fibers)?)
     }
@@ -122,6 +140,9 @@ impl Subject {
     }
 
     /// The equilibrium at these contractions, statics started from `from`; it leaves the model's laws so.
+    ///
+    /// # Errors
+    /// No equilibrium.
     pub fn settle(
         &mut self,
         contractions: &[f64],

@@ -31,6 +31,9 @@ struct Silhouette {
 }
 
 /// A design of this family with about `fibers` fibres, held at its base by three pins. The same numbers give the same design.
+///
+/// # Errors
+/// A family that does not exist, or no drawn outline of it that meshes.
 pub fn design(family: &str, fibers: usize, random: &mut Random) -> Result<Design, BenchError> {
     for _ in 0..TRIES {
         let drawn = match family {

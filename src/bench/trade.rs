@@ -51,6 +51,10 @@ pub struct Common {
 }
 
 impl Common {
+    /// The places at which poses of all resolutions are compared: nodes of the bundled mesh.
+    ///
+    /// # Errors
+    /// A name that is no shape.
     pub fn of(shape: &str) -> Result<Self, BenchError> {
         Ok(Self { places: original(shape)?.mesh.nodes })
     }
@@ -75,6 +79,10 @@ pub fn rms(a: &[Point], b: &[Point]) -> f64 {
 }
 
 impl Trade {
+    /// Runs the study: statics, then posing, on every shape.
+    ///
+    /// # Errors
+    /// A shape that cannot be meshed or posed, or the study was cancelled.
     pub fn run(&self, session: &Session) -> Result<Report, BenchError> {
         let (mut statics, mut posing) = (Vec::new(), Vec::new());
         for shape in &self.shapes {
@@ -177,6 +185,9 @@ impl Trade {
 }
 
 /// The targets of the first pose of a design: points and goals, mm.
+///
+/// # Errors
+/// A design without a pose that has targets.
 pub fn first_pose(design: &Design) -> Result<(Vec<BodyPoint>, Vec<Point>), BenchError> {
     let targets: &[Target] = design.poses.first().map_or(&[], |pose| &pose.targets);
     if targets.is_empty() {
@@ -186,6 +197,9 @@ pub fn first_pose(design: &Design) -> Result<(Vec<BodyPoint>, Vec<Point>), Bench
 }
 
 /// The converged optimum of the first pose.
+///
+/// # Errors
+/// A design without a pose that has targets, or the study was cancelled.
 pub fn pose(subject: &mut Subject, session: &Session) -> Result<Vec<f64>, BenchError> {
     let (at, goals) = first_pose(&subject.design)?;
     let objective = towards(subject, &at, &goals);

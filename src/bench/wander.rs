@@ -3,9 +3,9 @@
 //! ends, whatever the way there.
 
 use super::drags::{places, points, positions, towards};
+use super::figures::significant;
 use super::posing::{at_rest, distance_from_equilibrium, free_fibers, may_be_shown};
 use super::random::Random;
-use super::report::significant;
 use super::shapes::Subject;
 use super::{BenchError, Cell, Quality, Report, Session, Table, Tracker};
 use crate::soft_ik::{Actuation, Objective, Posture, Question};
@@ -57,6 +57,10 @@ struct Course {
 }
 
 impl Wander {
+    /// Runs the study.
+    ///
+    /// # Errors
+    /// A shape that cannot be meshed, or the study was cancelled.
     pub fn run(&self, session: &Session) -> Result<Report, BenchError> {
         let headings = [
             "shape",

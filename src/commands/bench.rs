@@ -360,7 +360,7 @@ fn failure(error: BenchError, cancel: &AtomicBool) -> CommandError {
     match error {
         BenchError::Cancelled => CommandError::Cancelled,
         _ if cancel.load(Ordering::SeqCst) => CommandError::Cancelled,
-        BenchError::NoSuchShape(_) | BenchError::Mesh { .. } => CommandError::Usage(error.to_string()),
+        BenchError::NoSuchShape { .. } | BenchError::Mesh { .. } => CommandError::Usage(error.to_string()),
         other => CommandError::Failed(other.to_string()),
     }
 }

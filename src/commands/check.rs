@@ -2,7 +2,7 @@
 
 use super::error::CommandError;
 use super::output::say_json;
-use super::{document, key, table};
+use super::{document, table, words};
 use clap::Args;
 use std::io::Write;
 use std::path::PathBuf;
@@ -31,6 +31,6 @@ impl Check {
         } else {
             table::print(&figures, out)?;
         }
-        key::balanced(figures.unbalanced())
+        words::balanced(table::unbalanced(&figures))
     }
 }

@@ -2,22 +2,27 @@
 
 use super::error::CommandError;
 use super::output::{check_folder, json, say, write_folder};
-use super::place::Move;
-use super::{key, new, pose, rig, table};
-use crate::design::animation::{activations_at, duration_s};
-use crate::design::{Design, Target, file};
-use crate::engine::{Question, Shape};
+use super::{pose, render, rig, table, words};
+use crate::design::animation::duration_s;
+use crate::design::{Design, file};
+use crate::engine::Shape;
 use crate::fabrication;
 use crate::files::shown;
 use crate::mesh::Mesh;
-use crate::outline::{self, Import, Point};
+use crate::operations;
+use crate::operations::check::Figures;
+use crate::operations::new_design::{self, Made};
+use crate::operations::pose::Move;
+use crate::operations::render::{Rendered, What};
+use crate::operations::rig::TendonChoice;
+use crate::operations::{Context, FiberCount, Progress};
+use crate::outline::Point;
 use crate::picture::palette::{Palette, Theme};
-use crate::picture::{self, Item, Scene, raster};
-use crate::rigging::{Progress, RigOptions, TendonChoice};
+use crate::picture::{Item, Scene, raster};
 use clap::Args;
 use serde::Serialize;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
@@ -58,7 +63,7 @@ impl Demo {
 #[derive(Serialize)]
 struct Report<'a> {
     #[serde(flatten)]
-    figures: &'a table::Figures,
+    figures: &'a Figures,
     seconds: f64,
     pictures: &'a [String],
 }
@@ -74,15 +79,22 @@ struct Tour<'a> {
 
 impl Tour<'_> {
     fn make(mut self) -> Result<Vec<(String, Vec<u8>)>, CommandError> {
-        let pig = outline::import(OUTLINE, &Import::default()).map_err(|e| CommandError::Failed(e.to_string()))?;
-        let (mut design, _) = new::design(pig, Some(FIBERS), "pig").map_err(CommandError::Failed)?;
+        let options = new_design::Options {
+            name: "pig".into(),
+            fibers: FiberCount::Exactly(FIBERS),
+            ..new_design::Options::default()
+        };
+        let made = new_design::run(OUTLINE, &options, &Context::new(self.cancel));
+        let Made { mut design, .. } = made.map_err(|error| words::unmade(Path::new("assets/pig.svg"), error))?;
         self.outline(&design)?;
         self.mesh(&design)?;
         for (name, targets) in POSES {
-            pose::add(&mut design, name, &PINS, &targets)?;
-            self.pose(&design, name, "before rigging")?;
+            let (name, pins, targets) = (name.to_owned(), PINS.to_vec(), targets.to_vec());
+            let options = operations::pose::Options { name, pins, targets };
+            operations::pose::run(&mut design, &options, &Context::new(self.cancel)).map_err(pose::failed)?;
+            self.pose(&design, &options.name, "before rigging")?;
         }
-        let design = self.rig(&design)?;
+        self.rig(&mut design)?;
         for (name, _) in POSES {
             self.pose(&design, name, "rigged")?;
         }
@@ -114,45 +126,37 @@ impl Tour<'_> {
         let Mesh { nodes, triangles } = &design.mesh;
         let text =
             format!("{} fibers, {} nodes, {} triangles", design.mesh.edges().len(), nodes.len(), triangles.len());
-        self.plushies("mesh", &text, design, Question::Targets(Vec::new()))
+        self.plushies("mesh", &text, design, What::Rest)
     }
 
     fn pose(&mut self, design: &Design, name: &str, when: &str) -> Result<(), CommandError> {
-        let targets = key::targets(design, name)?;
-        self.plushies(&format!("{name}, {when}"), "", design, Question::Targets(targets))
+        self.plushies(&format!("{name}, {when}"), "", design, What::Pose(name.to_owned()))
     }
 
-    fn rig(&mut self, design: &Design) -> Result<Design, CommandError> {
-        let options = RigOptions {
-            max_winches: 1,
-            tendons: TendonChoice::PerWinch(vec![2]),
-            seed_num: None,
-            join_depth: None,
-            join_len: None,
-            phi: None,
-        };
+    fn rig(&mut self, design: &mut Design) -> Result<(), CommandError> {
+        let tendons = TendonChoice::PerWinch(vec![2]);
+        let options = operations::rig::Options { max_winches: 1, tendons, ..Default::default() };
         let mut printed = Ok(());
         let out = &mut *self.out;
-        let mut progress = |step: Progress| {
+        let mut progress = |step: &Progress| {
             if printed.is_ok() {
-                printed = say(out, &format!("     {}", rig::worded(&step)));
+                printed = say(out, &format!("     {}", words::progress(step)));
             }
         };
-        let rigged = rig::rigged(design, &options, &mut progress, self.cancel)?;
-        printed?;
-        Ok(rigged)
+        let mut context = Context::telling(self.cancel, &mut progress);
+        operations::rig::run(design, &options, &mut context).map_err(|e| rig::failed(Path::new("pig.plush"), e))?;
+        printed
     }
 
     fn animation(&mut self, design: &Design) -> Result<(), CommandError> {
         for frame in 0..FRAMES {
             let time = duration_s(design) * frame as f64 / (FRAMES - 1) as f64;
-            let activations = activations_at(design, time);
-            self.plushies(&format!("animation {time:.2} s"), "", design, Question::Activations(activations))?;
+            self.plushies(&format!("animation {time:.2} s"), "", design, What::Time(time))?;
         }
         Ok(())
     }
 
-    fn report(&mut self, figures: &table::Figures) -> Result<(), CommandError> {
+    fn report(&mut self, figures: &Figures) -> Result<(), CommandError> {
         let mut text = Vec::new();
         table::print(figures, &mut text)?;
         self.out.write_all(&text).map_err(CommandError::Print)?;
@@ -162,17 +166,14 @@ impl Tour<'_> {
         Ok(())
     }
 
-    /// A picture of both plushies, solved for a question.
-    fn plushies(&mut self, title: &str, text: &str, design: &Design, question: Question) -> Result<(), CommandError> {
-        let targets: Vec<Target> = match &question {
-            Question::Targets(targets) => targets.clone(),
-            Question::Activations(_) => Vec::new(),
-        };
-        let shapes = key::solve(design, question, [true, true], self.cancel)?;
-        let bytes =
-            picture::png(design, &shapes, &targets, None, SIZE).map_err(|e| CommandError::Failed(e.to_string()))?;
-        let text = if targets.is_empty() { text.to_owned() } else { errors(&shapes) };
-        self.save(title, &bytes, &text)
+    /// A picture of both plushies. Of a pose, it is told how close they come.
+    fn plushies(&mut self, title: &str, text: &str, design: &Design, what: What) -> Result<(), CommandError> {
+        let posed = matches!(what, What::Pose(_));
+        let options = operations::render::Options { what, size: SIZE, texture: false };
+        let from = Path::new("pig.plush");
+        let rendered = operations::render::run(design, from, &options, &Context::new(self.cancel));
+        let Rendered { png, shapes, .. } = rendered.map_err(|error| render::failed(from, error))?;
+        self.save(title, &png, &if posed { errors(&shapes) } else { text.to_owned() })
     }
 
     fn save(&mut self, title: &str, bytes: &[u8], text: &str) -> Result<(), CommandError> {

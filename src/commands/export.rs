@@ -1,16 +1,16 @@
 //! `export`: the blueprint, a folder that appears whole or not at all.
 
-use super::document;
-use super::error::{CommandError, check_cancel};
+use super::error::CommandError;
 use super::output::{say, say_json};
-use crate::design::Design;
-use crate::fabrication::{self, ExportError, Manifest};
+use super::{document, words};
+use crate::motion::TooFast;
+use crate::operations::{Context, export};
 use clap::Args;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
-/// Write the blueprint: patterns, routings, winch tracks, controller program
+/// Write the blueprint: patterns, routings, winch tracks, controller programs
 ///
 /// Sheets are SVG in mm with a 100 mm reference line; tracks are in s, mm and encoder counts.
 #[derive(Debug, Args)]
@@ -21,6 +21,9 @@ pub struct Export {
     /// Folder to write; an earlier export is replaced, any other folder refused
     #[arg(short, long, value_name = "DIR")]
     pub output: PathBuf,
+    /// Give the animation more time where its motors are too slow for it; otherwise such an animation is refused
+    #[arg(long)]
+    pub stretch: bool,
     /// Print the manifest: files with sizes in bytes and SHA-256, and remarks
     #[arg(long)]
     pub json: bool,
@@ -29,7 +32,13 @@ pub struct Export {
 impl Export {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
         let design = document::load(&self.design)?;
-        let manifest = export(&design, &self.design, &self.output, cancel)?;
+        let too_fast = if self.stretch { TooFast::Stretch } else { TooFast::Refuse };
+        let options = export::Options { too_fast };
+        let manifest =
+            export::run(&design, &self.output, &options, &Context::new(cancel)).map_err(|error| match error {
+                export::Error::Export(error) => words::unexported(&self.design, error),
+                export::Error::Cancelled(_) => CommandError::Cancelled,
+            })?;
         if self.json {
             return say_json(out, &manifest);
         }
@@ -41,14 +50,4 @@ impl Export {
         }
         Ok(())
     }
-}
-
-/// Writes the blueprint of `design`, which was read from `source`.
-pub fn export(design: &Design, source: &Path, folder: &Path, cancel: &AtomicBool) -> Result<Manifest, CommandError> {
-    check_cancel(cancel)?;
-    fabrication::export(design, folder, &Default::default()).map_err(|error| match error {
-        ExportError::Write { path, source } => CommandError::write(&path, source),
-        ExportError::NotOurs { .. } | ExportError::Changed { .. } => CommandError::Usage(error.to_string()),
-        error => CommandError::input(source, error),
-    })
 }

@@ -24,6 +24,7 @@ mod reshape;
 mod rig;
 mod solve;
 mod table;
+mod words;
 
 pub use error::{CommandError, ParseStop};
 

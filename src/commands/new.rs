@@ -1,14 +1,14 @@
 //! `new`: an outline becomes a meshed design.
 
-use super::document;
 use super::error::{CommandError, check_cancel};
 use super::output::{refuse_input, say, say_json};
-use crate::defaults;
-use crate::design::file;
-use crate::design::{Design, MAX_NAME_CHARS};
-use crate::files::{self, is_hidden, shown};
-use crate::mesh::{self, Mesh, MeshError, Request};
-use crate::outline::{self, Background, Changes, Holes, Import, Imported, OutlineError, Pieces};
+use super::words::CleanUp;
+use super::{document, words};
+use crate::design::{Design, file};
+use crate::files::{self, shown};
+use crate::operations::new_design::{self, Made, Options};
+use crate::operations::{Context, FiberCount};
+use crate::outline::{self, Background, Holes, Import, Pieces};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 use std::io::Write;
@@ -156,7 +156,7 @@ struct Summary<'a> {
     height_mm: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     texture: Option<&'a str>,
-    clean_up: &'a Changes,
+    clean_up: CleanUp<'a>,
 }
 
 impl New {
@@ -164,17 +164,18 @@ impl New {
         refuse_input(&self.output, &self.outline)?;
         files::check(&self.output).map_err(|e| CommandError::write(&self.output, e))?;
         document::refuse_foreign(&self.output, self.force)?;
-        let import = self.reading.import();
-        let refuse = |reason: String| CommandError::input(&self.outline, reason);
-        let unread = |error: OutlineError| refuse(error.to_string());
-        let file = outline::read_file(&self.outline).map_err(unread)?;
-        let imported = outline::import(&file, &import).map_err(unread)?;
-        let texture = match self.texture {
-            true => Some((self.texture_name()?, outline::texture(&file, &import, &imported).map_err(unread)?)),
-            false => None,
+        let options = Options {
+            name: new_design::name_of(&self.output),
+            import: self.reading.import(),
+            fibers: FiberCount::asked(self.fibers),
+            texture: self.texture,
         };
-        let (mut design, changes) = design(imported, self.fibers, &stem(&self.output)).map_err(refuse)?;
-        let beside = texture.map(|(name, png)| {
+        let failed = |error| words::unmade(&self.outline, error);
+        let file = outline::read_file(&self.outline).map_err(|error| failed(error.into()))?;
+        let name = if self.texture { Some(self.texture_name()?) } else { None };
+        let made = new_design::run(&file, &options, &Context::new(cancel)).map_err(failed)?;
+        let Made { mut design, changes, texture, notes } = made;
+        let beside = name.zip(texture).map(|(name, png)| {
             let path = self.output.with_file_name(&name);
             design.texture = Some(name);
             (path, png)
@@ -184,7 +185,7 @@ impl New {
             document::refuse_lost(&self.output, &[&design], self.force)?;
             file::write_with(&self.output, &design, beside).map_err(document::unwritten)
         })?;
-        self.report(out, &design, &changes)
+        self.report(out, &design, CleanUp::new(&changes, &notes))
     }
 
     /// What the texture beside the design is called.
@@ -202,7 +203,7 @@ impl New {
             .ok_or_else(|| CommandError::Usage(format!("{} is no file name that a design can state", shown(&path))))
     }
 
-    fn report(&self, out: &mut dyn Write, design: &Design, changes: &Changes) -> Result<(), CommandError> {
+    fn report(&self, out: &mut dyn Write, design: &Design, clean_up: CleanUp) -> Result<(), CommandError> {
         let (low, high) = design.outline.bounding_box();
         let summary = Summary {
             design: shown(&self.output),
@@ -212,12 +213,12 @@ impl New {
             body_length_mm: design.body_length_mm(),
             height_mm: high[1] - low[1],
             texture: design.texture.as_deref(),
-            clean_up: changes,
+            clean_up,
         };
         if self.json {
             return say_json(out, &summary);
         }
-        let Summary { design, fibers, nodes, triangles, body_length_mm, texture, .. } = summary;
+        let Summary { design, fibers, nodes, triangles, body_length_mm, texture, clean_up, .. } = summary;
         say(
             out,
             &format!("{design}: {fibers} fibers, {nodes} nodes, {triangles} triangles, {body_length_mm:.1} mm long"),
@@ -225,40 +226,11 @@ impl New {
         if let Some(name) = texture {
             say(out, &format!("texture: {name}"))?;
         }
-        for line in changes.lines() {
+        for line in clean_up.lines() {
             say(out, &format!("note: {line}"))?;
         }
         Ok(())
     }
-}
-
-/// A design with default settings around an outline. Without a number of fibres, the default one or, where the outline
-/// needs more, the smallest possible.
-pub fn design(imported: Imported, fibers: Option<usize>, name: &str) -> Result<(Design, Changes), String> {
-    let asked = fibers.unwrap_or(defaults::FIBERS);
-    let request = Request { tracks: imported.tracks().to_vec(), ..Request::fibers(asked) };
-    let Imported { outline, mesh, mut changes, drawing, .. } = imported;
-    // A file's own mesh stays as it is, unless another number of fibres is asked for.
-    if let (Some((nodes, triangles)), None) = (mesh, fibers) {
-        let mesh = Mesh { nodes, triangles };
-        mesh.validate().map_err(|e| e.to_string())?;
-        return Ok((Design::new(name, outline, mesh), changes));
-    }
-    let (meshed, count) = mesh::build_or_finer(&outline, &request).map_err(|error| error.to_string())?;
-    if count != asked {
-        if fibers.is_some() {
-            return Err(MeshError::Unreachable { asked, nearest: count }.to_string());
-        }
-        changes.notes.push(format!("the outline needs more than {asked} fibers; it has {count}"));
-    }
-    Ok((Design { drawing, ..Design::new(name, outline, meshed.mesh) }, changes))
-}
-
-/// A name for the design: that of its file, as far as a name can say it.
-fn stem(path: &Path) -> String {
-    let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-    let name: String = stem.chars().map(|c| if is_hidden(c) { ' ' } else { c }).take(MAX_NAME_CHARS).collect();
-    if name.trim().is_empty() { "plushie".to_owned() } else { name }
 }
 
 /// Whether a file may be replaced by a texture without asking: there is none, or it was written here, or is empty.

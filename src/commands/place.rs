@@ -1,19 +1,7 @@
-//! Places on the command line, `X,Y` and `X,Y=X2,Y2` in mm, and where on the body they are.
+//! Places on the command line, `X,Y` and `X,Y=X2,Y2` in mm.
 
-use super::error::CommandError;
-use crate::mesh::{BodyPoint, Mesh};
+use crate::operations::pose::Move;
 use crate::outline::Point;
-
-/// How far beside the body a typed place may lie and still mean the nearest point of the body, in body lengths: what a
-/// reading off a picture misses by.
-const REACH: f64 = 0.02;
-
-/// A target as typed: a point of the body at rest and where it should go, mm.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Move {
-    pub from: Point,
-    pub to: Point,
-}
 
 /// Reads `X,Y`.
 pub fn parse_point(text: &str) -> Result<Point, String> {
@@ -28,21 +16,6 @@ pub fn parse_move(text: &str) -> Result<Move, String> {
     let explain = || format!("expected X,Y=X2,Y2 in mm, found `{text}`");
     let (from, to) = text.split_once('=').ok_or_else(explain)?;
     Ok(Move { from: parse_point(from).map_err(|_| explain())?, to: parse_point(to).map_err(|_| explain())? })
-}
-
-/// The point of the body at rest that `p` means.
-pub fn body_point(mesh: &Mesh, p: Point) -> Result<BodyPoint, CommandError> {
-    match mesh.locate_nearest(p, &mesh.nodes) {
-        Some((at, distance)) if distance <= REACH * mesh.body_length() => Ok(at),
-        Some((at, _)) => {
-            let q = mesh.position(&at, &mesh.nodes);
-            Err(CommandError::Usage(format!(
-                "{},{} mm is not on the body at rest; the nearest point of the body is {:.1},{:.1}",
-                p[0], p[1], q[0], q[1]
-            )))
-        }
-        None => Err(CommandError::Usage(format!("{},{} mm is not on the body: the design has no mesh", p[0], p[1]))),
-    }
 }
 
 #[cfg(test)]

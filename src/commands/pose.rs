@@ -3,12 +3,10 @@
 use super::document;
 use super::error::CommandError;
 use super::output::say;
-use super::place::{Move, body_point, parse_move, parse_point};
-use crate::defaults;
-use crate::design::edit::{self, EditError};
-use crate::design::{Design, Pin, Pose as DesignPose, Target};
+use super::place::{parse_move, parse_point};
 use crate::files::shown;
-use crate::mesh::{BodyPoint, Mesh};
+use crate::operations::Context;
+use crate::operations::pose::{self, Error, Move, Options};
 use crate::outline::Point;
 use clap::Args;
 use std::io::Write;
@@ -42,7 +40,8 @@ pub struct Pose {
 impl Pose {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
         let (mut design, edit) = self.target.open(&self.design, cancel)?;
-        add(&mut design, &self.name, &self.pins, &self.targets)?;
+        let options = Options { name: self.name.clone(), pins: self.pins.clone(), targets: self.targets.clone() };
+        pose::run(&mut design, &options, &Context::new(cancel)).map_err(failed)?;
         edit.save(&design, cancel)?;
         let targets = design.poses.iter().find(|p| p.name == self.name).map_or(0, |p| p.targets.len());
         say(
@@ -58,42 +57,9 @@ impl Pose {
     }
 }
 
-/// Adds pins to `design` and targets to its pose `name`, which is created where it is missing.
-pub fn add(design: &mut Design, name: &str, pins: &[Point], targets: &[Move]) -> Result<(), CommandError> {
-    for &p in pins {
-        let pin = Pin { at: body_point(&design.mesh, p)?, position: None, stiffness: defaults::PIN_STIFFNESS };
-        let old = design.pins.iter().position(|old| same(&design.mesh, &old.at, &pin.at));
-        match old {
-            Some(index) => edit::set_pin(design, index, pin),
-            None => edit::add_pin(design, pin).map(|_| ()),
-        }
-        .map_err(refused)?;
+pub fn failed(error: Error) -> CommandError {
+    match error {
+        Error::OffBody { .. } | Error::NoBody { .. } | Error::Edit(_) => CommandError::Usage(error.to_string()),
+        Error::Cancelled(_) => CommandError::Cancelled,
     }
-    let name = name.trim();
-    let index = match design.poses.iter().position(|p| p.name == name) {
-        Some(index) => index,
-        None => edit::add_pose(design, DesignPose { name: name.to_owned(), targets: Vec::new() }).map_err(refused)?,
-    };
-    for target in targets {
-        let target = Target { at: body_point(&design.mesh, target.from)?, to: target.to, weight: 1.0 };
-        let old = design.poses[index].targets.iter().position(|old| same(&design.mesh, &old.at, &target.at));
-        match old {
-            Some(old) => edit::set_target(design, index, old, target),
-            None => edit::add_target(design, index, target).map(|_| ()),
-        }
-        .map_err(refused)?;
-    }
-    Ok(())
-}
-
-fn refused(error: EditError) -> CommandError {
-    CommandError::Usage(error.to_string())
-}
-
-/// Whether two points of the body are the same place at rest.
-fn same(mesh: &Mesh, a: &BodyPoint, b: &BodyPoint) -> bool {
-    /// A micrometre: far below what anybody types, far above rounding.
-    const SAME_MM: f64 = 1e-3;
-    let (p, q) = (mesh.position(a, &mesh.nodes), mesh.position(b, &mesh.nodes));
-    (p[0] - q[0]).hypot(p[1] - q[1]) < SAME_MM
 }

@@ -3,11 +3,10 @@
 use super::document;
 use super::error::CommandError;
 use super::output::{say, say_json};
-use crate::design::edit::set_tracks;
-use crate::design::history::History;
-use crate::design::remesh::{Report, remesh};
 use crate::files::shown;
-use crate::mesh::{Request, Size};
+use crate::mesh::Size;
+use crate::operations::Context;
+use crate::operations::remesh::{self, Error, Options, Report};
 use crate::outline::Point;
 use clap::Args;
 use std::io::Write;
@@ -59,28 +58,24 @@ pub struct Track(pub Vec<Point>);
 
 impl Remesh {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
-        let (design, edit) = self.target.open(&self.design, cancel)?;
-        let mut history = History::new(design);
+        let (mut design, edit) = self.target.open(&self.design, cancel)?;
         let size = match (self.fibers, self.edge) {
             (Some(fibers), _) => Size::Fibers(fibers),
             (None, Some(length)) => Size::EdgeMm(length),
             (None, None) => return Err(CommandError::Usage("either --fibers or --edge is needed".into())),
         };
-        let mut tracks = if self.no_tracks { Vec::new() } else { history.current().tracks().to_vec() };
-        for Track(track) in &self.track {
-            // The same command again changes nothing.
-            if !tracks.contains(track) {
-                tracks.push(track.clone());
-            }
-        }
-        let request = Request { size, tracks: tracks.clone(), mirror: !self.no_mirror };
-        let report = history
-            .edit("Remesh", |design| {
-                set_tracks(design, tracks)?;
-                remesh(design, &request, usize::from(self.finer))
-            })
-            .map_err(|e| CommandError::input(&self.design, e))?;
-        edit.save(history.current(), cancel)?;
+        let options = Options {
+            size,
+            finer: usize::from(self.finer),
+            tracks: self.track.iter().map(|Track(track)| track.clone()).collect(),
+            keep_tracks: !self.no_tracks,
+            mirror: !self.no_mirror,
+        };
+        let report = remesh::run(&mut design, &options, &Context::new(cancel)).map_err(|error| match error {
+            Error::Mesh(_) | Error::Edit(_) => CommandError::input(&self.design, error),
+            Error::Cancelled(_) => CommandError::Cancelled,
+        })?;
+        edit.save(&design, cancel)?;
         if self.json { say_json(out, &report) } else { print(&self.target.output, &report, out) }
     }
 }

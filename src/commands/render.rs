@@ -2,17 +2,14 @@
 
 use super::error::CommandError;
 use super::output::{Kind, Output, Replace, say};
-use super::{document, key};
-use crate::design::animation::activations_at;
-use crate::design::texture::find;
-use crate::design::{Design, file};
-use crate::engine::Question;
+use super::{document, words};
+use crate::design::file;
 use crate::files::shown;
-use crate::picture::{self, Texture};
+use crate::operations::Context;
+use crate::operations::render::{self, Error, Note, Options, Rendered, What};
 use clap::Args;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 /// Draw both plushies, idealized left and realizable right, as PNG
@@ -47,48 +44,34 @@ impl Render {
         let design = document::load(&self.design)?;
         let inputs = [Some(self.design.clone()), file::texture_path(&design, &self.design)];
         let output = Output::new(&self.output, Kind::Picture, self.replace, inputs.into_iter().flatten())?;
-        let question = match (&self.pose, self.time) {
-            (Some(pose), _) => Question::Targets(key::targets(&design, pose)?),
-            (None, Some(time)) => {
-                if design.keyframes.is_empty() {
-                    return Err(CommandError::input(&self.design, "the design has no keyframes to show"));
-                }
-                Question::Activations(activations_at(&design, time))
-            }
-            (None, None) => Question::Targets(Vec::new()),
+        let what = match (&self.pose, self.time) {
+            (Some(pose), _) => What::Pose(pose.clone()),
+            (None, Some(time)) => What::Time(time),
+            (None, None) => What::Rest,
         };
-        let place = match (&self.pose, self.time) {
-            (Some(pose), _) => pose.clone(),
-            (None, Some(time)) => format!("{time} s"),
-            (None, None) => "rest".to_owned(),
-        };
-        let targets = match &question {
-            Question::Targets(targets) => targets.clone(),
-            Question::Activations(_) => Vec::new(),
-        };
-        let shapes = key::solve(&design, question, [true, true], cancel)?;
-        let texture = if self.no_texture { None } else { texture(&design, &self.design, out)? };
-        let bytes = picture::png(&design, &shapes, &targets, texture.as_ref(), self.size)
-            .map_err(|e| CommandError::Failed(e.to_string()))?;
-        output.write(&bytes, cancel)?;
+        let options = Options { what, size: self.size, texture: !self.no_texture };
+        let Rendered { png, notes, .. } = render::run(&design, &self.design, &options, &Context::new(cancel))
+            .map_err(|error| failed(&self.design, error))?;
+        for note in notes.iter().filter(|note| matches!(note, Note::NoTexture { .. })) {
+            say(out, &format!("note: {note}"))?;
+        }
+        output.write(&png, cancel)?;
         say(out, &format!("{}: {} x {} pixels", shown(&self.output), self.size.0, self.size.1))?;
-        key::balanced(key::unbalanced(&place, &shapes))
+        words::balanced(notes.iter().filter_map(|note| match note {
+            Note::Unbalanced(unbalanced) => Some(unbalanced),
+            Note::NoTexture { .. } => None,
+        }))
     }
 }
 
-/// The texture of a design; one that cannot be read is not drawn, and that is said.
-fn texture(design: &Design, from: &Path, out: &mut dyn Write) -> Result<Option<Arc<Texture>>, CommandError> {
-    let Some(named) = file::texture_path(design, from) else { return Ok(None) };
-    let why = match find(design, from) {
-        Ok(None) => return Ok(None),
-        Ok(Some(path)) => match Texture::read(&path) {
-            Ok(texture) => return Ok(Some(Arc::new(texture))),
-            Err(error) => error.to_string(),
-        },
-        Err(error) => error.to_string(),
-    };
-    say(out, &format!("note: drawn without its texture {}: {why}", named.display()))?;
-    Ok(None)
+/// Why there is no picture of a design that was read from `path`.
+pub fn failed(path: &Path, error: Error) -> CommandError {
+    match error {
+        Error::NoSuchPose(_) => CommandError::Usage(error.to_string()),
+        Error::NoKeyframes => CommandError::input(path, error),
+        Error::Picture(_) => CommandError::Failed(error.to_string()),
+        Error::Cancelled(_) => CommandError::Cancelled,
+    }
 }
 
 /// Reads a time, s.

@@ -1,16 +1,13 @@
 //! `reshape`: another silhouette for a design that is already posed and rigged.
 
-use super::document;
 use super::error::CommandError;
 use super::new::Reading;
 use super::output::{refuse_input, say, say_json};
-use super::remesh;
-use crate::design::edit::EditError;
-use crate::design::history::History;
-use crate::design::remesh::Report;
-use crate::design::reshape::{Body, keep_tracks, reshape};
-use crate::mesh::Request;
-use crate::outline::{self, Changes};
+use super::words::CleanUp;
+use super::{document, remesh, words};
+use crate::operations::reshape::{self, Options, Report, Reshaped, Source};
+use crate::operations::{Context, FiberCount};
+use crate::outline;
 use clap::Args;
 use serde::Serialize;
 use std::io::Write;
@@ -30,7 +27,7 @@ pub struct Reshape {
     pub outline: PathBuf,
     #[command(flatten)]
     pub target: document::Target,
-    /// Muscle fibres (mesh edges) to aim for [default: as many as the design has]
+    /// Muscle fibres (mesh edges) to aim for [default: as many as the design has, or the fewest that the outline allows if that is more]
     #[arg(long, value_name = "N")]
     pub fibers: Option<usize>,
     /// Simulate on a mesh this many times finer than the fibres' own
@@ -46,7 +43,7 @@ pub struct Reshape {
 /// What `reshape --json` prints.
 #[derive(Serialize)]
 struct Summary<'a> {
-    clean_up: &'a Changes,
+    clean_up: CleanUp<'a>,
     #[serde(flatten)]
     report: &'a Report,
 }
@@ -54,27 +51,22 @@ struct Summary<'a> {
 impl Reshape {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
         refuse_input(&self.target.output, &self.outline)?;
-        let (design, edit) = self.target.open(&self.design, cancel)?;
-        let mut history = History::new(design);
-        let import = self.reading.import();
-        let refuse = |reason: String| CommandError::input(&self.outline, reason);
-        let mut imported = outline::import_file(&self.outline, &import).map_err(|e| refuse(e.to_string()))?;
-        // Where a height is asked for the drawing's own coordinates do not count.
-        let own_place = imported.drawing.is_some() && import.height_mm.is_none();
-        let corner = if own_place { imported.drawn_box[0] } else { [0.0; 2] };
-        keep_tracks(history.current(), &mut imported);
-        let changes = imported.changes.clone();
-        let fibers = self.fibers.unwrap_or_else(|| history.current().fiber_routings().len());
-        let body = Body::new(imported, &Request::fibers(fibers), usize::from(self.finer), corner);
-        let body = body.map_err(|e| refuse(e.to_string()))?;
-        let report = history
-            .edit("Reshape", |design| Ok::<_, EditError>(reshape(design, body)))
-            .map_err(|e| CommandError::input(&self.design, e))?;
-        edit.save(history.current(), cancel)?;
+        let (mut design, edit) = self.target.open(&self.design, cancel)?;
+        let options = Options {
+            import: self.reading.import(),
+            fibers: FiberCount::asked(self.fibers),
+            finer: usize::from(self.finer),
+        };
+        let failed = |error| words::unshaped(&self.design, &self.outline, error);
+        let file = outline::read_file(&self.outline).map_err(|error| failed(error.into()))?;
+        let (Reshaped { changes, notes, .. }, report) =
+            reshape::run(&mut design, Source::File(&file), &options, &Context::new(cancel)).map_err(failed)?;
+        edit.save(&design, cancel)?;
+        let clean_up = CleanUp::new(&changes, &notes);
         if self.json {
-            return say_json(out, &Summary { clean_up: &changes, report: &report });
+            return say_json(out, &Summary { clean_up, report: &report });
         }
         remesh::print(&self.target.output, &report, out)?;
-        changes.lines().into_iter().try_for_each(|line| say(out, &format!("note: {line}")))
+        clean_up.lines().try_for_each(|line| say(out, &format!("note: {line}")))
     }
 }

@@ -2,14 +2,13 @@
 
 use super::error::CommandError;
 use super::output::say;
-use super::{document, key};
-use crate::defaults;
-use crate::design::{Design, Easing};
+use super::{document, words};
 use crate::files::shown;
-use crate::rigging::{Progress, RigError, RigOptions, TendonChoice, rig};
+use crate::operations::rig::{self, Error, Options, TendonChoice};
+use crate::operations::{Context, Progress};
 use clap::Args;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
 /// Find winches and tendons for all poses: solve, discover, try out, accept
@@ -26,7 +25,7 @@ pub struct Rig {
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..=64))]
     pub max_winches: u16,
     /// Tendons of each winch: one number for all, a list winch by winch, or a range to choose from
-    #[arg(long, value_name = "N[,N...]|A..B", default_value = "1..4", value_parser = parse_tendons)]
+    #[arg(long, value_name = "N[,N...]|A..B", default_value = "1..4")]
     pub tendons: TendonChoice,
     /// Fibers that seed a network (SEED_NUM of Algorithm 2) [default: several are tried]
     #[arg(long, value_name = "N")]
@@ -44,8 +43,8 @@ pub struct Rig {
 
 impl Rig {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
-        let (design, edit) = self.target.open(&self.design, cancel)?;
-        let options = RigOptions {
+        let (mut design, edit) = self.target.open(&self.design, cancel)?;
+        let options = Options {
             max_winches: usize::from(self.max_winches),
             tendons: self.tendons.clone(),
             seed_num: self.seed_num,
@@ -54,103 +53,33 @@ impl Rig {
             phi: self.phi,
         };
         let mut printed = Ok(());
-        let rigged = rigged(
-            &design,
-            &options,
-            &mut |step| {
-                if printed.is_ok() {
-                    printed = say(out, &worded(&step));
-                }
-            },
-            cancel,
-        )
-        .map_err(|e| match e {
-            CommandError::Usage(reason) => CommandError::input(&self.design, reason),
-            other => other,
-        })?;
+        let mut progress = |step: &Progress| {
+            if printed.is_ok() {
+                printed = say(out, &words::progress(step));
+            }
+        };
+        let mut context = Context::telling(cancel, &mut progress);
+        rig::run(&mut design, &options, &mut context).map_err(|error| failed(&self.design, error))?;
         printed?;
-        edit.save(&rigged, cancel)?;
-        let tendons: usize = rigged.networks.iter().map(|n| n.tendons.len()).sum();
-        say(out, &format!("{}: {} winches, {tendons} tendons", shown(&self.target.output), rigged.networks.len()))
+        edit.save(&design, cancel)?;
+        let tendons: usize = design.networks.iter().map(|n| n.tendons.len()).sum();
+        say(out, &format!("{}: {} winches, {tendons} tendons", shown(&self.target.output), design.networks.len()))
     }
 }
 
-/// The design with networks for its poses, and its poses on the timeline if nothing is there yet.
-pub fn rigged(
-    design: &Design,
-    options: &RigOptions,
-    progress: &mut dyn FnMut(Progress),
-    cancel: &AtomicBool,
-) -> Result<Design, CommandError> {
-    let mut rigged = rig(design, options, progress, cancel).map_err(|e| match e {
-        RigError::NoTargets => CommandError::Usage(e.to_string()),
-        RigError::NothingFound => CommandError::NotConverged(e.to_string()),
-        RigError::Cancelled => CommandError::Cancelled,
-    })?;
-    if rigged.keyframes.is_empty() {
-        lay_out(&mut rigged, cancel)?;
+/// Why there is no rig for a design that was read from `path`.
+pub fn failed(path: &Path, error: Error) -> CommandError {
+    match error {
+        Error::NoTargets => CommandError::input(path, error),
+        Error::NothingFound => CommandError::NotConverged(error.to_string()),
+        Error::Key(_) | Error::Edit(_) => CommandError::Failed(error.to_string()),
+        Error::Cancelled(_) => CommandError::Cancelled,
     }
-    Ok(rigged)
-}
-
-/// One line about a step of the search.
-pub fn worded(step: &Progress) -> String {
-    match step {
-        Progress::Candidates { winch, count } => format!("winch {}: {count} candidate networks", winch + 1),
-        Progress::Accepted { winch, tendons, errors } => {
-            let errors: Vec<String> =
-                errors.iter().map(|(name, error)| format!("{name} {:.1} %", 100.0 * error)).collect();
-            format!("winch {}: {tendons} tendons; {}", winch + 1, errors.join(", "))
-        }
-    }
-}
-
-/// Lays the poses on the timeline, evenly spaced, with rest at both ends.
-fn lay_out(design: &mut Design, cancel: &AtomicBool) -> Result<(), CommandError> {
-    let names: Vec<String> = design.poses.iter().filter(|p| !p.targets.is_empty()).map(|p| p.name.clone()).collect();
-    let rest = vec![0.0; design.networks.len()];
-    let time = |index: usize| index as f64 * defaults::KEYFRAME_SPACING_S;
-    key::put(design, time(0), rest.clone(), None, Easing::default())?;
-    for (index, name) in names.iter().enumerate() {
-        let activations = key::activations(design, name, cancel)?;
-        key::put(design, time(index + 1), activations, Some(name.clone()), Easing::default())?;
-    }
-    key::put(design, time(names.len() + 1), rest, None, Easing::default())
-}
-
-/// Most tendons of one winch: a spool does not hold more.
-const MAX_TENDONS: usize = 16;
-
-/// Reads `N`, `N,N,...` or `A..B` (both ends included).
-fn parse_tendons(text: &str) -> Result<TendonChoice, String> {
-    let explain = || format!("expected N, N,N,... or A..B with numbers from 1 to {MAX_TENDONS}, found `{text}`");
-    let number =
-        |part: &str| part.trim().parse::<usize>().ok().filter(|n| (1..=MAX_TENDONS).contains(n)).ok_or_else(explain);
-    if let Some((low, high)) = text.split_once("..") {
-        let (low, high) = (number(low)?, number(high)?);
-        return if low <= high { Ok(TendonChoice::Between(low, high)) } else { Err(explain()) };
-    }
-    Ok(TendonChoice::PerWinch(text.split(',').map(number).collect::<Result<_, _>>()?))
 }
 
 fn parse_phi(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(phi) if (0.0..=1.0).contains(&phi) => Ok(phi),
         _ => Err(format!("expected a number from 0 to 1, found `{text}`")),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn tendon_choices_read_back() {
-        assert_eq!(parse_tendons("2"), Ok(TendonChoice::PerWinch(vec![2])));
-        assert_eq!(parse_tendons("1,2,3"), Ok(TendonChoice::PerWinch(vec![1, 2, 3])));
-        assert_eq!(parse_tendons("1..3"), Ok(TendonChoice::Between(1, 3)));
-        for bad in ["", "0", "3..1", "1,,2", "a", "1..", "99"] {
-            assert!(parse_tendons(bad).unwrap_err().contains(&format!("`{bad}`")), "{bad}");
-        }
     }
 }

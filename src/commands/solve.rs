@@ -2,7 +2,7 @@
 
 use super::error::{CommandError, check_cancel};
 use super::output::{Kind, Output, Replace, json, read_text, say_lines};
-use crate::problem::{self, Document, Options, Problem, Quality};
+use crate::problem::{self, Document, Options, Problem, ProblemError, Quality};
 use crate::soft_ik;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
@@ -136,12 +136,20 @@ impl Solve {
             .map_err(|e| CommandError::Failed(format!("cannot start a thread: {e}")))?;
         loop {
             match receive.recv_timeout(CANCEL_INTERVAL) {
-                Ok(answered) => return answered.map_err(|e| CommandError::input(&self.problem, e)),
+                Ok(answered) => return answered.map_err(|error| self.refused(&error)),
                 Err(RecvTimeoutError::Timeout) => check_cancel(cancel)?,
                 Err(RecvTimeoutError::Disconnected) => {
                     return Err(CommandError::Failed("the solver broke down; please report this problem file".into()));
                 }
             }
+        }
+    }
+
+    /// Why the problem has no answer, with the option that may be at fault.
+    fn refused(&self, error: &ProblemError) -> CommandError {
+        match error {
+            ProblemError::Method(what) => CommandError::input(&self.problem, format!("--method: {what}")),
+            ProblemError::Json(_) | ProblemError::Content { .. } => CommandError::input(&self.problem, error),
         }
     }
 }

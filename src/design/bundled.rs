@@ -21,6 +21,10 @@ pub const ALL: &[Bundled] = &[
 ];
 
 impl Bundled {
+    /// The design, read and validated.
+    ///
+    /// # Errors
+    /// What is wrong with the text; the tests read them all.
     pub fn design(&self) -> Result<Design, TextError> {
         parse(self.text)
     }

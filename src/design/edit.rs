@@ -35,6 +35,9 @@ pub enum EditError {
 }
 
 /// Adds a pin; its index.
+///
+/// # Errors
+/// A point or figure out of range; the design stays as it was.
 pub fn add_pin(design: &mut Design, pin: Pin) -> Result<usize, EditError> {
     validate::pin(&format!("pins[{}]", design.pins.len()), &design.mesh, &pin)?;
     design.pins.push(pin);
@@ -42,18 +45,28 @@ pub fn add_pin(design: &mut Design, pin: Pin) -> Result<usize, EditError> {
 }
 
 /// Replaces a pin: another anchor or stiffness.
+///
+/// # Errors
+/// No such pin, or a figure out of range; the design stays as it was.
 pub fn set_pin(design: &mut Design, index: usize, pin: Pin) -> Result<(), EditError> {
     validate::pin(&format!("pins[{index}]"), &design.mesh, &pin)?;
     *item(&mut design.pins, "pin", index)? = pin;
     Ok(())
 }
 
+/// Takes a pin away and returns it.
+///
+/// # Errors
+/// No such pin.
 pub fn remove_pin(design: &mut Design, index: usize) -> Result<Pin, EditError> {
     item(&mut design.pins, "pin", index)?;
     Ok(design.pins.remove(index))
 }
 
 /// Adds a pose; its index.
+///
+/// # Errors
+/// A pose without a name, or a target out of range; the design stays as it was.
 pub fn add_pose(design: &mut Design, pose: Pose) -> Result<usize, EditError> {
     let name = free_pose_name(design, &pose.name, None)?;
     let pose = Pose { name, ..pose };
@@ -63,6 +76,9 @@ pub fn add_pose(design: &mut Design, pose: Pose) -> Result<usize, EditError> {
 }
 
 /// Renames a pose, in the keyframes made from it as well.
+///
+/// # Errors
+/// No such pose; a name that is empty or taken.
 pub fn rename_pose(design: &mut Design, index: usize, name: &str) -> Result<(), EditError> {
     item(&mut design.poses, "pose", index)?;
     let name = free_pose_name(design, name, Some(index))?;
@@ -74,6 +90,9 @@ pub fn rename_pose(design: &mut Design, index: usize, name: &str) -> Result<(), 
 }
 
 /// Copies a pose behind itself, under its name with a number; the copy's index.
+///
+/// # Errors
+/// No such pose.
 pub fn duplicate_pose(design: &mut Design, index: usize) -> Result<usize, EditError> {
     let mut copy = item(&mut design.poses, "pose", index)?.clone();
     copy.name = unused_pose_name(design, &copy.name);
@@ -82,6 +101,9 @@ pub fn duplicate_pose(design: &mut Design, index: usize) -> Result<usize, EditEr
 }
 
 /// Removes a pose. Keyframes made from it keep their activations.
+///
+/// # Errors
+/// No such pose.
 pub fn remove_pose(design: &mut Design, index: usize) -> Result<Pose, EditError> {
     item(&mut design.poses, "pose", index)?;
     let pose = design.poses.remove(index);
@@ -92,6 +114,9 @@ pub fn remove_pose(design: &mut Design, index: usize) -> Result<Pose, EditError>
 }
 
 /// Adds a target to a pose; its index there.
+///
+/// # Errors
+/// No such pose, or a target out of range.
 pub fn add_target(design: &mut Design, pose: usize, target: Target) -> Result<usize, EditError> {
     let targets = &mut item(&mut design.poses, "pose", pose)?.targets;
     validate::target(&format!("poses[{pose}].targets[{}]", targets.len()), &design.mesh, &target)?;
@@ -100,12 +125,18 @@ pub fn add_target(design: &mut Design, pose: usize, target: Target) -> Result<us
 }
 
 /// Moves the goal of a target.
+///
+/// # Errors
+/// No such pose or target, or a goal out of range.
 pub fn move_target(design: &mut Design, pose: usize, index: usize, to: Point) -> Result<(), EditError> {
     let target = *item(&mut item(&mut design.poses, "pose", pose)?.targets, "target", index)?;
     set_target(design, pose, index, Target { to, ..target })
 }
 
 /// Replaces a target: another goal, weight or point of the body.
+///
+/// # Errors
+/// No such pose or target, or a figure out of range.
 pub fn set_target(design: &mut Design, pose: usize, index: usize, target: Target) -> Result<(), EditError> {
     let place = item(&mut item(&mut design.poses, "pose", pose)?.targets, "target", index)?;
     validate::target(&format!("poses[{pose}].targets[{index}]"), &design.mesh, &target)?;
@@ -113,6 +144,10 @@ pub fn set_target(design: &mut Design, pose: usize, index: usize, target: Target
     Ok(())
 }
 
+/// Takes a target of a pose away and returns it.
+///
+/// # Errors
+/// No such pose or target.
 pub fn remove_target(design: &mut Design, pose: usize, index: usize) -> Result<Target, EditError> {
     let targets = &mut item(&mut design.poses, "pose", pose)?.targets;
     item(targets, "target", index)?;
@@ -120,6 +155,9 @@ pub fn remove_target(design: &mut Design, pose: usize, index: usize) -> Result<T
 }
 
 /// Adds a network, slack in every keyframe so far; its index. A name that is taken gets a number.
+///
+/// # Errors
+/// A network that is unsound on this mesh.
 pub fn accept_network(design: &mut Design, mut network: Network) -> Result<usize, EditError> {
     validate::network(&format!("networks[{}]", design.networks.len()), &design.mesh, &network)?;
     let wanted = if network.name.trim().is_empty() { "winch 1" } else { network.name.trim() };
@@ -132,6 +170,9 @@ pub fn accept_network(design: &mut Design, mut network: Network) -> Result<usize
 }
 
 /// Removes a network, and its activation from every keyframe.
+///
+/// # Errors
+/// No such network.
 pub fn remove_network(design: &mut Design, index: usize) -> Result<Network, EditError> {
     item(&mut design.networks, "network", index)?;
     for keyframe in &mut design.keyframes {
@@ -140,6 +181,10 @@ pub fn remove_network(design: &mut Design, index: usize) -> Result<Network, Edit
     Ok(design.networks.remove(index))
 }
 
+/// Gives a network another name.
+///
+/// # Errors
+/// No such network; a name that is empty or taken.
 pub fn rename_network(design: &mut Design, index: usize, name: &str) -> Result<(), EditError> {
     let name = trimmed("network", name)?;
     item(&mut design.networks, "network", index)?;
@@ -151,6 +196,9 @@ pub fn rename_network(design: &mut Design, index: usize, name: &str) -> Result<(
 }
 
 /// Puts a keyframe on the timeline in place of one at the same time (within [`SAME_TIME_S`]), if any; its index.
+///
+/// # Errors
+/// A figure out of range, or another number of activations than networks.
 pub fn set_keyframe(design: &mut Design, keyframe: Keyframe) -> Result<usize, EditError> {
     validate::keyframe("keyframe", design, &keyframe)?;
     if let Some(index) = keyframe_at(design, keyframe.time_s) {
@@ -161,6 +209,9 @@ pub fn set_keyframe(design: &mut Design, keyframe: Keyframe) -> Result<usize, Ed
 }
 
 /// Moves a keyframe in time, past others if need be; its new index. Two keyframes at one time are refused.
+///
+/// # Errors
+/// No such keyframe; a time out of range, or one that another keyframe has.
 pub fn move_keyframe(design: &mut Design, index: usize, time_s: f64) -> Result<usize, EditError> {
     let moved = Keyframe { time_s, ..item(&mut design.keyframes, "keyframe", index)?.clone() };
     validate::keyframe(&format!("keyframes[{index}]"), design, &moved)?;
@@ -171,6 +222,10 @@ pub fn move_keyframe(design: &mut Design, index: usize, time_s: f64) -> Result<u
     Ok(insert_keyframe(design, moved))
 }
 
+/// Takes a keyframe away and returns it.
+///
+/// # Errors
+/// No such keyframe.
 pub fn remove_keyframe(design: &mut Design, index: usize) -> Result<Keyframe, EditError> {
     item(&mut design.keyframes, "keyframe", index)?;
     Ok(design.keyframes.remove(index))
@@ -181,27 +236,51 @@ pub fn keyframe_at(design: &Design, time_s: f64) -> Option<usize> {
     design.keyframes.iter().position(|k| same_time(k.time_s, time_s))
 }
 
+/// Gives the design another name.
+///
+/// # Errors
+/// An empty name, or one that cannot be shown.
 pub fn rename(design: &mut Design, name: &str) -> Result<(), EditError> {
     design.name = trimmed("design", name)?;
     Ok(())
 }
 
+/// Replaces the material.
+///
+/// # Errors
+/// What makes the design unsound; the design stays as it was.
 pub fn set_material(design: &mut Design, material: Material) -> Result<(), EditError> {
     set(design, |d| std::mem::replace(&mut d.material, material), |d, old| d.material = old)
 }
 
+/// Replaces the settings of the fibres.
+///
+/// # Errors
+/// What makes the design unsound; the design stays as it was.
 pub fn set_fibers(design: &mut Design, fibers: FiberSettings) -> Result<(), EditError> {
     set(design, |d| std::mem::replace(&mut d.fibers, fibers), |d, old| d.fibers = old)
 }
 
+/// Replaces the settings of the tendons.
+///
+/// # Errors
+/// What makes the design unsound; the design stays as it was.
 pub fn set_tendons(design: &mut Design, tendons: TendonSettings) -> Result<(), EditError> {
     set(design, |d| std::mem::replace(&mut d.tendons, tendons), |d, old| d.tendons = old)
 }
 
+/// Replaces the settings of fabrication.
+///
+/// # Errors
+/// What makes the design unsound; the design stays as it was.
 pub fn set_fabrication(design: &mut Design, fabrication: FabricationSettings) -> Result<(), EditError> {
     set(design, |d| std::mem::replace(&mut d.fabrication, fabrication), |d, old| d.fabrication = old)
 }
 
+/// Replaces the settings of the motors.
+///
+/// # Errors
+/// What makes the design unsound; the design stays as it was.
 pub fn set_controller(design: &mut Design, controller: ControllerSettings) -> Result<(), EditError> {
     set(design, |d| std::mem::replace(&mut d.controller, controller), |d, old| d.controller = old)
 }
@@ -235,15 +314,26 @@ fn put_term(design: &mut Design, kind: &TermKind, term: Option<Term>) -> Option<
     old
 }
 
+/// Replaces the path of the texture, or takes it away.
+///
+/// # Errors
+/// What makes the design unsound; the design stays as it was.
 pub fn set_texture(design: &mut Design, texture: Option<String>) -> Result<(), EditError> {
     set(design, |d| std::mem::replace(&mut d.texture, texture), |d, old| d.texture = old)
 }
 
+/// Replaces the drawing of the outline, or takes it away.
+///
+/// # Errors
+/// What makes the design unsound; the design stays as it was.
 pub fn set_drawing(design: &mut Design, drawing: Option<Drawing>) -> Result<(), EditError> {
     set(design, |d| std::mem::replace(&mut d.drawing, drawing), |d, old| d.drawing = old)
 }
 
 /// Replaces the tracks of the drawing. An outline that was not drawn is traced, so that there is one.
+///
+/// # Errors
+/// What makes the design unsound; the design stays as it was.
 pub fn set_tracks(design: &mut Design, tracks: Vec<Track>) -> Result<(), EditError> {
     if design.tracks() == tracks {
         return Ok(());
@@ -252,6 +342,10 @@ pub fn set_tracks(design: &mut Design, tracks: Vec<Track>) -> Result<(), EditErr
     set_drawing(design, Some(Drawing { tracks, ..drawing }))
 }
 
+/// Replaces the factors on the moduli, or takes them away.
+///
+/// # Errors
+/// What makes the design unsound; the design stays as it was.
 pub fn set_stiffness_map(design: &mut Design, map: Option<Vec<f64>>) -> Result<(), EditError> {
     set(design, |d| std::mem::replace(&mut d.stiffness_map, map), |d, old| d.stiffness_map = old)
 }

@@ -1,7 +1,7 @@
 //! Figures of a design's mesh, for whoever shows them.
 
 use super::Design;
-use crate::mesh::quality::{Fit, Quality};
+use crate::mesh::quality::{Fit, MeshQuality};
 use crate::mesh::{axis, is_mirrored};
 use serde::Serialize;
 
@@ -9,7 +9,7 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct MeshFigures {
     pub fibers: usize,
-    pub quality: Quality,
+    pub quality: MeshQuality,
     pub fit: Fit,
     /// Whether outline and mesh are their own mirror images.
     pub symmetric_outline: bool,
@@ -22,7 +22,7 @@ impl MeshFigures {
         let axis = axis(&design.outline);
         Self {
             fibers: design.fiber_routings().len(),
-            quality: Quality::of(mesh),
+            quality: MeshQuality::of(mesh),
             fit: Fit::of(mesh, &design.outline),
             symmetric_outline: axis.is_some(),
             symmetric_mesh: axis.is_some_and(|(axis, _)| is_mirrored(mesh, axis)),

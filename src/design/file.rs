@@ -4,6 +4,7 @@
 //! a file back gives the same bits. The version is read before anything else, so that a file from the future is refused
 //! as such and not for the first word this program does not know.
 
+use super::version::FORMAT_VERSION;
 use super::{Design, DesignError, texture};
 use crate::files::{self, Stamp, printable, shown};
 use ron::error::{Position, SpannedError};
@@ -13,8 +14,6 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Version of the file format that this program writes, and the newest it reads.
-pub const FORMAT_VERSION: u32 = 1;
 /// Largest design file that is read, bytes. The largest mesh that is made (200 000 fibres) takes a quarter of it.
 pub const MAX_BYTES: u64 = 32 << 20;
 
@@ -49,11 +48,17 @@ pub enum TextError {
 }
 
 /// Reads and validates a design file.
+///
+/// # Errors
+/// [`FileError`]: what the system says, or what is wrong with the text.
 pub fn read(path: &Path) -> Result<Design, FileError> {
     read_stamped(path).map(|(design, _)| design)
 }
 
 /// [`read`], with what tells whether the file is still the one that was read.
+///
+/// # Errors
+/// As [`read`].
 pub fn read_stamped(path: &Path) -> Result<(Design, Stamp), FileError> {
     let bytes = files::read(path, MAX_BYTES).map_err(|source| FileError::Read { path: path.into(), source })?;
     let content = |error| FileError::Content { path: path.into(), error };
@@ -62,6 +67,9 @@ pub fn read_stamped(path: &Path) -> Result<(Design, Stamp), FileError> {
 }
 
 /// Parses and validates the text of a design file.
+///
+/// # Errors
+/// [`TextError`]: where the text is no design, and why.
 pub fn parse(text: &str) -> Result<Design, TextError> {
     /// Every version of the format has this much.
     #[derive(Deserialize)]
@@ -83,6 +91,9 @@ pub fn parse(text: &str) -> Result<Design, TextError> {
 }
 
 /// The text of a design file. [`parse`] gives back the same design, bit for bit, if it is valid.
+///
+/// # Errors
+/// What RON cannot write, which no valid design has.
 pub fn to_text(design: &Design) -> Result<String, ron::Error> {
     // Taken apart in full: a field added to the document cannot be forgotten here.
     let Design {
@@ -144,6 +155,9 @@ pub fn to_text(design: &Design) -> Result<String, ron::Error> {
 }
 
 /// Validates a design and writes it: the file holds either the old content or the new, never a part of it.
+///
+/// # Errors
+/// [`FileError`]: an unsound design; what the system says. The old content stays then.
 pub fn write(path: &Path, design: &Design) -> Result<(), FileError> {
     save(design, None, path, None).map(drop)
 }
@@ -157,7 +171,7 @@ pub fn save(design: &Design, from: Option<&Path>, to: &Path, seen: Option<&Stamp
     let failed = |source| FileError::Write { path: to.into(), source };
     let carried = texture::carried(design, from.unwrap_or(to), to).map_err(failed)?;
     if let Some(seen) = seen
-        && Stamp::at(to).map_err(failed)?.is_some_and(|now| now != *seen)
+        && !seen.may_be_replaced(to, MAX_BYTES).map_err(failed)?
     {
         return Err(FileError::Changed { path: to.into() });
     }
@@ -165,6 +179,9 @@ pub fn save(design: &Design, from: Option<&Path>, to: &Path, seen: Option<&Stamp
 }
 
 /// [`write`] together with another file, both or neither.
+///
+/// # Errors
+/// As [`write()`].
 pub fn write_with(path: &Path, design: &Design, beside: Option<(PathBuf, Vec<u8>)>) -> Result<Stamp, FileError> {
     let content = |error: TextError| FileError::Content { path: path.into(), error };
     design.validate().map_err(|e| content(e.into()))?;

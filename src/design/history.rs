@@ -40,6 +40,9 @@ impl History {
 
     /// Changes the document as one step. On an error, or if the outcome is not a valid design, nothing has happened.
     /// A running gesture is committed first.
+    ///
+    /// # Errors
+    /// What the change or the validation says.
     pub fn edit<T>(
         &mut self,
         label: impl Into<String>,
@@ -60,6 +63,9 @@ impl History {
 
     /// Changes the document within a gesture, on top of the previews so far. Outside a gesture it is refused
     /// ([`EditError::NoGesture`]). On an error the preview before it stays.
+    ///
+    /// # Errors
+    /// [`EditError::NoGesture`], or what the change or the validation says.
     pub fn preview<T>(&mut self, change: impl FnOnce(&mut Design) -> Result<T, EditError>) -> Result<T, EditError> {
         if self.gesture.is_none() {
             return Err(EditError::NoGesture);

@@ -7,10 +7,10 @@
 pub mod animation;
 pub mod bundled;
 pub mod edit;
+mod fault;
 mod figures;
 pub mod file;
 pub mod history;
-mod problem;
 pub mod ranges;
 pub mod remesh;
 pub mod reshape;
@@ -19,16 +19,18 @@ mod settings;
 pub(crate) mod testing;
 pub mod texture;
 mod validate;
+mod version;
 
 pub use edit::EditError;
+pub use fault::{DesignError, Fault};
 pub use figures::MeshFigures;
-pub use file::{FORMAT_VERSION, FileError};
+pub use file::FileError;
 pub use history::History;
-pub use problem::{DesignError, Problem};
 pub use settings::{
     ControllerSettings, FabricationSettings, FiberSet, FiberSettings, Gravity, Material, TendonSettings, Term,
 };
 pub use validate::MAX_NAME_CHARS;
+pub use version::FORMAT_VERSION;
 
 use crate::defaults;
 use crate::mesh::{BodyPoint, Mesh};

@@ -3,7 +3,7 @@
 //! The ranges are generous, a hundred times and more beyond any plushie, and narrow enough that no product of figures leaves what the
 //! solvers and the sheets can hold. `examples/design-format.md` has the same table.
 
-use super::problem::{Check, DesignError, Problem, fail, finite, require};
+use super::fault::{Check, DesignError, Fault, fail, finite, require};
 use crate::physics::{Kind, Parameter, Setting};
 
 /// The range of a field, both ends allowed.
@@ -77,14 +77,14 @@ impl Range {
     pub(super) fn check_scaled(&self, at: &str, value: f64, factor: f64) -> Check {
         finite(at, value)?;
         let (low, high) = (self.low * factor, self.high * factor);
-        let problem = match value {
+        let fault = match value {
             v if (low..=high).contains(&v) => return Ok(()),
-            v if low > 0.0 && v <= 0.0 => Problem::NotPositive(v),
-            v if low == 0.0 && v < 0.0 => Problem::Negative(v),
-            v if high == 1.0 && v > high => Problem::TooLarge(v, high),
-            value => Problem::OutOfBounds { value, low, high, unit: if factor == 1.0 { self.unit } else { "mm" } },
+            v if low > 0.0 && v <= 0.0 => Fault::NotPositive(v),
+            v if low == 0.0 && v < 0.0 => Fault::Negative(v),
+            v if high == 1.0 && v > high => Fault::TooLarge(v, high),
+            value => Fault::OutOfBounds { value, low, high, unit: if factor == 1.0 { self.unit } else { "mm" } },
         };
-        fail(at, problem)
+        fail(at, fault)
     }
 }
 
@@ -96,7 +96,7 @@ pub(super) fn parameters<K: Kind>(at: &str, setting: &Setting<K>) -> Check {
         values.iter().try_for_each(|&value| of(parameter).check(&at, value))?;
         if let Some(most) = parameter.most_times_first {
             let factor = values[0] / first;
-            require(factor <= most, &at, || Problem::TooStiff { factor, most })?;
+            require(factor <= most, &at, || Fault::TooStiff { factor, most })?;
         }
     }
     Ok(())
@@ -109,11 +109,7 @@ fn of(parameter: &Parameter) -> Range {
 
 /// Whether there are at most so many of a kind.
 pub(super) fn at_most(at: &str, found: usize, most: usize, what: &'static str) -> Check {
-    if found <= most {
-        Ok(())
-    } else {
-        Err(DesignError { at: at.into(), problem: Problem::TooMany { found, most, what } })
-    }
+    if found <= most { Ok(()) } else { Err(DesignError { at: at.into(), fault: Fault::TooMany { found, most, what } }) }
 }
 
 #[cfg(test)]

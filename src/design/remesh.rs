@@ -4,7 +4,7 @@
 //! new nodes that can be reached from there in a straight line inside the body, so that none jumps a gap to the next limb;
 //! where the straight way between two of them would leave the body, the shortest way along mesh edges is put between.
 
-use super::{Design, EditError, FiberSet, Tendon};
+use super::{Design, FiberSet, Tendon};
 use crate::mesh::{self, BodyPoint, Mesh, MeshError, Request};
 use crate::outline::{Outline, Point, polygon};
 use serde::Serialize;
@@ -50,17 +50,11 @@ impl Report {
     }
 }
 
-/// Gives the design a new mesh of its outline. Poses, networks and keyframes stay; activations are as they were.
-///
-/// # Errors
-/// [`EditError::Mesh`] where the outline has no such mesh; the design is as it was.
-pub fn remesh(design: &mut Design, request: &Request, finer: usize) -> Result<Report, EditError> {
-    let (mesh, set) = body(&design.outline, request, finer)?;
-    Ok(carry(design, mesh, set))
-}
-
 /// A mesh, and the fibres on it: one on every edge, or (`finer` above 1) those of a coarse mesh on one that is so many times
 /// finer (section 8.2 of the paper).
+///
+/// # Errors
+/// [`MeshError`] where the outline has no such mesh.
 pub fn body(outline: &Outline, request: &Request, finer: usize) -> Result<(Mesh, FiberSet), MeshError> {
     let coarse = mesh::build(outline, request)?.mesh;
     if finer <= 1 {
@@ -267,9 +261,14 @@ impl Ord for Length {
 
 #[cfg(test)]
 mod tests {
-    use super::super::bundled;
     use super::super::history::History;
+    use super::super::{EditError, bundled};
     use super::*;
+
+    fn remesh(design: &mut Design, request: &Request, finer: usize) -> Result<Report, EditError> {
+        let (mesh, set) = body(&design.outline, request, finer)?;
+        Ok(carry(design, mesh, set))
+    }
 
     #[test]
     fn every_bundled_design_can_be_made_finer_and_coarser() {

@@ -31,19 +31,6 @@ impl Body {
         let (mesh, fibers) = remesh::body(&imported.outline, &request, finer)?;
         Ok(Self { outline: imported.outline, mesh, fibers, drawing: imported.drawing, corner })
     }
-
-    /// [`Self::new`] with about `fibers` muscle fibres, or with as many as the outline needs where that is more.
-    ///
-    /// # Errors
-    /// As [`Self::new`].
-    pub fn with_fibers(imported: Imported, fibers: usize, finer: usize, corner: Point) -> Result<Self, MeshError> {
-        match Self::new(imported.clone(), &Request::fibers(fibers), finer, corner) {
-            Err(MeshError::Unreachable { nearest, .. }) if nearest > fibers && finer <= 1 => {
-                Self::new(imported, &Request::fibers(nearest), finer, corner)
-            }
-            outcome => outcome,
-        }
-    }
 }
 
 /// A silhouette that was not drawn keeps the tracks of the design, whose lower left corner it shares.
@@ -99,7 +86,7 @@ mod tests {
         let imported = drawing.import(&Import::default()).unwrap();
         let corner = imported.drawn_box[0];
         assert!((corner[0] + 50.0).abs() < 1e-3 && corner[1].abs() < 0.5, "{corner:?}");
-        let body = Body::with_fibers(imported, 500, 1, corner).unwrap();
+        let body = Body::new(imported, &Request::fibers(500), 1, corner).unwrap();
         let report = reshape(&mut design, body);
         design.validate().unwrap();
         assert_eq!(design.fiber_routings().len(), report.fibers[1]);

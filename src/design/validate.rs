@@ -4,7 +4,7 @@
 //! The rest of the program relies on it and does not check again. An error names the place as a path into the file
 //! (`pins[1].at.triangle`), 0-based, and what is wrong there.
 
-use super::problem::{Check, DesignError, Problem, at_least, fail, finite, require, same_length};
+use super::fault::{Check, DesignError, Fault, at_least, fail, finite, require, same_length};
 use super::ranges::{self, Range, at_most};
 use super::{Design, FORMAT_VERSION, FiberSet, Keyframe, Network, Pin, Pose, Target, Tendon, Term};
 use crate::files::is_hidden;
@@ -25,9 +25,12 @@ pub const WEIGHT_TOLERANCE: f64 = 1e-9;
 
 impl Design {
     /// Checks the whole document; the first fault found, the body first. The cost is that of [`Mesh::validate`].
+    ///
+    /// # Errors
+    /// [`DesignError`]: the place of the first fault, and what is wrong there.
     pub fn validate(&self) -> Result<(), DesignError> {
         if self.version == 0 || self.version > FORMAT_VERSION {
-            return fail("version", Problem::Version { found: self.version });
+            return fail("version", Fault::Version { found: self.version });
         }
         outline(self)?;
         mesh(&self.mesh)?;
@@ -55,11 +58,11 @@ fn outline(design: &Design) -> Check {
     let points = design.outline.polygons().map(<[Point]>::len).sum();
     at_most("outline", points, ranges::MAX_OUTLINE_POINTS, "points")?;
     let area = polygon("outline.outer", &design.outline.outer)?;
-    require(area > 0.0, "outline.outer", || Problem::OuterPolygon(area))?;
+    require(area > 0.0, "outline.outer", || Fault::OuterPolygon(area))?;
     for (i, hole) in design.outline.holes.iter().enumerate() {
         let at = format!("outline.holes[{i}]");
         let area = polygon(&at, hole)?;
-        require(area < 0.0, &at, || Problem::HolePolygon(area))?;
+        require(area < 0.0, &at, || Fault::HolePolygon(area))?;
     }
     Ok(())
 }
@@ -88,10 +91,10 @@ fn mesh(mesh: &Mesh) -> Check {
         }
         let [a, b, c] = corners.map(|n| mesh.nodes[n]);
         let area = 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
-        require(area > 0.0 && area.is_finite(), &at, || Problem::Triangle(area))?;
+        require(area > 0.0 && area.is_finite(), &at, || Fault::Triangle(area))?;
     }
     // What the mesh as a whole must be: one piece, no overlaps, every node used.
-    mesh.validate().or_else(|error| fail("mesh", Problem::Mesh(error)))
+    mesh.validate().or_else(|error| fail("mesh", Fault::Mesh(error)))
 }
 
 /// Everything about a design's settings; used by the edits as well.
@@ -117,7 +120,7 @@ pub(super) fn settings(design: &Design) -> Check {
         let at = format!("terms[{i}]");
         ranges::parameters(&at, term)?;
         let before = design.all_terms().iter().filter(|other| other.kind().name == term.kind().name).count();
-        require(before == 1, &at, || Problem::Duplicate { what: "term", name: term.kind().name.into() })?;
+        require(before == 1, &at, || Fault::Duplicate { what: "term", name: term.kind().name.into() })?;
     }
     if let Some(map) = &design.stiffness_map {
         same_length("stiffness_map", map.len(), design.mesh.triangles.len(), "triangles")?;
@@ -126,7 +129,7 @@ pub(super) fn settings(design: &Design) -> Check {
         }
     }
     if let Some(drawing) = &design.drawing {
-        drawing.check().or_else(|(at, why)| fail(format!("drawing.{at}"), Problem::Drawing(why)))?;
+        drawing.check().or_else(|(at, why)| fail(format!("drawing.{at}"), Fault::Drawing(why)))?;
     }
     if let Some([low, high]) = &design.texture_box {
         coordinates("texture_box[0]", low, &ranges::POSITION)?;
@@ -160,7 +163,7 @@ fn poses(mesh: &Mesh, poses: &[Pose]) -> Check {
     for (i, p) in poses.iter().enumerate() {
         let at = format!("poses[{i}]");
         pose(&at, mesh, p)?;
-        require(names.insert(p.name.as_str()), &format!("{at}.name"), || Problem::Duplicate {
+        require(names.insert(p.name.as_str()), &format!("{at}.name"), || Fault::Duplicate {
             what: "pose",
             name: p.name.clone(),
         })?;
@@ -175,7 +178,7 @@ fn keyframes(design: &Design) -> Check {
         let at = format!("keyframes[{i}]");
         keyframe(&at, design, k)?;
         if let Some(before) = before.filter(|&before| k.time_s <= before) {
-            return fail(format!("{at}.time_s"), Problem::NotAscending { time: k.time_s, before });
+            return fail(format!("{at}.time_s"), Fault::NotAscending { time: k.time_s, before });
         }
         before = Some(k.time_s);
     }
@@ -215,7 +218,7 @@ pub(super) fn network(at: &str, mesh: &Mesh, network: &Network) -> Check {
         let at = format!("{at}.tendons[{i}]");
         routing(&format!("{at}.routing"), mesh, nodes)?;
         let (found, winch) = (nodes[0], *winch.get_or_insert(nodes[0]));
-        require(found == winch, &format!("{at}.routing"), || Problem::OtherWinch { found, winch })?;
+        require(found == winch, &format!("{at}.routing"), || Fault::OtherWinch { found, winch })?;
         ranges::RATIO.check(&format!("{at}.ratio"), *ratio)?;
         ranges::SLACK.check(&format!("{at}.slack_mm"), *slack_mm)?;
     }
@@ -236,7 +239,7 @@ pub(super) fn keyframe(at: &str, design: &Design, keyframe: &Keyframe) -> Check 
     }
     match &keyframe.pose {
         Some(name) if !design.poses.iter().any(|p| p.name == *name) => {
-            fail(format!("{at}.pose"), Problem::UnknownPose(name.clone()))
+            fail(format!("{at}.pose"), Fault::UnknownPose(name.clone()))
         }
         _ => Ok(()),
     }
@@ -249,14 +252,14 @@ fn routing(at: &str, mesh: &Mesh, nodes: &[usize]) -> Check {
         node(&format!("{at}[{i}]"), mesh, n)?;
     }
     match (1..nodes.len()).find(|&i| nodes[i] == nodes[i - 1]) {
-        Some(i) => fail(format!("{at}[{i}]"), Problem::RepeatedNode(nodes[i])),
+        Some(i) => fail(format!("{at}[{i}]"), Fault::RepeatedNode(nodes[i])),
         None => Ok(()),
     }
 }
 
 fn body_point(at: &str, mesh: &Mesh, p: &BodyPoint) -> Check {
     let len = mesh.triangles.len();
-    require(p.triangle < len, &format!("{at}.triangle"), || Problem::OutOfRange {
+    require(p.triangle < len, &format!("{at}.triangle"), || Fault::OutOfRange {
         index: p.triangle,
         len,
         what: "triangles",
@@ -264,15 +267,15 @@ fn body_point(at: &str, mesh: &Mesh, p: &BodyPoint) -> Check {
     for (i, &w) in p.weights.iter().enumerate() {
         let at = format!("{at}.weights[{i}]");
         finite(&at, w)?;
-        require(w >= -WEIGHT_TOLERANCE, &at, || Problem::Negative(w))?;
+        require(w >= -WEIGHT_TOLERANCE, &at, || Fault::Negative(w))?;
     }
     let sum: f64 = p.weights.iter().sum();
-    require((sum - 1.0).abs() <= WEIGHT_SUM_TOLERANCE, &format!("{at}.weights"), || Problem::WeightSum(sum))
+    require((sum - 1.0).abs() <= WEIGHT_SUM_TOLERANCE, &format!("{at}.weights"), || Fault::WeightSum(sum))
 }
 
 fn node(at: &str, mesh: &Mesh, index: usize) -> Check {
     let len = mesh.nodes.len();
-    require(index < len, at, || Problem::OutOfRange { index, len, what: "nodes" })
+    require(index < len, at, || Fault::OutOfRange { index, len, what: "nodes" })
 }
 
 fn coordinates(at: &str, p: &Point, range: &Range) -> Check {
@@ -285,12 +288,12 @@ fn shown_name(at: &str, name: &str, needed: bool) -> Check {
 }
 
 fn shown_text(at: &str, text: &str, most: usize, needed: bool) -> Check {
-    require(!needed || !text.trim().is_empty(), at, || Problem::Empty)?;
+    require(!needed || !text.trim().is_empty(), at, || Fault::Empty)?;
     // Bytes first: they are counted already.
     let found = if text.len() <= most { 0 } else { text.chars().count() };
     at_most(at, found, most, "characters")?;
     match text.chars().find(|&c| is_hidden(c)) {
-        Some(c) => fail(at, Problem::Hidden(u32::from(c))),
+        Some(c) => fail(at, Fault::Hidden(u32::from(c))),
         None => Ok(()),
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Spread;
 use super::graph::Graph;
-use super::sets::{Candidate, Measure, Score, best_score, smallest_set};
+use super::sets::{Measure, Score, TendonPath, best_score, smallest_set};
 
 /// The winch tree with the candidate tendons of every possible root.
 pub(super) struct Selector {
@@ -17,7 +17,7 @@ pub(super) struct Selector {
 struct Root {
     node: usize,
     /// One a leaf, ascending by net contraction.
-    candidates: Vec<Candidate>,
+    candidates: Vec<TendonPath>,
     /// Largest net contraction of each branch, descending.
     branch_maxima: Vec<f64>,
 }
@@ -118,7 +118,7 @@ impl Root {
             let mut stack = vec![(first, root, weight)];
             while let Some((node, parent, net_contraction)) = stack.pop() {
                 if neighbors[node].len() == 1 {
-                    candidates.push(Candidate { net_contraction, branch, leaf: nodes[node] });
+                    candidates.push(TendonPath { net_contraction, branch, leaf: nodes[node] });
                     largest = largest.max(net_contraction);
                 }
                 let onward = neighbors[node].iter().filter(|(next, _)| *next != parent);

@@ -22,7 +22,7 @@ use super::graph::ROUNDING;
 
 /// A candidate tendon from a root to a leaf of the winch tree.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Candidate {
+pub(super) struct TendonPath {
     pub net_contraction: f64,
     pub branch: usize,
     pub leaf: usize,
@@ -76,7 +76,7 @@ impl Measure {
 /// `candidates` ascend by net contraction. `None` where they have fewer than `take` branches.
 ///
 /// Cost: about n k evaluations of O(k + log n) for n candidates on many branches.
-pub(super) fn best_score(candidates: &[Candidate], forced: &[f64], take: usize, measure: &Measure) -> Option<Score> {
+pub(super) fn best_score(candidates: &[TendonPath], forced: &[f64], take: usize, measure: &Measure) -> Option<Score> {
     if take == 0 {
         return (!forced.is_empty()).then(|| measure.score(forced));
     }
@@ -117,7 +117,7 @@ pub(super) fn best_score(candidates: &[Candidate], forced: &[f64], take: usize, 
 }
 
 struct Sweep<'a> {
-    candidates: &'a [Candidate],
+    candidates: &'a [TendonPath],
     take: usize,
     /// Per branch the last round in which it was taken.
     seen: Vec<u32>,
@@ -163,11 +163,11 @@ impl Sweep<'_> {
 /// The smallest sorted list of leaves among the sets of `count` candidates whose score ties with `largest`. It is found
 /// leaf by leaf: the smallest leaf from which such a set can still be completed with larger leaves.
 pub(super) fn smallest_set(
-    candidates: &[Candidate],
+    candidates: &[TendonPath],
     count: usize,
     measure: &Measure,
     largest: Score,
-) -> Option<Vec<Candidate>> {
+) -> Option<Vec<TendonPath>> {
     let mut by_leaf = candidates.to_vec();
     by_leaf.sort_unstable_by_key(|candidate| candidate.leaf);
     let mut allowed = candidates.to_vec();
@@ -180,7 +180,7 @@ pub(super) fn smallest_set(
             continue;
         }
         allowed.retain(|other| other.leaf > candidate.leaf);
-        let rest: Vec<Candidate> = allowed.iter().copied().filter(|other| other.branch != candidate.branch).collect();
+        let rest: Vec<TendonPath> = allowed.iter().copied().filter(|other| other.branch != candidate.branch).collect();
         forced.push(candidate.net_contraction);
         let score = best_score(&rest, &forced, count - forced.len(), measure);
         if score.is_some_and(|score| score.ties(largest)) {
@@ -197,10 +197,10 @@ pub(super) fn smallest_set(
 mod tests {
     use super::*;
 
-    fn candidates(list: &[(f64, usize)]) -> Vec<Candidate> {
+    fn candidates(list: &[(f64, usize)]) -> Vec<TendonPath> {
         let with_leaf = list.iter().enumerate();
-        let mut list: Vec<Candidate> =
-            with_leaf.map(|(leaf, &(net_contraction, branch))| Candidate { net_contraction, branch, leaf }).collect();
+        let mut list: Vec<TendonPath> =
+            with_leaf.map(|(leaf, &(net_contraction, branch))| TendonPath { net_contraction, branch, leaf }).collect();
         list.sort_by(|a, b| a.net_contraction.total_cmp(&b.net_contraction));
         list
     }

@@ -73,7 +73,7 @@ mod tests {
             |d| d.stiffness_map = Some(vec![1.0; d.mesh.triangles.len()]),
             |d| d.fibers.stiffness *= 2.0,
             |d| d.tendons.stiffness *= 2.0,
-            |d| d.pins.truncate(1),
+            |d| d.pins.clear(),
             |d| d.networks.clear(),
             |d| d.gravity = Some(Gravity { acceleration: [0.0, -9.81], surface_density: 1e-6 }),
         ];

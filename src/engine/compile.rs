@@ -5,7 +5,7 @@ use super::patch;
 use crate::defaults;
 use crate::design::Target;
 use crate::design::{Design, Network};
-use crate::physics::{Body, Contractile, Element, Energy, Ground, Model, ModelError, Pin, Pins};
+use crate::physics::{Body, Contractile, Element, Energy, Ground, Model, ModelError, PinSpring, Pins};
 use crate::soft_ik::{Objective, PointTarget, Winch};
 use std::ops::Range;
 
@@ -65,7 +65,7 @@ fn compile_body(spec: &BodySpec, view: View) -> Result<Plushie, ModelError> {
     let pins = spec.pins.iter().map(|pin| {
         let (nodes, weights) = patch::point(mesh, &pin.at);
         let anchor = pin.position.unwrap_or_else(|| mesh.position(&pin.at, &mesh.nodes));
-        Pin { nodes, weights, anchor, stiffness: pin.stiffness }
+        PinSpring { nodes, weights, anchor, stiffness: pin.stiffness }
     });
     let pins = Pins { pins: pins.collect() };
     let areas = body.nodal_areas(mesh.nodes.len());

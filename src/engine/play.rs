@@ -1,6 +1,6 @@
 //! How much a pose depends on exact lengths of cable: what a millimetre too much or too little does.
 
-use super::solver::target_error;
+use super::measure::target_error;
 use crate::design::{Design, Target};
 use crate::soft_ik::{Posture, Question};
 

@@ -1,8 +1,8 @@
 //! What the user should know about a shape.
 
 use super::compile::Plushie;
-use super::solver::target_error;
-use super::{Play, Shape};
+use super::measure::target_error;
+use super::play::Play;
 use crate::design::{Design, Target};
 use crate::outline::Point;
 use crate::physics::Cause;
@@ -68,13 +68,13 @@ impl Warning {
         posture.unsettled.map(Self::Unbalanced)
     }
 
-    /// About a pose that is only reached where cables have exactly the right length.
-    pub(super) fn of_play(design: &Design, targets: &[Target], shape: &Shape, play: Option<&Play>) -> Option<Self> {
+    /// About a pose that is only reached where cables have exactly the right length; `before`: its target error.
+    pub(super) fn of_play(design: &Design, targets: &[Target], before: f64, play: Option<&Play>) -> Option<Self> {
         let Play { winch, error } = *play?;
         let rest = target_error(design, targets, &design.mesh.nodes);
-        let narrow = error - shape.target_error > NARROW * rest;
+        let narrow = error - before > NARROW * rest;
         let winch = design.networks.get(winch)?.name.clone();
-        narrow.then_some(Self::Narrow { winch, before: shape.target_error, after: error })
+        narrow.then_some(Self::Narrow { winch, before, after: error })
     }
 
     /// Whether it will go by itself once the solver has had its time.

@@ -11,17 +11,18 @@ use serde::{Deserialize, Serialize};
 use std::path::Path;
 
 const MANIFEST_FORMAT: &str = "plushwright-blueprint/1";
-/// What the format of an earlier export begins with, whatever its version.
+/// The beginning of the format of an earlier export, whatever its version.
 const ANY_VERSION: &str = "plushwright-blueprint/";
 
 /// How a blueprint is made.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Options {
     /// What to do where the animation is too fast for the motors.
     pub too_fast: TooFast,
 }
 
-/// What an export consists of.
+/// The contents of an export.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
     /// `plushwright-blueprint/1`.
@@ -29,7 +30,7 @@ pub struct Manifest {
     pub design: String,
     /// Every file but the manifest itself.
     pub files: Vec<Listed>,
-    /// What the user should know about this blueprint (a motor too slow, a gap too small, ...).
+    /// Remarks for the user on this blueprint (a motor too slow, a gap too small, ...).
     pub remarks: Vec<String>,
 }
 

@@ -1,4 +1,4 @@
-//! Why a design was not exported.
+//! The errors of an export.
 
 use crate::design::DesignError;
 use crate::files::folder::FolderError;
@@ -8,10 +8,10 @@ use std::io;
 use std::path::PathBuf;
 use thiserror::Error;
 
-/// Why there is no blueprint of a design, or no folder with it.
+/// A design without a blueprint, or a blueprint without a folder.
 #[derive(Debug, Error)]
 pub enum ExportError {
-    #[error("the design has no winch-tendon networks yet: accept one, or run `plushwright rig`")]
+    #[error("the design has no winch-tendon networks yet")]
     NoNetworks,
     #[error(transparent)]
     Invalid(#[from] DesignError),

@@ -1,4 +1,4 @@
-//! Products of a blueprint: what they are made from, and of which kinds they are.
+//! Products of a blueprint: their inputs and their kinds.
 
 use super::error::ExportError;
 use super::sheet::Sheet;
@@ -23,13 +23,13 @@ pub enum Content {
     Solid(Solid),
     /// Figures.
     Table(Table),
-    /// What motors are told.
+    /// Commands to motors.
     Program(Program),
     /// Words.
     Page(String),
 }
 
-/// What products are made from.
+/// The inputs of products.
 #[derive(Clone, Copy, Debug)]
 pub struct Source<'a> {
     /// Sound, with one network at least.
@@ -37,7 +37,7 @@ pub struct Source<'a> {
     pub trajectory: &'a Trajectory,
     /// The parts before this one in the table of products.
     pub sections: &'a [Section],
-    /// What they had to remark.
+    /// Their remarks.
     pub remarks: &'a [String],
 }
 
@@ -47,7 +47,7 @@ pub struct Part {
     pub products: Vec<Product>,
     /// How to use them, for the page that goes with the blueprint: lines indented by two spaces, each with its end.
     pub guide: String,
-    /// What the user should know about them.
+    /// Remarks for the user.
     pub remarks: Vec<String>,
 }
 

@@ -51,7 +51,7 @@ pub enum Entity {
     },
 }
 
-/// Which part of a text stands at its point.
+/// The part of a text that stands at its point.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Anchor {
     #[default]
@@ -61,7 +61,7 @@ pub enum Anchor {
 
 /// Thinnest line, mm: lasers take it for a cut; 0.2 mm and more is engraved by some.
 pub const HAIRLINE_MM: f64 = 0.01;
-/// What lasers cut.
+/// Lines that lasers cut.
 pub const RED: Color = Color(255, 0, 0);
 /// Lines to sew along.
 pub const BLUE: Color = Color(0, 0, 255);

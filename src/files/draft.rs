@@ -1,7 +1,8 @@
 //! A file that is written in full and flushed before it takes its place.
 
+use super::paths::{parent, sync_folder, temporary};
 use super::place::Place;
-use super::{parent, sweep, sync_folder, temporary};
+use super::sweep;
 use std::fs::{self, File, Metadata};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};

@@ -4,8 +4,9 @@
 //! name. It must be an earlier result of the same kind, which its manifest proves: that names every file in it, with its checksum.
 //! Anything else that is in there, or was changed by hand, is somebody's work, and the folder is refused.
 
+use super::paths::{parent, sync_folder, temporary};
 use super::stamp::sha256;
-use super::{parent, place, read, signals, sweep, sync_folder, temporary};
+use super::{place, read, signals, sweep};
 use serde::{Deserialize, Serialize};
 use std::fs::{self, File};
 use std::io::{self, Write};

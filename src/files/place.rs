@@ -1,6 +1,6 @@
 //! What stands where a file is to be written, and whether it may be replaced.
 
-use super::parent;
+use super::paths::{absolute, parent};
 use std::fs::{self, Metadata};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -60,7 +60,7 @@ fn free(path: &Path) -> io::Result<Place> {
 /// # Errors
 /// It has no last part, or leads in a circle.
 pub(super) fn end_of_links(path: &Path) -> io::Result<PathBuf> {
-    let mut path = super::absolute(path)?;
+    let mut path = absolute(path)?;
     for _ in 0..MOST_LINKS {
         match fs::read_link(&path) {
             Ok(target) => path = parent(&path).join(target),

@@ -55,6 +55,9 @@ impl Mesh {
 
     /// Checks what the physics relies on: finite distinct nodes, each used; counter-clockwise triangles with area; no
     /// edge shared by more than two; one connected piece without pinched nodes; no node hanging in another's edge.
+    ///
+    /// # Errors
+    /// [`MeshError`]: the first fault found.
     pub fn validate(&self) -> Result<(), MeshError> {
         if self.triangles.is_empty() {
             return Err(MeshError::Empty);

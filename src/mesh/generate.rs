@@ -1,10 +1,11 @@
 //! Outline to triangle mesh: what can be asked for, and the refusal of what cannot be.
 
-use super::quality::Quality;
-use super::search::{Effort, Pool, Subject};
+use super::quality::MeshQuality;
+use super::search::{Pool, Subject, Thoroughness};
 use super::symmetry::{self, Axis};
 use super::{Mesh, MeshError};
 use crate::outline::{Outline, Point};
+use serde::{Deserialize, Serialize};
 
 /// Most muscle fibres that are meshed: far beyond what a pose could be solved with.
 pub const MAX_FIBERS: usize = 200_000;
@@ -31,7 +32,7 @@ pub struct Request {
 }
 
 /// How fine a mesh is wanted.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Size {
     /// Number of edges: the muscle fibres.
     Fibers(usize),
@@ -49,7 +50,7 @@ impl Request {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Meshed {
     pub mesh: Mesh,
-    pub quality: Quality,
+    pub quality: MeshQuality,
     /// The axis about which the mesh is its own mirror image, if it was made so.
     pub axis: Option<Axis>,
 }
@@ -108,7 +109,7 @@ pub fn build_or_finer(outline: &Outline, request: &Request) -> Result<(Meshed, u
     let pool = Pool::of(outline);
     let whole = Subject::whole(outline, &pool, &request.tracks, fibers);
     // One half and its image, unless the whole gives better angles.
-    let at = |fibers: usize, effort: Effort| {
+    let at = |fibers: usize, effort: Thoroughness| {
         let even = whole.even(fibers);
         let mirrored = half.as_ref().and_then(|(axis, subject)| {
             let (mesh, quality) = subject.mesh(even, fibers, effort)?;
@@ -124,7 +125,7 @@ pub fn build_or_finer(outline: &Outline, request: &Request) -> Result<(Meshed, u
             whole.relax();
             half.iter().for_each(|(_, subject)| subject.relax());
         }
-        if let Some(meshed) = at(fibers, Effort::Full) {
+        if let Some(meshed) = at(fibers, Thoroughness::Full) {
             return Ok((meshed, fibers));
         }
         if let Some(found) = finer(&whole, fibers, at) {
@@ -171,14 +172,14 @@ fn check(outline: &Outline) -> Result<(), MeshError> {
 ///
 /// The angles alone say where to begin; from there upward until a count has a mesh, then the interval to the largest
 /// count that had none, or to [`FEWER`] of it, is halved.
-fn finer(whole: &Subject, asked: usize, at: impl Fn(usize, Effort) -> Option<Meshed>) -> Option<(Meshed, usize)> {
+fn finer(whole: &Subject, asked: usize, at: impl Fn(usize, Thoroughness) -> Option<Meshed>) -> Option<(Meshed, usize)> {
     let most = (NEAREST_MOST * asked.max(100)).min(MAX_FIBERS);
     let least = whole.least_edges(asked, most).or_else(|| whole.least_edges(most, MAX_FIBERS));
     let mut count = least?.max(asked + 1);
     let mut without = asked;
     let mut found = None;
     for step in 0..NEAREST_STEPS {
-        found = if count > MAX_FIBERS { None } else { at(count, Effort::Little).map(|meshed| (meshed, count)) };
+        found = if count > MAX_FIBERS { None } else { at(count, Thoroughness::Little).map(|meshed| (meshed, count)) };
         if found.is_some() || whole.is_exhausted() {
             break;
         }
@@ -196,23 +197,14 @@ fn finer(whole: &Subject, asked: usize, at: impl Fn(usize, Effort) -> Option<Mes
         if between <= without || whole.is_exhausted() {
             break;
         }
-        if at(between, Effort::Little).is_some() {
+        if at(between, Thoroughness::Little).is_some() {
             count = between;
         } else {
             without = between;
         }
     }
     // The same mesh as for who asks for so many.
-    Some((at(count, Effort::Full).unwrap_or(meshed), count))
-}
-
-/// Puts triangles in the order of their nodes, each with its smallest first.
-pub(super) fn order(triangles: &mut [[usize; 3]]) {
-    for t in triangles.iter_mut() {
-        let smallest = (0..3).min_by_key(|&k| t[k]).unwrap_or(0);
-        t.rotate_left(smallest);
-    }
-    triangles.sort_unstable();
+    Some((at(count, Thoroughness::Full).unwrap_or(meshed), count))
 }
 
 #[cfg(test)]
@@ -249,7 +241,7 @@ mod tests {
 
     fn assert_good(outline: &Outline, fibers: usize, what: &str) {
         let mesh = generate(outline, fibers).unwrap_or_else(|e| panic!("{what}: {e}"));
-        let quality = Quality::of(&mesh);
+        let quality = MeshQuality::of(&mesh);
         assert_eq!(mesh.validate(), Ok(()), "{what}");
         assert_eq!((mesh.edges().len(), quality.edges), (fibers, fibers), "{what}");
         assert!(quality.below_20_deg * 1000 <= mesh.triangles.len(), "{what}: {quality:?}");
@@ -299,7 +291,7 @@ mod tests {
         for corner in &bar.outer {
             assert!(mesh.nodes.contains(corner));
         }
-        assert_eq!(Quality::of(&mesh).bridges, 0);
+        assert_eq!(MeshQuality::of(&mesh).bridges, 0);
     }
 
     #[test]

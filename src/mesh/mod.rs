@@ -3,12 +3,16 @@
 //! [`generate()`] makes a mesh with an asked number of edges; [`Mesh::validate`] says whether one from a file is sound;
 //! [`Mesh::locate`] finds the point of the body at a place.
 
+mod boundary;
 mod check;
+mod circle;
 mod curve;
 mod generate;
 mod grid;
 mod locate;
+mod order;
 pub mod quality;
+mod queue;
 mod refine;
 mod sample;
 mod search;

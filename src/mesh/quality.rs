@@ -12,7 +12,7 @@ pub const HISTOGRAM_BARS: usize = 12;
 
 /// Figures of a rest mesh; lengths in mm, angles in degrees.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Quality {
+pub struct MeshQuality {
     pub nodes: usize,
     pub triangles: usize,
     pub edges: usize,
@@ -38,7 +38,7 @@ pub struct Quality {
     pub bridges: usize,
 }
 
-impl Quality {
+impl MeshQuality {
     /// Measures the rest shape of a mesh.
     pub fn of(mesh: &Mesh) -> Self {
         let edges = mesh.edges();

@@ -6,14 +6,14 @@
 //! it, so that its two legs do not split each other for ever. What is still missing is spread farthest point first:
 //! at the circumcentre of the triangle that is largest for its place.
 
+use super::boundary::Boundary;
+use super::circle::{angle_at, circumcircle, side2};
 use super::curve::Curve;
 use super::quality::min_angle;
-use super::sample::Boundary;
+use super::queue::{Entry, Why};
 use super::tracks::Sampled;
 use super::tri::{NONE, Side, Tri, Way};
-use super::triangulate::doubled_area;
 use crate::outline::{Point, polygon};
-use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 /// Triangles with a smaller angle may be preferred when nodes are shared out, degrees.
@@ -73,45 +73,6 @@ pub(super) struct Refiner<'a> {
     queue: BinaryHeap<Entry>,
     star: Vec<usize>,
 }
-
-/// Why a triangle wants a node; the last goes first.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Why {
-    Size,
-    Angle,
-    /// So large for its place that it is split whatever its angles: nodes for the angles' sake lie better afterwards.
-    Large,
-    /// Sees a fixed edge under too large an angle.
-    Edge,
-}
-
-/// A triangle that wants a node.
-struct Entry {
-    why: Why,
-    weight: f64,
-    corners: [usize; 3],
-    triangle: usize,
-}
-
-impl Ord for Entry {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.why
-            .cmp(&other.why)
-            .then(self.weight.total_cmp(&other.weight))
-            .then_with(|| other.corners.cmp(&self.corners))
-    }
-}
-impl PartialOrd for Entry {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-impl PartialEq for Entry {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-impl Eq for Entry {}
 
 impl<'a> Refiner<'a> {
     /// The triangulation of a boundary sampled at spacing `h`, to be refined. A half
@@ -463,25 +424,6 @@ fn rim_sizes(boundary: &Boundary, h: f64) -> Vec<f64> {
     sizes.into_iter().map(|s: f64| s.min(h)).collect()
 }
 
-fn side2(p: [Point; 3], k: usize) -> f64 {
-    let (a, b) = (p[k], p[(k + 1) % 3]);
-    (b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)
-}
-
-fn angle_at(p: Point, q: Point, r: Point) -> f64 {
-    let dot = (q[0] - p[0]) * (r[0] - p[0]) + (q[1] - p[1]) * (r[1] - p[1]);
-    doubled_area(p, q, r).atan2(dot)
-}
-
 fn seen(a: Point, b: Point, p: Point) -> bool {
     angle_at(p, a, b).abs() > SEEN_DEG.to_radians()
-}
-
-/// Centre and radius of the circle through three points.
-fn circumcircle([a, b, c]: [Point; 3]) -> (Point, f64) {
-    let (u, v) = ([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]);
-    let d = 2.0 * doubled_area(a, b, c);
-    let (uu, vv) = (u[0] * u[0] + u[1] * u[1], v[0] * v[0] + v[1] * v[1]);
-    let (x, y) = ((v[1] * uu - u[1] * vv) / d, (u[0] * vv - v[0] * uu) / d);
-    ([a[0] + x, a[1] + y], x.hypot(y))
 }

@@ -5,8 +5,9 @@
 //! divided by its length. Then nodes are added where a chord strays from the outline too far, and where it is needed to
 //! keep the area.
 
+use super::boundary::Boundary;
 use super::curve::Curve;
-use super::search::Budget;
+use super::search::WorkBudget;
 use crate::outline::{Outline, Point, polygon};
 
 /// Weights `a` of curvature in the density, tried in turn until the area is kept.
@@ -18,16 +19,6 @@ const STRAY: f64 = 0.12;
 const NEAR: f64 = 0.3;
 /// Most change of the spacing along the boundary per length of way: neighbouring edges differ by a third.
 const GRADATION: f64 = 0.35;
-
-/// Sampled boundary. Nodes of a ring are consecutive and in the ring's order.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Boundary {
-    pub nodes: Vec<Point>,
-    /// Ring and arc length of each node.
-    pub places: Vec<(usize, f64)>,
-    /// Index pairs of consecutive nodes: the constrained edges.
-    pub segments: Vec<[usize; 2]>,
-}
 
 /// How closely the boundary is followed.
 #[derive(Clone, Copy, Debug)]
@@ -101,7 +92,13 @@ impl<'a> Bends<'a> {
 
 /// Samples all polygons of the outline. `None` where no choice of at most `most` nodes gives a boundary free of crossings.
 /// Nor where the budget does not suffice.
-pub(super) fn sample(bends: &Bends, extra: Extra, close: Closeness, most: usize, budget: &Budget) -> Option<Boundary> {
+pub(super) fn sample(
+    bends: &Bends,
+    extra: Extra,
+    close: Closeness,
+    most: usize,
+    budget: &WorkBudget,
+) -> Option<Boundary> {
     let Rim { curves, on_axis, .. } = bends.rim;
     let stray = (STRAY * bends.h).min(close.stray);
     let lost = |rings: &[Vec<f64>]| {

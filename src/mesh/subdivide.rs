@@ -1,6 +1,7 @@
 //! A finer mesh over the same edges.
 
-use super::{Mesh, generate};
+use super::Mesh;
+use super::order::order;
 use crate::outline::polygon;
 use std::collections::BTreeMap;
 
@@ -50,13 +51,13 @@ pub fn subdivided(mesh: &Mesh, parts: usize) -> Mesh {
             before = row;
         }
     }
-    generate::order(&mut triangles);
+    order(&mut triangles);
     Mesh { nodes, triangles }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::quality::Quality;
+    use super::super::quality::MeshQuality;
     use super::*;
 
     #[test]
@@ -71,7 +72,7 @@ mod tests {
             assert_eq!(fine.triangles.len(), 3 * parts * parts);
             assert_eq!(fine.nodes[..5], coarse.nodes);
             assert!((fine.area() - coarse.area()).abs() < 1e-9);
-            let (a, b) = (Quality::of(&fine), Quality::of(&coarse));
+            let (a, b) = (MeshQuality::of(&fine), MeshQuality::of(&coarse));
             assert!((a.min_angle_deg - b.min_angle_deg).abs() < 1e-9);
         }
     }

@@ -6,6 +6,7 @@
 
 use super::Mesh;
 use super::grid::Grid;
+use super::order::order;
 use crate::outline::{Outline, Point, polygon};
 
 /// Farthest that the mirror image may be from the outline, as a fraction of the longer side of the box: 0.3 mm on 300 mm. More
@@ -109,8 +110,8 @@ pub fn is_mirrored(mesh: &Mesh, axis: Axis) -> bool {
     let mut mirrored: Vec<[usize; 3]> =
         mesh.triangles.iter().map(|&[a, b, c]| [images[a], images[c], images[b]]).collect();
     let mut own = mesh.triangles.clone();
-    super::generate::order(&mut mirrored);
-    super::generate::order(&mut own);
+    order(&mut mirrored);
+    order(&mut own);
     mirrored == own
 }
 
@@ -257,7 +258,7 @@ pub(super) fn unfold(half: &Mesh, axis: Axis, size: f64) -> Mesh {
     }
     let mirrored = half.triangles.iter().map(|&[a, b, c]| [image[a], image[c], image[b]]);
     let mut triangles: Vec<[usize; 3]> = half.triangles.iter().copied().chain(mirrored).collect();
-    super::generate::order(&mut triangles);
+    order(&mut triangles);
     Mesh { nodes, triangles }
 }
 

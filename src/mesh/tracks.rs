@@ -1,7 +1,7 @@
 //! Tracks: lines inside the body along which edges run, so that a thread can follow them.
 
 use super::grid::Grid;
-use super::search::Budget;
+use super::search::WorkBudget;
 use crate::outline::{Outline, Point, polygon};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -28,7 +28,7 @@ const TRIES: usize = 20;
 /// The tracks with a node about every `h`, where they cross each other, and at their own corners; only where they run well
 /// inside the body. Nodes closer than a fraction of `h` are joined, so that lines drawn nearly alike become one. `None` where
 /// they fill the body with more nodes than a mesh has room for; what it took to find that out is spent as well.
-pub(super) fn sample(tracks: &[Vec<Point>], outline: &Outline, h: f64, budget: &Budget) -> Option<Sampled> {
+pub(super) fn sample(tracks: &[Vec<Point>], outline: &Outline, h: f64, budget: &WorkBudget) -> Option<Sampled> {
     let mut sampled = Sampled::default();
     if tracks.is_empty() {
         return Some(sampled);

@@ -1,7 +1,7 @@
 //! Constrained Delaunay triangulation of nodes and boundary segments.
 
-use super::sample::Boundary;
-use super::search::Budget;
+use super::boundary::Boundary;
+use super::search::WorkBudget;
 use crate::outline::Point;
 use spade::handles::{FixedFaceHandle, FixedVertexHandle};
 use spade::handles::{InnerTag, UndirectedEdgeHandle};
@@ -20,7 +20,7 @@ fn cdt(nodes: &[Point], segments: &[[usize; 2]]) -> Option<Cdt> {
 
 /// Numbers of the segments that cross others or run through other nodes, ascending; `None` where nodes coincide, which
 /// no further node can cure.
-pub(super) fn crossings(boundary: &Boundary, budget: &Budget) -> Option<Vec<usize>> {
+pub(super) fn crossings(boundary: &Boundary, budget: &WorkBudget) -> Option<Vec<usize>> {
     let vertices: Vec<Point2<f64>> = boundary.nodes.iter().map(|p| Point2::new(p[0], p[1])).collect();
     let mut bad = Vec::new();
     let cdt = Cdt::try_bulk_load_cdt(vertices, boundary.segments.clone(), |e| bad.push(e)).ok()?;

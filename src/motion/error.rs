@@ -1,4 +1,4 @@
-//! Why there is no motion for an animation.
+//! The errors of motion.
 
 use super::limits::{MAX_COUNTS, MAX_NODES, MAX_RESOLUTION, MAX_STEPS};
 use thiserror::Error;

@@ -1,4 +1,4 @@
-//! What the controllers and their files can take.
+//! Limits of the controllers and their files.
 
 /// Most steps of a trajectory: over five hours at the default rate. A guard against a file of many gigabytes.
 pub const MAX_STEPS: f64 = 1e6;

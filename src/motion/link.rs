@@ -34,7 +34,7 @@ pub trait Link {
     fn wait_until(&mut self, time_s: f64) -> Result<(), LinkError>;
 }
 
-/// What came back.
+/// The answer of the motors, if any.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Reply {
     /// A line without its end.
@@ -45,7 +45,7 @@ pub enum Reply {
     OneWay,
 }
 
-/// Why a line did not carry a command.
+/// A command that was not carried, or not taken.
 #[derive(Debug, Error)]
 pub enum LinkError {
     #[error("the line to the motors is not open")]

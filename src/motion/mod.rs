@@ -1,4 +1,4 @@
-//! What motors are told: where each winch is over time, the commands that take it there, and the lines that carry them.
+//! Motors and their commands: where each winch is over time, the commands that take it there, and the lines that carry them.
 //!
 //! A [`Plan`] makes of the animation what motors can follow. A [`Trajectory`] samples it: cable wound by each winch, in mm and encoder
 //! counts. A dialect turns that into [`Program`]s of timed commands ([`classic`]: the ASCII family of Faulhaber controllers). [`transmit`] plays a program over a
@@ -20,7 +20,7 @@
 //! let mut drives = SimulatedLink::new(trajectory.winches.len());
 //! motion::transmit(&programs.setup, &mut drives, motion::PATIENCE_S)?;
 //! motion::transmit(&programs.motion, &mut drives, motion::PATIENCE_S)?;
-//! drives.settle();
+//! assert!(drives.settle(10.0));
 //! assert_eq!(drives.position(1), trajectory.counts.last().map(|row| row[0]));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -41,7 +41,7 @@ pub use error::MotionError;
 pub use limits::Limits;
 pub use link::{Link, LinkError, Reply};
 pub use links::{FileLink, SimulatedLink};
-pub use plan::{Note, Plan, TooFast};
+pub use plan::{Note, Plan, TooFast, smooth_s};
 pub use program::Program;
 pub use trajectory::{Trajectory, check};
 pub use transmit::{PATIENCE_S, Sent, transmit};

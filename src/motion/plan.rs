@@ -11,6 +11,7 @@ use super::profile::{Profile, ROUNDING, Trapezoid};
 use super::winches::{counts_per_mm, winch_labels};
 use crate::design::animation::SAME_TIME_S;
 use crate::design::{Design, Easing};
+use serde::{Deserialize, Serialize};
 
 /// What became of the animation on its way to the motors.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,7 +27,7 @@ pub enum Note {
 }
 
 /// What to do with a section that no motor can follow.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum TooFast {
     /// Refuse the animation, and say what it would need.
     #[default]
@@ -62,6 +63,16 @@ pub fn limits(design: &Design) -> Limits {
         speed: f64::from(motor.speed_rpm) / 60.0 * mm_per_revolution,
         acceleration: f64::from(motor.acceleration) * mm_per_revolution,
     }
+}
+
+/// Time that a smooth move between two keyframes' lengths takes at least, s.
+pub fn smooth_s(design: &Design, from_mm: &[f64], to_mm: &[f64]) -> f64 {
+    let limits = limits(design);
+    let needs = from_mm.iter().zip(to_mm).map(|(from, to)| {
+        let [speed, acceleration] = Profile::peaks(Easing::Smooth, to.max(0.0) - from.max(0.0), 1.0);
+        (speed / limits.speed).max((acceleration / limits.acceleration).sqrt())
+    });
+    needs.fold(0.0, f64::max)
 }
 
 impl Plan {

@@ -9,7 +9,7 @@ pub struct Program {
     pub terminator: &'static str,
     /// All commands, each followed by [`SEPARATOR`]: a program may have millions.
     text: String,
-    /// Where the setup ends in the text.
+    /// End of the setup in the text.
     setup: usize,
     steps: Vec<Step>,
 }
@@ -17,7 +17,7 @@ pub struct Program {
 #[derive(Clone, Debug, PartialEq)]
 struct Step {
     time_s: f64,
-    /// Where the step ends in the text.
+    /// End of the step in the text.
     end: usize,
 }
 

@@ -79,13 +79,6 @@ impl Trajectory {
         let positions = || self.counts.iter().map(|row| row[winch]);
         (positions().min().unwrap_or(0), positions().max().unwrap_or(0))
     }
-
-    /// Fastest motor speed that the trajectory asks of a winch, rpm.
-    pub fn peak_rpm(&self, winch: usize, encoder_lines: u32) -> f64 {
-        let steps = self.times_s.windows(2).zip(self.counts.windows(2));
-        let speeds = steps.map(|(t, c)| (c[1][winch] - c[0][winch]).abs() as f64 / (t[1] - t[0]));
-        speeds.fold(0.0, f64::max) * 60.0 / (4.0 * f64::from(encoder_lines))
-    }
 }
 
 /// Rounds as the table prints, so that the counts beside a length are those of that length; never a negative zero.

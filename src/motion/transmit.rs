@@ -1,14 +1,14 @@
-//! Plays a program over a link: commands one by one, each with its reply, every step at its time.
+//! Transmission of a program over a link: commands one by one, each with its reply, every step at its time.
 
 use super::link::{Link, LinkError, Reply};
 use super::program::Program;
 
-/// How long a reply is waited for, s: a command and its reply take some 10 ms at 9600 baud, and USB adapters add 16.
+/// Longest wait for a reply, s: a command and its reply take some 10 ms at 9600 baud, and USB adapters add 16.
 pub const PATIENCE_S: f64 = 0.5;
-/// What motors answer to a command that they have taken.
+/// The answer of motors to a command that they have taken.
 const TAKEN: &str = "OK";
 
-/// What became of a program.
+/// The outcome of a transmission.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sent {
     pub commands: usize,
@@ -91,7 +91,7 @@ mod tests {
         let mut drives = SimulatedLink::new(3);
         let sent = transmit(&program(3, 20, 0.1), &mut drives, PATIENCE_S).unwrap();
         assert_eq!(sent.latest_s, 0.0);
-        drives.settle();
+        assert!(drives.settle(10.0));
         assert_eq!([1, 2, 3, 4].map(|node| drives.position(node)), [Some(20_000), Some(20_000), Some(20_000), None]);
         let late = transmit(&program(3, 20, 0.05), &mut SimulatedLink::new(3), PATIENCE_S).unwrap();
         let step_s = 3.0 * 20.0 * 10.0 / 9600.0;
@@ -110,7 +110,7 @@ mod tests {
         let start = drive.now_s() - 4.0 * 10.0 / 9600.0;
         drive.wait_until(start + 0.5).unwrap();
         assert!((drive.position(1).unwrap() - 2500).abs() < 20, "{:?}", drive.position(1));
-        drive.settle();
+        assert!(drive.settle(10.0));
         assert!((drive.now_s() - start - 1.375).abs() < 0.02, "{}", drive.now_s() - start);
         assert_eq!(drive.position(1), Some(10_000));
     }

@@ -2,10 +2,13 @@
 //! simplification, placement.
 
 use super::changes::{Changes, What};
-use super::import::{Holes, Import, Imported, Pieces};
+use super::imported::Imported;
+use super::notes::Note;
+use super::options::{Holes, Import, Pieces};
+use super::readers::Painting;
 use super::regions::{self, Shapes};
 use super::simplify::simplify;
-use super::{Outline, OutlineError, Painting, Point, polygon, smooth, thin};
+use super::{Outline, OutlineError, Point, polygon, smooth, thin};
 
 /// Farthest that simplification may move the boundary, as a fraction of the longer side of the box: 0.03 mm on a
 /// 300 mm plushie, a tenth of what scissors can follow. Larger values drop detail, smaller ones keep needless points.
@@ -48,7 +51,7 @@ pub(super) fn clean(painting: Painting, import: &Import) -> Result<Imported, Out
     changes.unasked += widened_by.max(0.0);
     let shapes = one_piece(shapes, import.pieces, &mut changes)?;
     if holes_area(&shapes) > regions::area(&shapes) {
-        changes.notes.push("the drawing is mostly lines around holes; --holes fill makes a solid body of it".into());
+        changes.notes.push(Note::MostlyLines);
     }
     let (low, high) = regions::bounding_box(&shapes);
     let longer = (high[0] - low[0]).max(high[1] - low[1]);
@@ -175,7 +178,7 @@ fn widened(
     let asked = min_width_mm.is_some();
     changes.add(What::ThinParts, parts, (regions::area(&wide) - before) / before, asked);
     if kept > 0 {
-        changes.notes.push(format!("{kept} part(s) are thinner than {width:.1} mm; --min-width widens them"));
+        changes.notes.push(Note::ThinParts { count: kept, width_mm: width });
     }
     Ok(wide)
 }

@@ -105,6 +105,9 @@ impl Cholesky {
     }
 
     /// Factorises the matrix with these lower-triangle values. After an error there is no factor to solve with.
+    ///
+    /// # Errors
+    /// The matrix is not positive definite.
     pub fn factorize(&mut self, pattern: &Pattern, values: &[f64]) -> Result<(), NotPositiveDefinite> {
         self.valid = false;
         if !values.iter().all(|v| v.is_finite()) {

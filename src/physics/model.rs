@@ -187,12 +187,18 @@ impl Model {
     }
 
     /// Assembles `H(x)` and factorises it.
+    ///
+    /// # Errors
+    /// `H` is not positive definite.
     pub fn factorize(&mut self, x: &[f64], form: HessianForm) -> Result<(), NotPositiveDefinite> {
         self.assemble(x, form);
         self.factorize_assembled()
     }
 
     /// Factorises the Hessian assembled last.
+    ///
+    /// # Errors
+    /// It is not positive definite.
     pub fn factorize_assembled(&mut self) -> Result<(), NotPositiveDefinite> {
         self.cholesky.factorize(&self.pattern, &self.values)
     }
@@ -226,6 +232,9 @@ impl Model {
 
     /// The exact Hessian where it is positive definite, else the projected one. Says which it was; an error means that
     /// even the projected one failed.
+    ///
+    /// # Errors
+    /// Neither is positive definite.
     pub fn factorize_for_descent(&mut self, x: &[f64]) -> Result<HessianForm, NotPositiveDefinite> {
         match self.factorize(x, HessianForm::Exact) {
             Ok(()) => Ok(HessianForm::Exact),
@@ -234,6 +243,9 @@ impl Model {
     }
 
     /// The projected Hessian, held where even that is singular.
+    ///
+    /// # Errors
+    /// It is not positive definite even when held.
     pub fn factorize_projected(&mut self, x: &[f64]) -> Result<(), NotPositiveDefinite> {
         if self.factorize(x, HessianForm::Projected).is_ok() {
             return Ok(());

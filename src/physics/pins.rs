@@ -6,7 +6,7 @@ use super::energy::{Energy, HessianForm, ROUNDING, Scales};
 use super::pattern::Scatter;
 
 #[derive(Clone, Debug, PartialEq)]
-pub struct Pin {
+pub struct PinSpring {
     /// Distinct nodes and their weights, which sum to one.
     pub nodes: Vec<usize>,
     pub weights: Vec<f64>,
@@ -18,10 +18,10 @@ pub struct Pin {
 
 #[derive(Clone, Debug, Default)]
 pub struct Pins {
-    pub pins: Vec<Pin>,
+    pub pins: Vec<PinSpring>,
 }
 
-impl Pin {
+impl PinSpring {
     /// A pin on one node.
     pub fn node(node: usize, anchor: [f64; 2], stiffness: f64) -> Self {
         Self { nodes: vec![node], weights: vec![1.0], anchor, stiffness }

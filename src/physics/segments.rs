@@ -5,7 +5,7 @@
 //! tension `K/(2 eps) c^2 + 2 K e` and the stiffness `K/eps c`, a cable the tension `max(t + s (l - l_0), 0)` and there the
 //! stiffness `s`.
 
-use super::contractile::{Element, Law};
+use super::element::{Element, Law};
 use super::energy::{ROUNDING, Scales};
 use super::pattern::Scatter;
 use super::wide::{self, CHUNK, Lanes, Work, multiply_add};

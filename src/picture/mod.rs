@@ -20,7 +20,7 @@
 //! let subject = Subject { theme: Theme::Dark, ..Subject::new(&design, &rest) };
 //! let scene = Layers::of(&subject).scene();
 //! let png = raster::png(&scene, &scene, (320, 180), Palette::of(Theme::Dark).background)?;
-//! assert!(raster::is_ours(&png));
+//! assert!(plushwright::files::is_marked_png(&png));
 //! # Ok::<(), raster::RasterError>(())
 //! ```
 

@@ -1,7 +1,7 @@
 //! The picture of both plushies side by side, as the command `render` writes it.
 
 use super::layers::{Layers, Subject};
-use super::palette::Palette;
+use super::palette::{Palette, Theme};
 use super::raster::{self, RasterError};
 use super::texture::Texture;
 use crate::design::{Design, Target};
@@ -24,5 +24,5 @@ pub fn png(
         let shape = Arc::new(shape.clone());
         Layers::of(&Subject { targets, texture, fibers, ..Subject::new(&design, &shape) }).scene()
     });
-    raster::png(&left, &right, size, Palette::of(Default::default()).background)
+    raster::png(&left, &right, size, Palette::of(Theme::default()).background)
 }

@@ -1,4 +1,4 @@
-//! The colours of a drawing, in a light and a dark theme.
+//! The colours of pictures, in a light and a dark theme.
 
 use super::scene::Color;
 
@@ -35,7 +35,7 @@ pub struct Palette {
     pub join: Color,
     /// Tendon of a proposal.
     pub proposed: Color,
-    /// Where tendons shall be able to run.
+    /// Lines along which tendons shall be able to run.
     pub track: Color,
     theme: Theme,
 }

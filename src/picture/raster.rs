@@ -15,7 +15,7 @@ const MARGIN: f64 = 0.06;
 const REFERENCE_HEIGHT: f64 = 720.0;
 const DIVIDER: Color = Color(0, 0, 0, 40);
 
-/// Why there is no picture.
+/// A picture that cannot be made.
 #[derive(Debug, thiserror::Error)]
 pub enum RasterError {
     #[error("a picture of {0} x {1} pixels is empty or does not fit in memory")]

@@ -2,10 +2,12 @@
 
 use super::document::{Document, DragAnswer, ReportedFrame, SoftIkAnswer};
 use super::equilibrium::settle;
+use super::error::ProblemError;
 use super::failure::{Failure, Part};
-use super::file::{DragData, Problem, ProblemError};
+use super::file::{DragData, Problem};
 use super::frame::Frame;
-use crate::physics::{Body, Cause, Contractile, Element, Energy, Gravity, Ground, Model, ModelError, Pin, Pins};
+use super::model::{contractions, take_model};
+use crate::physics::{Cause, Model};
 use crate::soft_ik::{
     self, Actuation, Budget, Objective, PointTarget, Quality, Question, Tracker, Winch, default_method, newton,
     sensitivity,
@@ -45,6 +47,9 @@ pub struct Answered {
 const SOFT_IK_ITERATIONS: usize = 300;
 
 /// [`answer`] as a tree of values.
+///
+/// # Errors
+/// As [`answer`].
 pub fn solve(problem: &Problem, options: &Options) -> Result<Answered, ProblemError> {
     let document = answer(problem, options)?;
     // Text keys and finite numbers: nothing that a tree of values could not hold.
@@ -53,6 +58,9 @@ pub fn solve(problem: &Problem, options: &Options) -> Result<Answered, ProblemEr
 }
 
 /// Answers everything the problem asks for. The problem is solved in the frame of its own body and answered in its own units.
+///
+/// # Errors
+/// [`ProblemError`] where no model can be made. What does not converge is no error: the document says so.
 pub fn answer(problem: &Problem, options: &Options) -> Result<Document, ProblemError> {
     let deadline = Instant::now() + options.budget;
     let stop = || Instant::now() >= deadline;
@@ -93,48 +101,6 @@ struct Work<'a> {
     stop: &'a dyn Fn() -> bool,
     out: Document,
     failures: Vec<Failure>,
-}
-
-/// The physics model of a problem, at its `contractions` (zero if absent).
-pub fn model(problem: &Problem) -> Result<Model, ProblemError> {
-    take_model(&mut problem.clone())
-}
-
-/// The same; takes the routings out of the problem, which has no further use for them.
-pub(super) fn take_model(problem: &mut Problem) -> Result<Model, ProblemError> {
-    let content = |key: String, what: &str| ProblemError::Content { key, what: what.into() };
-    let body = Body::new(&problem.mesh.nodes, &problem.mesh.triangles, problem.material.build(), None)
-        .map_err(|k| content(format!("mesh.triangles[{k}]"), "has no area"))?;
-    let elements = problem.elements.iter_mut().map(|e| Element {
-        routing: std::mem::take(&mut e.routing),
-        stiffness: e.stiffness,
-        epsilon: e.epsilon,
-        alpha0: e.alpha0,
-    });
-    let contractile = Contractile::new(elements.collect());
-    let pins = Pins { pins: problem.pins.iter().map(|p| Pin::node(p.node, p.target, p.stiffness)).collect() };
-    let terms = terms(problem, &body.nodal_areas(problem.mesh.nodes.len()));
-    let mut model = Model::new(&problem.mesh.nodes, body, contractile, pins, terms).map_err(|e| match e {
-        ModelError::Triangle(k) => content(format!("mesh.triangles[{k}]"), "has no area"),
-        ModelError::Memory => content("mesh".into(), "is too large for the memory of this machine"),
-    })?;
-    model.contractile.set_contractions(&contractions(problem));
-    Ok(model)
-}
-
-/// The optional energy terms of a problem.
-fn terms(problem: &Problem, nodal_areas: &[f64]) -> Vec<Box<dyn Energy>> {
-    let ground = Ground { nodes: &problem.mesh.nodes, triangles: &problem.mesh.triangles, nodal_areas };
-    let mut terms: Vec<Box<dyn Energy>> = Vec::new();
-    if let (Some(acceleration), Some(density)) = (problem.gravity, problem.surface_density) {
-        terms.push(Box::new(Gravity::new(nodal_areas, density, acceleration)));
-    }
-    terms.extend(problem.terms.iter().map(|term| term.build(&ground)));
-    terms
-}
-
-fn contractions(problem: &Problem) -> Vec<f64> {
-    problem.contractions.clone().unwrap_or_else(|| vec![0.0; problem.elements.len()])
 }
 
 fn objective(problem: &Problem) -> Option<Objective> {
@@ -215,13 +181,12 @@ impl Work<'_> {
         let (options, stop) = (self.options, self.stop);
         let actuation = free_actuation(self.inner)?;
         let beta_start = data.beta_start.clone().unwrap_or_else(|| vec![0.0; actuation.winches.len()]);
-        let method = soft_ik::method(&options.method).ok_or_else(|| ProblemError::Content {
-            key: "--method".into(),
-            what: format!("\"{}\" is unknown, choose one of {}", options.method, soft_ik::METHODS.join(", ")),
+        let method = soft_ik::method(&options.method).ok_or_else(|| {
+            let known = soft_ik::METHODS.join(", ");
+            ProblemError::Method(format!("\"{}\" is unknown, choose one of {known}", options.method))
         })?;
         if options.method == "tension" && !actuation.is_fibers_only() {
-            let what = "tension needs winches of one element each".into();
-            return Err(ProblemError::Content { key: "--method".into(), what });
+            return Err(ProblemError::Method("tension needs winches of one element each".into()));
         }
         let clock = Instant::now();
         let mut question = Question { model: &mut self.model, actuation: &actuation, objective };

@@ -1,6 +1,7 @@
 //! What a problem file must fulfil beyond its JSON: every figure is named by its key and index.
 
-use super::file::{Problem, ProblemError, content};
+use super::error::{ProblemError, content, finite};
+use super::file::Problem;
 use super::limits;
 use crate::physics::Parameter;
 use std::fmt::Display;
@@ -174,10 +175,6 @@ fn allowed(key: impl Display, parameter: &Parameter, values: &[f64]) -> Result<(
 
 fn in_range(key: impl Display, node: usize, nodes: usize) -> Result<(), ProblemError> {
     if node < nodes { Ok(()) } else { Err(content(key, format!("node {node} is out of range, the mesh has {nodes}"))) }
-}
-
-pub(super) fn finite(key: impl Display, value: f64) -> Result<(), ProblemError> {
-    if value.is_finite() { Ok(()) } else { Err(content(key, "is not a finite number")) }
 }
 
 fn finite_point(key: impl Display, p: &[f64; 2]) -> Result<(), ProblemError> {

@@ -1,10 +1,11 @@
 //! The statics of a problem: where the body rests at the given contractions, and which forces hold it there.
 
-use super::answer::take_model;
+use super::error::ProblemError;
 use super::failure::{Failure, Part};
-use super::file::{Problem, ProblemError};
+use super::file::Problem;
 use super::frame::Frame;
-use crate::physics::{Model, StaticsSettings, refine, statics};
+use super::model::take_model;
+use crate::physics::{Model, StaticsSettings, precise, statics};
 
 /// An equilibrium, or the best state on the way to one, in the units of the file.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,6 +30,9 @@ pub struct Statics {
 }
 
 /// Solves the statics of a problem. `stop` is asked before every factorisation.
+///
+/// # Errors
+/// [`ProblemError`] where no model can be made.
 pub fn equilibrium(problem: &Problem, stop: &dyn Fn() -> bool) -> Result<Statics, ProblemError> {
     let frame = Frame::of(problem);
     let mut inner = frame.inside(problem);
@@ -36,7 +40,7 @@ pub fn equilibrium(problem: &Problem, stop: &dyn Fn() -> bool) -> Result<Statics
     Ok(settle(problem, &inner, &frame, &mut model, stop).0)
 }
 
-/// The same in a model that is built already, and the coordinates in the frame.
+/// [`equilibrium`] in a model that is built already, and the coordinates in the frame.
 pub(super) fn settle(
     problem: &Problem,
     inner: &Problem,
@@ -54,7 +58,7 @@ pub(super) fn settle(
     let mut tensions = model.contractile.tensions(&state.x);
     let mut pins: Vec<[f64; 2]> = model.pins.pins.iter().map(|p| p.force(&state.x)).collect();
     if cause.is_none() && !stop() {
-        let forces = refine::refine(model, &mut state.x, stop);
+        let forces = precise::refine(model, &mut state.x, stop);
         state.energy = model.energy(&state.x);
         state.factorizations += forces.factorizations;
         (residual, force_scale, tensions, pins) = (forces.residual, forces.scale, forces.tensions, forces.pins);

@@ -1,22 +1,12 @@
 //! What a `plushwright-problem/1` file holds.
 
-use super::checks::finite;
+use super::error::{ProblemError, content, finite};
 pub use super::material::MaterialData;
 use crate::physics::{Setting, TermKind};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Display;
 
 pub const FORMAT: &str = "plushwright-problem/1";
-
-/// What is wrong with a problem file: one line that names the key and the offending index.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum ProblemError {
-    #[error("malformed JSON: {0}")]
-    Json(String),
-    #[error("{key}: {what}")]
-    Content { key: String, what: String },
-}
 
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct Problem {
@@ -114,12 +104,11 @@ pub struct DragData {
     pub tension_regulariser: f64,
 }
 
-pub(super) fn content(key: impl Display, what: impl Into<String>) -> ProblemError {
-    ProblemError::Content { key: key.to_string(), what: what.into() }
-}
-
 impl Problem {
     /// The problem as a file. Numbers keep every bit.
+    ///
+    /// # Errors
+    /// What JSON cannot write, which no problem has.
     pub fn to_text(&self) -> Result<String, ProblemError> {
         let whole = Written { format: FORMAT, problem: self };
         serde_json::to_string(&whole).map_err(|e| ProblemError::Json(e.to_string()))
@@ -152,6 +141,9 @@ impl Problem {
     }
 
     /// The winches that `fixed_winches` holds, with their activations.
+    ///
+    /// # Errors
+    /// [`ProblemError`]: a key that is no winch, a figure that is not finite.
     pub fn fixed_winches(&self) -> Result<BTreeMap<i64, f64>, ProblemError> {
         let known = self.all_winches();
         let mut out = BTreeMap::new();
@@ -168,6 +160,9 @@ impl Problem {
     }
 
     /// The free winches in the order of all arrays of `soft_ik`.
+    ///
+    /// # Errors
+    /// [`ProblemError`]: a winch that is unknown, listed twice, or fixed as well.
     pub fn free_winches(&self) -> Result<Vec<i64>, ProblemError> {
         let fixed = self.fixed_winches()?;
         let known = self.all_winches();

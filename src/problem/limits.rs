@@ -4,7 +4,8 @@
 //! Sizes and moduli may be nearly anything, since a problem is solved in the frame of its own body ([`super::frame`]). What counts
 //! is how far the figures of one problem lie apart.
 
-use super::file::{Problem, ProblemError};
+use super::error::ProblemError;
+use super::file::Problem;
 use super::frame::box_of;
 use crate::physics::catalogue::Dimension;
 use std::fmt::Arguments;
@@ -103,23 +104,29 @@ pub(super) fn check(problem: &Problem) -> Result<(), ProblemError> {
             near(format_args!("objective.targets[{i}].xy"), &t.xy)?;
         }
     }
-    if let Some(ik) = &problem.soft_ik {
-        for (name, list) in [("beta_upper", &ik.beta_upper), ("beta_lower", &ik.beta_lower)] {
-            for (j, v) in list.iter().flatten().enumerate() {
-                long(format_args!("soft_ik.{name}[{j}]"), v.unwrap_or(0.0))?;
-            }
-        }
-        for (j, v) in ik.beta_start.iter().flatten().enumerate() {
-            long(format_args!("soft_ik.beta_start[{j}]"), *v)?;
-        }
-        for (id, v) in ik.fixed_winches.iter().flatten() {
-            long(format_args!("soft_ik.fixed_winches.{id}"), *v)?;
-        }
-    }
+    activations(problem, size)?;
     for (k, frame) in problem.drag.iter().flat_map(|d| d.frames.iter().enumerate()) {
         for (t, p) in frame.iter().enumerate() {
             near(format_args!("drag.frames[{k}][{t}]"), p)?;
         }
+    }
+    Ok(())
+}
+
+/// Checks bounds, start and fixed activations of the winches.
+fn activations(problem: &Problem, size: f64) -> Result<(), ProblemError> {
+    let Some(ik) = &problem.soft_ik else { return Ok(()) };
+    let long = |key: Arguments, value: f64| within(key, value.abs() / size, LONGEST, "body lengths");
+    for (name, list) in [("beta_upper", &ik.beta_upper), ("beta_lower", &ik.beta_lower)] {
+        for (j, v) in list.iter().flatten().enumerate() {
+            long(format_args!("soft_ik.{name}[{j}]"), v.unwrap_or(0.0))?;
+        }
+    }
+    for (j, v) in ik.beta_start.iter().flatten().enumerate() {
+        long(format_args!("soft_ik.beta_start[{j}]"), *v)?;
+    }
+    for (id, v) in ik.fixed_winches.iter().flatten() {
+        long(format_args!("soft_ik.fixed_winches.{id}"), *v)?;
     }
     Ok(())
 }

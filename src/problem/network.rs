@@ -25,7 +25,7 @@ pub enum NetworkError {
 
 /// A network discovery question.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Question {
+pub struct NetworkProblem {
     pub nodes: Vec<[f64; 2]>,
     pub edges: Vec<[usize; 2]>,
     /// Contraction of each edge, m.
@@ -39,7 +39,7 @@ pub struct Question {
 /// # Errors
 /// An unreadable or contradictory file, or a winch tree without a node of TENDON_NUM branches.
 pub fn answer(text: &str) -> Result<Value, NetworkError> {
-    let question = Question::read(text)?;
+    let question = NetworkProblem::read(text)?;
     let stages = discover(question.nodes.len(), &question.edges, &question.weights, &question.parameters);
     match stages {
         Ok(Stages { winch, tendons, score, .. }) => {
@@ -49,7 +49,7 @@ pub fn answer(text: &str) -> Result<Value, NetworkError> {
     }
 }
 
-impl Question {
+impl NetworkProblem {
     /// Unknown keys are ignored.
     ///
     /// # Errors

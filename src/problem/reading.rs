@@ -3,9 +3,9 @@
 //! A file of 10 000 fibres is 2 MB of numbers; a tree of JSON values in between would take longer than solving it. Only a file that cannot be
 //! read so is taken apart as a tree, to say where it is wrong.
 
+use super::error::{ProblemError, content};
 use super::file::{
-    DragData, ElementData, FORMAT, MaterialData, MeshData, ObjectiveData, PinData, Problem, ProblemError, SoftIkData,
-    TargetData, content,
+    DragData, ElementData, FORMAT, MaterialData, MeshData, ObjectiveData, PinData, Problem, SoftIkData, TargetData,
 };
 use crate::physics::{Setting, TermKind};
 use serde::de::{Error, IgnoredAny, MapAccess, Visitor};
@@ -32,6 +32,9 @@ const KEYS: [&str; 13] = [
 const REMARKS: [&str; 5] = ["name", "note", "units", "tags", "n_edges"];
 
 /// Reads and checks a problem. Also returns the unknown top-level keys that were ignored, in ascending order.
+///
+/// # Errors
+/// [`ProblemError`]: the key or place of what is wrong.
 pub fn read(text: &str) -> Result<(Problem, Vec<String>), ProblemError> {
     let (problem, mut unknown) = match serde_json::from_str::<Streamed>(text) {
         Ok(Streamed { problem, unknown }) => (problem, unknown),

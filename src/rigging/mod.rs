@@ -16,6 +16,8 @@
 pub mod activation;
 mod candidate;
 pub mod criteria;
+pub mod criterion;
+pub mod generator;
 pub mod generators;
 mod options;
 mod polish;
@@ -25,7 +27,7 @@ mod search;
 mod trial;
 
 pub use candidate::{Baseline, Candidate, with_network};
-pub use options::{Progress, RigError, RigOptions, TendonChoice};
+pub use options::{BadTendons, Progress, RigError, RigOptions, TendonChoice};
 pub use propose::{Proposal, propose};
 pub use search::rig;
 pub use trial::{Reached, Scrutiny, Trial};

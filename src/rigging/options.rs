@@ -1,7 +1,12 @@
 //! What a search for a rig may build, what it tells on the way, and why it may fail.
 
+use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::str::FromStr;
+
 /// What the search may build and try.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct RigOptions {
     pub max_winches: usize,
     pub tendons: TendonChoice,
@@ -12,13 +17,65 @@ pub struct RigOptions {
     pub phi: Option<f64>,
 }
 
+impl Default for RigOptions {
+    fn default() -> Self {
+        Self {
+            max_winches: 3,
+            tendons: TendonChoice::default(),
+            seed_num: None,
+            join_depth: None,
+            join_len: None,
+            phi: None,
+        }
+    }
+}
+
 /// How many tendons each winch gets.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum TendonChoice {
     /// Winch by winch; the last number holds for all further ones.
     PerWinch(Vec<usize>),
     /// Whatever serves best between the two, both included.
     Between(usize, usize),
+}
+
+impl Default for TendonChoice {
+    fn default() -> Self {
+        Self::Between(1, 4)
+    }
+}
+
+/// Most tendons of one winch: a spool does not hold more.
+const MAX_TENDONS: usize = 16;
+
+/// What is no number of tendons.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("expected N, N,N,... or A..B with numbers from 1 to {MAX_TENDONS}, found `{0}`")]
+pub struct BadTendons(String);
+
+/// Reads `N`, `N,N,...` or `A..B` (both ends included).
+impl FromStr for TendonChoice {
+    type Err = BadTendons;
+
+    fn from_str(text: &str) -> Result<Self, BadTendons> {
+        let bad = || BadTendons(text.to_owned());
+        let number =
+            |part: &str| part.trim().parse::<usize>().ok().filter(|n| (1..=MAX_TENDONS).contains(n)).ok_or_else(bad);
+        if let Some((low, high)) = text.split_once("..") {
+            let (low, high) = (number(low)?, number(high)?);
+            return if low <= high { Ok(Self::Between(low, high)) } else { Err(bad()) };
+        }
+        Ok(Self::PerWinch(text.split(',').map(number).collect::<Result<_, _>>()?))
+    }
+}
+
+impl fmt::Display for TendonChoice {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::Between(low, high) => write!(f, "{low}..{high}"),
+            Self::PerWinch(numbers) => f.write_str(&numbers.iter().map(usize::to_string).collect::<Vec<_>>().join(",")),
+        }
+    }
 }
 
 /// A step of the search. Winches count from zero, those found in this search alone.
@@ -39,4 +96,25 @@ pub enum RigError {
     NothingFound,
     #[error("cancelled")]
     Cancelled,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tendon_choices_read_back() {
+        for (text, choice) in [
+            ("2", TendonChoice::PerWinch(vec![2])),
+            ("1,2,3", TendonChoice::PerWinch(vec![1, 2, 3])),
+            ("1..3", TendonChoice::Between(1, 3)),
+        ] {
+            assert_eq!(text.parse(), Ok(choice.clone()));
+            assert_eq!(choice.to_string(), text);
+        }
+        for bad in ["", "0", "3..1", "1,,2", "a", "1..", "99"] {
+            let refused = bad.parse::<TendonChoice>().unwrap_err();
+            assert!(refused.to_string().contains(&format!("`{bad}`")), "{bad}");
+        }
+    }
 }

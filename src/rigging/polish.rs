@@ -1,7 +1,8 @@
 //! Small changes of a network's paths.
 
 use super::candidate::{Baseline, Candidate};
-use super::criteria::Judged;
+use super::criteria;
+use super::criterion::Judged;
 use super::rank::try_all;
 use super::trial::{Reached, Scrutiny};
 use crate::design::Design;
@@ -28,8 +29,9 @@ pub(super) fn polish(
         let now: Vec<Baseline> =
             poses.iter().zip(&reached).map(|(p, before)| Baseline { targets: p.targets, before }).collect();
         let tried = try_all(design, &changes, &now, Scrutiny::Settle, cancel);
-        let cost =
-            |network: &Candidate, reached: &[Reached]| Judged { design, network: Some(network), poses, reached }.cost();
+        let cost = |network: &Candidate, reached: &[Reached]| {
+            criteria::cost(&Judged { design, network: Some(network), poses, reached })
+        };
         let before = cost(&best, &reached);
         let winner = changes
             .into_iter()

@@ -1,7 +1,8 @@
 //! Many candidates tried out on all poses, and put in order.
 
 use super::candidate::{Baseline, Candidate, with_network};
-use super::criteria::Judged;
+use super::criteria;
+use super::criterion::Judged;
 use super::trial::{Reached, Scrutiny, Trial};
 use crate::design::Design;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -17,7 +18,8 @@ pub(super) fn rank(
     poses: &[Baseline],
     cancel: &AtomicBool,
 ) -> Vec<(Candidate, Vec<Reached>)> {
-    let cost = |network: Option<&Candidate>, reached: &[Reached]| Judged { design, network, poses, reached }.cost();
+    let cost =
+        |network: Option<&Candidate>, reached: &[Reached]| criteria::cost(&Judged { design, network, poses, reached });
     let screened = try_all(design, &candidates, poses, Scrutiny::Screen, cancel);
     let costs: Vec<f64> = candidates.iter().zip(&screened).map(|(c, r)| cost(Some(c), r)).collect();
     let mut order: Vec<usize> = (0..candidates.len()).collect();

@@ -2,7 +2,7 @@
 
 use crate::design::{Design, Target};
 use crate::engine::compile::{Plushie, View, compile, objective};
-use crate::engine::solver::report;
+use crate::engine::report::report;
 use crate::engine::{Shape, target_error};
 use crate::soft_ik::contraction::GaussNewton;
 use crate::soft_ik::winding::{self, Search};

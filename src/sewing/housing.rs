@@ -14,7 +14,7 @@ const PART_OF_BODY: f64 = 0.8;
 pub fn largest_housing(body: &Body, wished_mm: f64) -> f64 {
     /// Points along the longer side of the box around the body.
     const GRID: usize = 64;
-    let (low, high) = body.outline.bounding_box();
+    let (low, high) = body.bounding_box();
     let step = (high[0] - low[0]).max(high[1] - low[1]) / GRID as f64;
     let mut widest: f64 = 0.0;
     for i in 0..=GRID {

@@ -10,40 +10,14 @@ mod along;
 mod cable;
 mod holes;
 mod housing;
+mod layout;
 mod rules;
 
 pub use along::shared_mm;
 pub use cable::{outside, turn, turning};
 pub use housing::largest_housing;
+pub use layout::{Body, Rig};
 pub use rules::{Breach, Place, Rules};
-
-use crate::outline::{Near, Outline, Point};
-
-/// A winch and its cables, each from the winch to its end, mm.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Rig {
-    pub winch: Point,
-    pub cables: Vec<Vec<Point>>,
-}
-
-/// The seam that rules measure to: the rim of the body, where the felt is sewn together.
-pub struct Body<'a> {
-    outline: &'a Outline,
-    near: Near,
-}
-
-impl<'a> Body<'a> {
-    /// Prepares a body for many judgements.
-    pub fn new(outline: &'a Outline) -> Self {
-        Self { outline, near: outline.near() }
-    }
-
-    /// Distance from a point to the seam, mm, negative outside of the body.
-    pub fn depth(&self, p: Point) -> f64 {
-        let distance = self.near.distance(p);
-        if self.outline.contains(p) { distance } else { -distance }
-    }
-}
 
 /// Every breach of the rules, winch by winch, cable by cable. Empty where all are kept. `gap_mm` is the turning gap's width, 0 for none.
 ///

@@ -1,5 +1,5 @@
 use super::*;
-use crate::outline::polygon;
+use crate::outline::{Outline, Point, polygon};
 use std::f64::consts::PI;
 
 fn square(side: f64) -> Outline {

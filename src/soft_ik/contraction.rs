@@ -127,11 +127,8 @@ impl Linearisation {
                 continue;
             }
             let by_tension: f64 = winch.members.iter().map(|&(e, r)| -r * elements[e].length_rate(&at.x, &pull)).sum();
-            let just_slack = winch
-                .members
-                .iter()
-                .map(|&(e, r)| (elements[e].alpha0 - elements[e].length(&at.x) - elements[e].epsilon) / r)
-                .fold(f64::INFINITY, f64::min);
+            let just_slack =
+                winch.members.iter().map(|&(e, r)| elements[e].just_slack(&at.x) / r).fold(f64::INFINITY, f64::min);
             if by_tension < 0.0 && just_slack < winch.upper {
                 *b = b.max(just_slack);
                 for &(e, _) in &winch.members {

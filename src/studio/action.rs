@@ -1,20 +1,22 @@
 //! What panels and viewports ask for. They borrow the session, read only, and return these; the session alone acts.
 
+use super::canvas::{Camera, Hit};
 use super::change::Change;
-use super::files::{ImportChoice, PathDialog};
+use super::commands::Command;
+use super::files::PathDialog;
+use super::importing::ImportChoice;
 use super::meshing::Resolution;
-use super::session::{Selection, Tool};
+use super::rigging::RigChoice;
+use super::session::{Overlay, Renamed, Selection};
 use super::sketching::Sketch;
-use super::viewport::Plushie;
-use super::viewport::camera::Camera;
 use crate::discovery::Parameters;
 use crate::engine::Quality;
-use crate::mesh::BodyPoint;
 use crate::outline::Point;
 use crate::picture::Stage;
-use crate::picture::palette::Theme;
-use eframe::egui::Vec2;
 use std::path::PathBuf;
+
+/// Wanted, in the order in which it was asked for.
+pub type Actions = Vec<Action>;
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Action {
@@ -22,65 +24,28 @@ pub enum Action {
     Change(Change),
     /// Part of a gesture (a slider, a dragged keyframe): one undo step when the hand is off the controls.
     Live(Change),
-    Undo,
-    Redo,
-    /// Begins to drag; `pointer` is where, mm.
-    Grab {
-        what: Grab,
-        pointer: Point,
-    },
-    DragTo(Point),
-    Release,
-    /// Ends a drag or playback as if it had not been; otherwise clears the selection.
-    Escape,
+    /// A command, and what it is about.
+    Run(&'static Command, Hit),
+    /// What stands over the window instead of what did.
+    Overlay(Option<Overlay>),
+    /// A name that is being typed.
+    Typed(Option<(Renamed, String)>),
+    /// Moves the target that is selected, mm; part of a gesture.
+    DragTarget(Point),
     SelectPose(Option<usize>),
     Select(Selection),
-    /// Whatever is selected.
-    DeleteSelected,
-    SetTool(Tool),
-    SetTheme(Theme),
-    /// Shows a layer of the pictures by its name, or hides it.
-    ShowLayer(&'static str, bool),
-    /// Shows or hides a view; one always stays.
-    ShowView(Plushie, bool),
     SetQuality(Quality),
     SetCamera(Camera),
-    /// Moves the picture, unless the drag moves a target and not `always`.
-    Pan {
-        from: Camera,
-        delta: Vec2,
-        always: bool,
-    },
-    Fit,
-    Play,
-    Pause,
-    SetLooping(bool),
     Scrub(f64),
-    /// Puts what the realizable plushie shows, the pose or the animation, on the timeline.
-    AddKeyframe,
     SetParameters(Parameters),
     SetResolution(Resolution),
-    /// Makes a mesh of that resolution; one undo step when it is there.
-    Remesh,
-    CancelRemesh,
-    Propose,
-    CancelPropose,
+    SetRig(RigChoice),
     ShowProposal(Option<usize>),
     ShowStage(Stage),
-    Accept(usize),
-    Reject(usize),
     /// Of the outline.
     Sketch(Sketch),
     File(FileAction),
     DismissMessage(u64),
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Grab {
-    /// A target of the current pose.
-    Target(usize),
-    /// A point of the body, and where it is in that view: becomes a new target.
-    Body(BodyPoint, Point),
 }
 
 #[derive(Clone, Debug, PartialEq)]

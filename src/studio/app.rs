@@ -6,7 +6,8 @@ use super::pacing::Pacing;
 use super::panels::{self, Tab};
 use super::session::{Services, Session};
 use super::store::Store;
-use super::{paper, safety, shortcuts, style, viewport};
+use super::tools::Toolbox;
+use super::{canvas, keys, safety, style, viewport};
 use crate::design::Design;
 use crate::picture::palette::{Palette, Theme};
 use eframe::egui::{self, CentralPanel, Frame, Margin, Panel, ViewportCommand};
@@ -18,7 +19,8 @@ pub struct Studio {
     session: Session,
     panels: panels::State,
     views: viewport::State,
-    paper: paper::State,
+    sheet: canvas::State,
+    tools: Toolbox,
     pacing: Pacing,
     title: String,
 }
@@ -30,11 +32,13 @@ impl Studio {
         let wake = ctx.clone();
         let session = Session::new(design, path, Arc::new(move || wake.request_repaint()), services);
         style::set_theme(ctx, session.look.theme);
+        let tools = Toolbox::new(&session);
         Self {
             session,
             panels: panels::State::default(),
             views: viewport::State::default(),
-            paper: paper::State::default(),
+            sheet: canvas::State::default(),
+            tools,
             pacing: Pacing::default(),
             title: String::new(),
         }
@@ -73,18 +77,21 @@ impl Studio {
         self.session.tick(now_s, passed_s, hands_off && !typing);
 
         let mut actions = Vec::new();
-        shortcuts::collect(&ctx, &self.session, &mut self.panels, typing, &mut actions);
+        self.tools.follow(&self.session);
+        self.tools.keys(&ctx, &self.session, &mut actions);
+        keys::collect(&ctx, &self.session, &mut actions);
         self.layout(ui, &mut actions);
         if ctx.input(|i| i.viewport().close_requested()) && !self.session.files.quit {
             actions.push(Action::File(FileAction::Quit));
         }
-        self.paper.finish_before(&self.session, &mut actions);
+        self.tools.finish_before(&self.session, &mut actions);
         let changed = !actions.is_empty();
+        let theme = self.session.look.theme;
         for action in actions {
-            if let Action::SetTheme(theme) = action {
-                style::set_theme(&ctx, theme);
-            }
             self.session.apply(action);
+        }
+        if self.session.look.theme != theme {
+            style::set_theme(&ctx, self.session.look.theme);
         }
         if changed && hands_off {
             self.session.remember();
@@ -100,6 +107,7 @@ impl Studio {
     }
 
     fn layout(&mut self, ui: &mut egui::Ui, actions: &mut Vec<Action>) {
+        self.overlays(ui.ctx(), actions);
         let session = &self.session;
         let bar = Frame::new().inner_margin(Margin::symmetric(6, 4));
         Panel::top("toolbar").frame(bar).exact_size(42.0).resizable(false).show(ui, |ui| {
@@ -114,8 +122,10 @@ impl Studio {
             });
         if session.sketching().open {
             let outline = Panel::right("outline").frame(panels::frame()).default_size(288.0).size_range(288.0..=420.0);
-            outline.show(ui, |ui| panels::outline::show(ui, session, &mut self.paper, actions));
-            CentralPanel::no_frame().show(ui, |ui| paper::show(ui, session, &mut self.paper, actions));
+            outline.show(ui, |ui| panels::outline::show(ui, session, &mut self.sheet, actions));
+            let (tool, entry) = self.tools.tool(session);
+            CentralPanel::no_frame()
+                .show(ui, |ui| canvas::show(ui, session, &mut self.sheet, tool, entry.hint, actions));
             panels::messages::show(ui.ctx(), session, status.response.rect.height(), actions);
             panels::dialogs::show(ui.ctx(), session, actions);
             return;
@@ -126,15 +136,21 @@ impl Studio {
             panels::timeline::show(ui, session, &mut self.panels.timeline, actions);
         });
         let poses = Panel::left("poses").frame(panels::frame()).default_size(204.0).size_range(160.0..=360.0);
-        poses.show(ui, |ui| panels::poses::show(ui, session, &mut self.panels, actions));
+        poses.show(ui, |ui| panels::poses::show(ui, session, actions));
         let inspector = Panel::right("inspector").frame(panels::frame()).default_size(288.0).size_range(288.0..=420.0);
         inspector.show(ui, |ui| inspect(ui, session, &mut self.panels, actions));
         CentralPanel::no_frame().show(ui, |ui| {
-            viewport::show(ui, session, &mut self.views, self.panels.gpu, actions);
+            let (tool, _) = self.tools.tool(session);
+            viewport::show(ui, session, &mut self.views, tool, self.panels.gpu, actions);
         });
         let above = status.response.rect.height() + timeline.response.rect.height();
         panels::messages::show(ui.ctx(), session, above, actions);
         panels::dialogs::show(ui.ctx(), session, actions);
+    }
+
+    fn overlays(&mut self, ctx: &egui::Context, actions: &mut Vec<Action>) {
+        panels::palette::show(ctx, &self.session, &mut self.panels.palette, actions);
+        panels::shortcuts::show(ctx, &self.session, actions);
     }
 
     /// Asks for the next frame where something moves by itself; otherwise nothing is drawn until something happens.
@@ -164,7 +180,7 @@ impl Studio {
         if let Some(size) = ctx.input(|i| i.viewport().inner_rect) {
             self.session.sized([size.width(), size.height()]);
         }
-        let drawing = self.paper.unfinished(&self.session);
+        let drawing = self.tools.unfinished(&self.session);
         if safety::is_ending() && !self.session.files.quit {
             self.session.end(drawing);
         } else if !self.session.files.quit {
@@ -195,7 +211,7 @@ fn inspect(ui: &mut egui::Ui, session: &Session, state: &mut panels::State, acti
     match state.tab {
         Tab::Networks => {
             egui::ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
-                panels::networks::show(ui, session, state, actions);
+                panels::networks::show(ui, session, actions);
                 ui.add_space(12.0);
                 panels::discovery::show(ui, session, state, actions);
             });

@@ -1,7 +1,7 @@
 //! What is asked of the solver, and what it answers. The newest question wins; the last good shapes stay.
 
+use super::canvas::Plushie;
 use super::session::{Mode, Session};
-use super::viewport::Plushie;
 use crate::design::animation;
 use crate::engine::{NEAR_EQUILIBRIUM, Question, Request, Shape};
 use std::sync::Arc;
@@ -50,8 +50,7 @@ impl Session {
             question,
             quality: self.quality,
             show_idealized: self.look.views.shows(Plushie::Idealized),
-            // A keyframe is made of the winches' activations, seen or not.
-            show_realizable: self.look.views.shows(Plushie::Realizable) || self.key_wanted,
+            show_realizable: self.look.views.shows(Plushie::Realizable),
         };
         if self.asked.as_ref().is_some_and(|asked| asked.id >= self.first_id && same(asked, &request)) {
             return;

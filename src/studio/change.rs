@@ -2,10 +2,11 @@
 
 use crate::design::edit::{self, EditError};
 use crate::design::{
-    ControllerSettings, Design, Easing, FabricationSettings, FiberSettings, Keyframe, Material, Network, Pin, Pose,
-    Target, TendonSettings, Term,
+    ControllerSettings, Design, Easing, FabricationSettings, FiberSettings, Keyframe, Material, Network, Pose, Target,
+    TendonSettings, Term,
 };
 use crate::mesh::BodyPoint;
+use crate::operations::pose::{at_hand, put_pin, put_target, rounded};
 use crate::outline::{Drawing, Point};
 use crate::physics::TermKind;
 
@@ -116,9 +117,10 @@ impl Change {
                     Some(pose) => pose,
                     None => add_pose(design)?,
                 };
-                Made::Target { pose, index: edit::add_target(design, pose, target)? }
+                let target = Target { at: at_hand(&design.mesh, &target.at), to: rounded(target.to), ..target };
+                Made::Target { pose, index: put_target(design, pose, target)? }
             }
-            Self::MoveTarget { pose, index, to } => nothing(edit::move_target(design, pose, index, to)?),
+            Self::MoveTarget { pose, index, to } => nothing(edit::move_target(design, pose, index, rounded(to))?),
             Self::WeighTarget { pose, index, weight } => {
                 if let Some(target) = design.poses.get(pose).and_then(|p| p.targets.get(index)).copied() {
                     edit::set_target(design, pose, index, Target { weight, ..target })?;
@@ -132,10 +134,7 @@ impl Change {
                 }
                 Made::Nothing
             }
-            Self::AddPin(at) => {
-                let stiffness = crate::defaults::PIN_STIFFNESS;
-                nothing(edit::add_pin(design, Pin { at, position: None, stiffness })?)
-            }
+            Self::AddPin(at) => nothing(put_pin(design, at_hand(&design.mesh, &at))?),
             Self::RemovePin(index) => nothing(edit::remove_pin(design, index)?),
             Self::AcceptNetwork(network) => Made::Network(edit::accept_network(design, network)?),
             Self::RenameNetwork(index, name) => nothing(edit::rename_network(design, index, &name)?),

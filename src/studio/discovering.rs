@@ -1,11 +1,11 @@
 //! Network discovery on its thread, and what becomes of its proposals.
 
 use super::change::Change;
-use super::jobs::Report;
-use super::session::{Running, Session};
+use super::jobs::{Outcome, Running};
+use super::session::Session;
+use crate::picture::Stage;
+use crate::rigging::Proposal;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
 
 impl Session {
     pub(super) fn start_propose(&mut self) {
@@ -13,41 +13,50 @@ impl Session {
             self.messages.info(why);
             return;
         }
-        let cancel = Arc::new(AtomicBool::new(false));
-        self.discovery.serial += 1;
-        self.discovery.running = Some(Running { started: Instant::now(), cancel: cancel.clone() });
         self.discovery.proposals.clear();
         self.discovery.shown = None;
-        let (serial, design) = (self.discovery.serial, self.design().clone());
+        let design = self.design().clone();
         let (targets, parameters) = (self.targets().to_vec(), self.discovery.parameters.clone());
         let propose = self.services.propose.clone();
-        self.jobs.start("Network discovery", move || {
-            let proposals = propose(&design, &targets, &parameters, &cancel);
-            Report::Proposed { serial, proposals }
-        });
+        self.discovery.running = Some(self.jobs.start("Network discovery", move |cancel| {
+            Outcome::Proposed(propose(&design, &targets, &parameters, cancel))
+        }));
+    }
+
+    pub(super) fn take_proposals(&mut self, serial: u64, proposals: Vec<Proposal>) {
+        if !Running::is(self.discovery.running.as_ref(), serial) {
+            return;
+        }
+        self.discovery.running = None;
+        if proposals.is_empty() {
+            self.messages.warning("No network was found for this pose. Try more seeds or longer joining paths.");
+        }
+        self.discovery.proposals = proposals.into_iter().map(Arc::new).collect();
+        self.discovery.shown = if self.discovery.proposals.is_empty() { None } else { Some(0) };
+        self.discovery.stage = Stage::Result;
     }
 
     pub(super) fn cancel_propose(&mut self) {
         if let Some(running) = self.discovery.running.take() {
-            running.cancel.store(true, Ordering::Relaxed);
-            // Whatever it still reports is not wanted.
-            self.discovery.serial += 1;
+            running.cancel();
         }
     }
 
-    pub(super) fn accept(&mut self, index: usize) {
-        if let Some(proposal) = self.discovery.proposals.get(index).cloned() {
+    /// Builds the network of the shown proposal in.
+    pub(super) fn accept(&mut self) {
+        if let Some(proposal) = self.shown_proposal().cloned() {
             self.discovery.proposals.clear();
             self.discovery.shown = None;
             self.change(Change::AcceptNetwork(proposal.network.clone()));
         }
     }
 
-    pub(super) fn reject(&mut self, index: usize) {
-        if index < self.discovery.proposals.len() {
+    /// Drops the shown proposal; the next one is shown.
+    pub(super) fn reject(&mut self) {
+        if let Some(index) = self.discovery.shown.filter(|&index| index < self.discovery.proposals.len()) {
             self.discovery.proposals.remove(index);
             let left = self.discovery.proposals.len();
-            self.discovery.shown = self.discovery.shown.and(left.checked_sub(1)).map(|last| index.min(last));
+            self.discovery.shown = left.checked_sub(1).map(|last| index.min(last));
         }
     }
 }

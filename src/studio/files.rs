@@ -4,16 +4,15 @@
 //! field in the window takes their place.
 
 use super::action::FileAction;
-use super::jobs::{New, Refused, Report};
-use super::keeping::Kept;
+use super::importing::ImportChoice;
+use super::jobs::{New, Outcome, Running};
 use super::meshing::Resolution;
 use super::session::Session;
-use super::sketching::{self, Pencil, Sketch};
+use super::sketching::{self, Sketch};
 use crate::defaults;
 use crate::design::{Design, FileError, bundled, file};
 use crate::files;
-use crate::mesh::{self, Request};
-use crate::outline::{self, Holes, Import, OutlineError, Pieces};
+use crate::outline;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -60,21 +59,6 @@ pub struct PathDialog {
     pub trouble: Option<String>,
 }
 
-/// How an outline is read and meshed.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ImportChoice {
-    /// mm.
-    pub height_mm: f64,
-    pub fibers: usize,
-    /// Of several pieces; otherwise they are refused.
-    pub largest_piece: bool,
-    pub fill_holes: bool,
-    /// Names between commas; none for all.
-    pub layers: String,
-    /// Whether what the file shows becomes the texture of the plushie.
-    pub texture: bool,
-}
-
 #[derive(Default)]
 pub struct Files {
     pub dialog: Option<Dialog>,
@@ -84,8 +68,10 @@ pub struct Files {
     after_save: Option<FileAction>,
     /// The document whose changes may be dropped, as was answered.
     pub(super) granted: Option<Arc<Design>>,
+    /// What that thread is at.
+    pub(super) running: Option<Running>,
     /// Waits for an answer about the document that it would replace.
-    imported: Option<Box<New>>,
+    pub(super) imported: Option<Box<New>>,
     /// The path that the desktop's dialog was opened for.
     picking: Option<Purpose>,
     /// Whether the desktop has dialogs.
@@ -169,7 +155,7 @@ impl Session {
                 self.sketching.fresh = true;
                 self.meshing.wanted = Some(Resolution { fibers: defaults::FIBERS, finer: 1 });
                 self.sketch(Sketch::Open(true));
-                self.sketch(Sketch::Take(Pencil::Sketch));
+                self.tools[1] = sketching::FREEHAND;
             }
             FileAction::SaveAs => self.ask_path(Purpose::SaveAs),
             FileAction::Export if self.design().networks.is_empty() => {
@@ -224,52 +210,38 @@ impl Session {
         }
     }
 
-    pub(super) fn take_file_report(&mut self, report: Report) {
-        match report {
-            Report::Picked { path, at_once } => {
-                let Some(purpose) = self.files.picking.take() else { return };
-                match (path, self.files.dialog.clone()) {
-                    (Some(path), Some(Dialog::Path(dialog))) => {
-                        let path = if purpose == Purpose::Export { path.join(self.folder_name()) } else { path };
-                        let path = path.to_string_lossy().into_owned();
-                        self.files.dialog = Some(Dialog::Path(PathDialog { path, trouble: None, ..dialog }));
-                    }
-                    (Some(path), _) if purpose == Purpose::Open => self.file(FileAction::Dropped(path)),
-                    // The desktop has asked about a plushie that would be replaced.
-                    (Some(path), _) => {
-                        let asked = path.extension().is_some() && file::is_design(&path);
-                        self.save(path, asked);
-                    }
-                    // Nobody cancels that fast: there was no dialog.
-                    (None, _) if at_once => {
-                        self.files.native_dialogs = false;
-                        if self.files.dialog.is_none() {
-                            self.show_path_dialog(purpose);
-                        } else {
-                            self.messages.info("This desktop has no file dialogs; type the path instead.");
-                        }
-                    }
-                    (None, _) => {}
+    pub(super) fn take_path(&mut self, path: Option<PathBuf>, at_once: bool) {
+        let Some(purpose) = self.files.picking.take() else { return };
+        match (path, self.files.dialog.clone()) {
+            (Some(path), Some(Dialog::Path(dialog))) => {
+                let path = if purpose == Purpose::Export { path.join(self.folder_name()) } else { path };
+                let path = path.to_string_lossy().into_owned();
+                self.files.dialog = Some(Dialog::Path(PathDialog { path, trouble: None, ..dialog }));
+            }
+            (Some(path), _) if purpose == Purpose::Open => self.file(FileAction::Dropped(path)),
+            // The desktop has asked about a plushie that would be replaced.
+            (Some(path), _) => {
+                let asked = path.extension().is_some() && file::is_design(&path);
+                self.save(path, asked);
+            }
+            // Nobody cancels that fast: there was no dialog.
+            (None, _) if at_once => {
+                self.files.native_dialogs = false;
+                if self.files.dialog.is_none() {
+                    self.show_path_dialog(purpose);
+                } else {
+                    self.messages.info("This desktop has no file dialogs; type the path instead.");
                 }
             }
-            Report::Imported(result) => {
-                self.files.working = None;
-                match result {
-                    Ok(imported) => {
-                        self.files.imported = Some(imported);
-                        self.file(FileAction::OpenImported);
-                    }
-                    Err(refused) => self.ask_again(*refused),
-                }
-            }
-            Report::Exported { folder, result } => {
-                self.files.working = None;
-                match result {
-                    Ok(()) => self.messages.info(format!("The blueprint is in {}", files::shown(&folder))),
-                    Err(why) => self.messages.error(format!("The export failed: {why}")),
-                }
-            }
-            Report::Proposed { .. } | Report::Meshed { .. } | Report::Textured { .. } | Report::Broken { .. } => {}
+            (None, _) => {}
+        }
+    }
+
+    pub(super) fn take_export(&mut self, folder: &Path, result: Result<(), String>) {
+        self.files.working = None;
+        match result {
+            Ok(()) => self.messages.info(format!("The blueprint is in {}", files::shown(folder))),
+            Err(why) => self.messages.error(format!("The export failed: {why}")),
         }
     }
 
@@ -287,14 +259,7 @@ impl Session {
         self.files.dialog = Some(Dialog::Path(PathDialog {
             purpose,
             path: path.to_string_lossy().into_owned(),
-            import: ImportChoice {
-                height_mm: defaults::HEIGHT_MM,
-                fibers: defaults::FIBERS,
-                largest_piece: false,
-                fill_holes: false,
-                layers: String::new(),
-                texture: false,
-            },
+            import: ImportChoice::default(),
             trouble: None,
         }));
     }
@@ -307,21 +272,21 @@ impl Session {
             return;
         }
         let (folder, name) = (self.folder(), self.file_name());
-        self.jobs.start("The file dialog", move || {
+        self.jobs.start("The file dialog", move |_| {
             let started = Instant::now();
             let dialog = rfd::FileDialog::new().set_title(purpose.title()).set_directory(folder);
             let path = match purpose {
                 Purpose::Open => dialog.add_filter("Plushies", &["plush"]).pick_file(),
-                Purpose::Import => dialog.add_filter("Outlines", &outline::EXTENSIONS).pick_file(),
+                Purpose::Import => dialog.add_filter("Outlines", &outline::extensions()).pick_file(),
                 Purpose::SaveAs => dialog.add_filter("Plushies", &["plush"]).set_file_name(name).save_file(),
                 Purpose::Export => dialog.pick_folder(),
             };
-            Report::Picked { path, at_once: started.elapsed() < AT_ONCE }
+            Outcome::Picked { path, at_once: started.elapsed() < AT_ONCE }
         });
     }
 
     fn open_path(&mut self, path: PathBuf) {
-        if outline::EXTENSIONS.iter().any(|known| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(known))) {
+        if outline::extensions().iter().any(|known| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(known))) {
             self.show_path_dialog(Purpose::Import);
             if let Some(Dialog::Path(dialog)) = &mut self.files.dialog {
                 dialog.path = path.to_string_lossy().into_owned();
@@ -347,51 +312,19 @@ impl Session {
         }
     }
 
-    fn open_imported(&mut self) {
-        let Some(imported) = self.files.imported.take() else { return };
-        let New { design, changes, texture } = *imported;
-        self.files.dialog = None;
-        self.open(design, None);
-        self.origin = texture.as_ref().map(Kept::origin);
-        self.kept = texture;
-        for line in changes.lines() {
-            self.messages.info(line);
-        }
-        // It is nowhere but here.
-        self.history.mark_unsaved();
-    }
-
-    fn import(&mut self, path: PathBuf, choice: ImportChoice) {
-        self.files.dialog = None;
-        self.files.working = Some("Meshing the outline");
-        let within = self.safety.folder().map(Path::to_path_buf);
-        self.jobs.start("Import", move || {
-            let design = read_outline(&path, &choice, within.as_deref());
-            Report::Imported(design.map(Box::new).map_err(|why| Box::new(Refused { path, choice, why })))
-        });
-    }
-
-    /// The dialog with what was chosen, so that another choice is at hand.
-    fn ask_again(&mut self, refused: Refused) {
-        let Refused { path, choice, why } = refused;
-        if self.files.dialog.is_some() {
-            self.messages.error(format!("{}: {why}", files::shown(&path)));
-            return;
-        }
-        self.files.dialog = Some(Dialog::Path(PathDialog {
-            purpose: Purpose::Import,
-            path: path.to_string_lossy().into_owned(),
-            import: choice,
-            trouble: Some(why),
-        }));
-    }
-
     /// Saves the document. What is not the document's own file, or is not what was read any more, is asked about, unless the answer was
     /// to `replace` it.
     fn save(&mut self, path: PathBuf, replace: bool) {
         let path = if path.extension().is_none() { path.with_extension("plush") } else { path };
         let own = self.path.as_deref().is_some_and(|own| own == path || files::same(own, &path));
-        let there = std::fs::metadata(&path).is_ok_and(|found| found.is_file() && found.len() > 0);
+        let found = std::fs::metadata(&path);
+        if found.as_ref().is_ok_and(|found| !found.is_file() && !found.is_dir()) {
+            // A pipe or a device keeps nothing: it would count as saved.
+            self.files.after_save = None;
+            self.messages.error(format!("{} is not a regular file; nothing would be kept there", files::shown(&path)));
+            return;
+        }
+        let there = found.is_ok_and(|found| found.is_file() && found.len() > 0);
         if there && !own && !replace {
             let why = if file::is_design(&path) { Why::Exists } else { Why::Foreign };
             self.files.dialog = Some(Dialog::Replace(path, why));
@@ -425,10 +358,10 @@ impl Session {
         self.files.dialog = None;
         self.files.working = Some("Exporting the blueprint");
         let (design, export) = (self.design().clone(), self.services.export.clone());
-        self.jobs.start("Export", move || {
+        self.files.running = Some(self.jobs.start("Export", move |_| {
             let result = export(&design, &folder);
-            Report::Exported { folder, result }
-        });
+            Outcome::Exported { folder, result }
+        }));
     }
 
     /// Where files of this plushie are likely to be.
@@ -450,37 +383,4 @@ impl Session {
 fn plain(name: &str) -> String {
     let name: String = name.trim().chars().map(|c| if c.is_alphanumeric() { c } else { '-' }).collect();
     if name.is_empty() { "plushie".to_owned() } else { name.to_lowercase() }
-}
-
-/// An error with the names that choices have in the dialog.
-fn in_the_window(error: OutlineError) -> String {
-    error.to_string().replace("--pieces largest", "“Largest piece only”").replace("--height", "“Height”")
-}
-
-fn read_outline(path: &Path, choice: &ImportChoice, within: Option<&Path>) -> Result<New, String> {
-    let import = Import {
-        height_mm: Some(choice.height_mm),
-        pieces: if choice.largest_piece { Pieces::Largest } else { Pieces::Refuse },
-        holes: if choice.fill_holes { Holes::Fill } else { Holes::Keep },
-        layers: choice.layers.split(',').map(str::trim).filter(|name| !name.is_empty()).map(str::to_owned).collect(),
-        ..Import::default()
-    };
-    // A pipe would keep the thread waiting for ever.
-    let bytes = files::read(path, outline::MAX_FILE_BYTES as u64).map_err(|e| format!("it cannot be opened: {e}"))?;
-    let mut imported = outline::import(&bytes, &import).map_err(in_the_window)?;
-    let png = match choice.texture {
-        true => Some(outline::texture(&bytes, &import, &imported).map_err(|e| e.to_string())?),
-        false => None,
-    };
-    let fibers = choice.fibers;
-    let request = Request { tracks: imported.tracks().to_vec(), ..Request::fibers(fibers) };
-    let (meshed, count) = mesh::build_or_finer(&imported.outline, &request).map_err(|e| e.to_string())?;
-    if count != fibers {
-        imported.changes.notes.push(format!("the outline needs more than {fibers} fibres; it has {count}"));
-    }
-    let name = path.file_stem().map_or_else(|| "plushie".to_owned(), |s| s.to_string_lossy().into_owned());
-    let mut design = Design { drawing: imported.drawing, ..Design::new(name, imported.outline, meshed.mesh) };
-    let texture = png.map(|png| Kept::new(&mut design, &png, within)).transpose();
-    let texture = texture.map_err(|e| format!("the texture cannot be kept: {e}"))?;
-    Ok(New { design, changes: imported.changes, texture })
 }

@@ -33,22 +33,18 @@ pub enum Icon {
 /// Side of an icon button, logical pixels.
 pub const BUTTON: f32 = 28.0;
 
-/// A square button. `name` is its accessible name, `tip` what the pointer is told (with the shortcut).
+/// A square button. `name` is its accessible name; `tip` is what the pointer is told.
 pub fn button(ui: &mut Ui, icon: Icon, name: &str, tip: &str) -> Response {
-    draw_button(ui, icon, name, tip, None, BUTTON)
-}
-
-/// A button that is on or off.
-pub fn toggle(ui: &mut Ui, icon: Icon, name: &str, tip: &str, on: bool) -> Response {
-    draw_button(ui, icon, name, tip, Some(on), BUTTON)
+    draw_button(ui, icon, name, None, BUTTON).on_hover_text(tip).on_disabled_hover_text(tip)
 }
 
 /// For lists and headings.
 pub fn small_button(ui: &mut Ui, icon: Icon, name: &str, tip: &str) -> Response {
-    draw_button(ui, icon, name, tip, None, 22.0)
+    draw_button(ui, icon, name, None, 22.0).on_hover_text(tip).on_disabled_hover_text(tip)
 }
 
-fn draw_button(ui: &mut Ui, icon: Icon, name: &str, tip: &str, on: Option<bool>, side: f32) -> Response {
+/// A square button of a given side; `on` of one that is on or off.
+pub fn draw_button(ui: &mut Ui, icon: Icon, name: &str, on: Option<bool>, side: f32) -> Response {
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(side), Sense::click());
     let enabled = ui.is_enabled();
     response.widget_info(|| match on {
@@ -67,7 +63,7 @@ fn draw_button(ui: &mut Ui, icon: Icon, name: &str, tip: &str, on: Option<bool>,
         let shapes = draw(icon, Rect::from_center_size(rect.center(), Vec2::splat(side * 0.6)), color);
         ui.painter().extend(shapes);
     }
-    response.on_hover_text(tip).on_disabled_hover_text(tip)
+    response
 }
 
 /// The strokes of an icon in `rect`.

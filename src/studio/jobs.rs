@@ -1,42 +1,50 @@
 //! Work that takes too long for a frame, each on a thread that reports back once.
 
-use super::files::ImportChoice;
+use super::importing::ImportChoice;
 use super::keeping::Kept;
-use crate::design::reshape::Body;
-use crate::design::{Design, FiberSet};
-use crate::mesh::Mesh;
+use crate::design::Design;
+use crate::operations::key::{self, Keyed};
+use crate::operations::new_design::Note;
+use crate::operations::remesh::{self, Remeshed};
+use crate::operations::reshape::{self, Reshaped};
+use crate::operations::rig::{self, Rigged};
 use crate::outline::Changes;
 use crate::picture::Texture;
 use crate::rigging::Proposal;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
+use std::time::Instant;
+
+/// A job that is over.
+pub struct Finished {
+    /// Which one: that of its [`Running`].
+    pub serial: u64,
+    pub outcome: Outcome,
+}
 
 /// What a job came to.
-pub enum Report {
-    Proposed {
-        serial: u64,
-        proposals: Vec<Proposal>,
-    },
-    /// The desktop's dialog was answered; `at_once` if faster than any human.
-    Picked {
-        path: Option<PathBuf>,
-        at_once: bool,
-    },
-    Meshed {
-        serial: u64,
-        made: Result<Box<Made>, String>,
+pub enum Outcome {
+    Proposed(Vec<Proposal>),
+    Remeshed(Result<Box<Remeshed>, remesh::Error>),
+    Reshaped(Result<Box<Reshaped>, reshape::Error>),
+    Rigged(Result<Box<Rigged>, rig::Error>),
+    Keyed(Result<Keyed, key::Error>),
+    Imported(Result<Box<New>, Box<Refused>>),
+    Exported {
+        folder: PathBuf,
+        result: Result<(), String>,
     },
     Textured {
         path: PathBuf,
         texture: Result<Arc<Texture>, String>,
     },
-    /// With what was changed to get a clean outline.
-    Imported(Result<Box<New>, Box<Refused>>),
-    Exported {
-        folder: PathBuf,
-        result: Result<(), String>,
+    /// The desktop's dialog was answered; `at_once` if faster than any human.
+    Picked {
+        path: Option<PathBuf>,
+        at_once: bool,
     },
     /// The job itself broke.
     Broken {
@@ -49,6 +57,7 @@ pub enum Report {
 pub struct New {
     pub design: Design,
     pub changes: Changes,
+    pub notes: Vec<Note>,
     /// Its picture, where that is its texture.
     pub texture: Option<Kept>,
 }
@@ -60,41 +69,58 @@ pub struct Refused {
     pub why: String,
 }
 
-/// What was meshed.
-pub enum Made {
-    /// Another resolution.
-    Mesh(Mesh, FiberSet),
-    /// Another silhouette, and what was changed to get it.
-    Body(Body, Changes),
+/// A job that somebody waits for. What another one reports in its place is not wanted.
+pub struct Running {
+    pub serial: u64,
+    pub started: Instant,
+    cancel: Arc<AtomicBool>,
+}
+
+impl Running {
+    /// Tells the job to stop; whatever it still reports is not wanted.
+    pub fn cancel(&self) {
+        self.cancel.store(true, Ordering::SeqCst);
+    }
+
+    /// Whether a report is that of this job.
+    pub fn is(running: Option<&Self>, serial: u64) -> bool {
+        running.is_some_and(|running| running.serial == serial)
+    }
 }
 
 pub type Wake = Arc<dyn Fn() + Send + Sync>;
 
 pub struct Jobs {
-    send: Sender<Report>,
-    receive: Receiver<Report>,
+    send: Sender<Finished>,
+    receive: Receiver<Finished>,
     wake: Wake,
+    /// Of the newest job.
+    serial: u64,
 }
 
 impl Jobs {
     pub fn new(wake: Wake) -> Self {
         let (send, receive) = channel();
-        Self { send, receive, wake }
+        Self { send, receive, wake, serial: 0 }
     }
 
-    /// Runs `work` on a thread of its own. `job` names it should it break.
-    pub fn start(&self, job: &'static str, work: impl FnOnce() -> Report + Send + 'static) {
-        let (send, wake) = (self.send.clone(), self.wake.clone());
+    /// Runs `work` on a thread of its own; it is given what tells it to stop. `job` names it should it break.
+    pub fn start(&mut self, job: &'static str, work: impl FnOnce(&AtomicBool) -> Outcome + Send + 'static) -> Running {
+        self.serial += 1;
+        let (send, wake, serial) = (self.send.clone(), self.wake.clone(), self.serial);
+        let cancel = Arc::new(AtomicBool::new(false));
+        let running = Running { serial, started: Instant::now(), cancel: cancel.clone() };
         std::thread::spawn(move || {
-            let report = catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| {
+            let outcome = catch_unwind(AssertUnwindSafe(|| work(&cancel))).unwrap_or_else(|panic| {
                 let text = panic.downcast_ref::<&str>().map(|s| (*s).to_owned());
                 let why = text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default();
-                Report::Broken { job, why }
+                Outcome::Broken { job, why }
             });
             // Nobody listens any more when the window is closed.
-            let _ = send.send(report);
+            let _ = send.send(Finished { serial, outcome });
             wake();
         });
+        running
     }
 
     /// What wakes the window up.
@@ -102,7 +128,7 @@ impl Jobs {
         self.wake.clone()
     }
 
-    pub fn next(&self) -> Option<Report> {
+    pub fn next(&self) -> Option<Finished> {
         self.receive.try_recv().ok()
     }
 }

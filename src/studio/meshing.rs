@@ -1,11 +1,11 @@
 //! Another resolution under the plushie, worked out on a thread of its own; and what a new mesh makes stale.
 
-use super::jobs::{Made, Report};
+use super::jobs::{Outcome, Running};
 use super::session::{Session, Shapes};
-use crate::design::edit::EditError;
-use crate::design::remesh;
-use crate::mesh::Request;
-use std::time::Instant;
+use super::words;
+use crate::mesh::Size;
+use crate::operations::Context;
+use crate::operations::remesh::{self, Error, Options, Remeshed, Report};
 
 /// Largest `finer`.
 pub const FINEST: usize = 16;
@@ -23,9 +23,7 @@ pub struct Resolution {
 pub struct Meshing {
     /// What the controls say; `None`: that of the design.
     pub(super) wanted: Option<Resolution>,
-    pub running: Option<Instant>,
-    /// Counts the runs; what an abandoned one reports is not wanted.
-    serial: u64,
+    pub running: Option<Running>,
 }
 
 impl Session {
@@ -48,48 +46,44 @@ impl Session {
             return;
         }
         let Resolution { fibers, finer } = self.resolution();
-        let (serial, outline) = (self.begin_meshing(), self.design().outline.clone());
-        let request = Request { tracks: self.design().tracks().to_vec(), ..Request::fibers(fibers) };
-        self.jobs.start("Meshing", move || {
-            let body = remesh::body(&outline, &request, finer);
-            let made = body.map(|(mesh, set)| Box::new(Made::Mesh(mesh, set))).map_err(|e| e.to_string());
-            Report::Meshed { serial, made }
-        });
-    }
-
-    /// The number under which the run reports.
-    pub(super) fn begin_meshing(&mut self) -> u64 {
-        self.meshing.running = Some(Instant::now());
-        self.meshing.serial += 1;
-        self.meshing.serial
+        let options = Options { size: Size::Fibers(fibers), finer, ..Options::default() };
+        let design = self.design().clone();
+        self.meshing.running = Some(self.jobs.start("Meshing", move |cancel| {
+            Outcome::Remeshed(remesh::prepare(&design, &options, &Context::new(cancel)).map(Box::new))
+        }));
     }
 
     pub(super) fn cancel_remesh(&mut self) {
-        if self.meshing.running.take().is_some() {
-            self.meshing.serial += 1;
+        if let Some(running) = self.meshing.running.take() {
+            running.cancel();
         }
+    }
+
+    /// Whether the mesh that is waited for is there; it is not waited for any more then.
+    pub(super) fn is_meshed(&mut self, serial: u64) -> bool {
+        let wanted = Running::is(self.meshing.running.as_ref(), serial);
+        if wanted {
+            self.meshing.running = None;
+        }
+        wanted
     }
 
     /// Puts the mesh under the design as it is by now: what was changed meanwhile stays.
-    pub(super) fn take_mesh(&mut self, serial: u64, made: Result<Box<Made>, String>) {
-        if serial != self.meshing.serial || self.meshing.running.take().is_none() {
+    pub(super) fn take_mesh(&mut self, serial: u64, made: Result<Box<Remeshed>, Error>) {
+        if !self.is_meshed(serial) {
             return;
         }
-        let (mesh, set) = match made.map(|made| *made) {
-            Ok(Made::Mesh(mesh, set)) => (mesh, set),
-            Ok(Made::Body(body, changes)) => return self.take_body(body, &changes),
-            Err(why) => return self.messages.error(format!("Meshing: {why}")),
-        };
-        let carried = self.history.edit("Remesh", |design| Ok::<_, EditError>(remesh::carry(design, mesh, set)));
-        let report = match carried {
-            Ok(report) => report,
-            Err(error) => return self.messages.error(format!("Remesh: {error}")),
-        };
-        self.meshing.wanted = None;
-        self.tell_carried(&report);
+        let made = made.and_then(|made| Ok(self.history.edit("Remesh", |design| made.apply(design))?));
+        match made {
+            Ok(report) => {
+                self.meshing.wanted = None;
+                self.tell_carried(&report);
+            }
+            Err(error) => self.messages.error(format!("Meshing: {}", words::unmeshed(&error))),
+        }
     }
 
-    pub(super) fn tell_carried(&mut self, report: &remesh::Report) {
+    pub(super) fn tell_carried(&mut self, report: &Report) {
         let [before, after] = report.fibers;
         let farthest = report.farthest_mm();
         let text = if report.moved.is_empty() {
@@ -115,7 +109,6 @@ impl Session {
             self.shapes = Shapes::default();
             self.discovery.proposals.clear();
             self.discovery.shown = None;
-            self.drag = None;
             self.first_id = self.asked.as_ref().map_or(0, |asked| asked.id + 1);
             self.answered_id = None;
             self.meshed = design.clone();

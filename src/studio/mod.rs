@@ -3,7 +3,8 @@
 //! - [`app`] holds the state and updates it once a frame;
 //! - [`panels`] and [`viewport`] borrow the [`session`], read only, and return [`action`]s;
 //! - the session alone acts on them; it changes the document only by a [`change`], through the undo history;
-//! - [`paper`] is the sheet on which the outline is drawn;
+//! - [`commands`] is the one table of what can be asked for by name; [`tools`] are what a press does on a [`canvas`], which is a view
+//!   or the sheet of the outline;
 //! - [`viewport::renderer`] draws a neutral scene and knows nothing of the rest.
 //!
 //! Whatever takes long runs on a thread: the solver on its worker, the rest as [`jobs`].
@@ -12,31 +13,36 @@ pub mod action;
 pub mod app;
 mod asking;
 mod blank;
+pub mod canvas;
 pub mod change;
+pub mod commands;
 mod discovering;
-mod dragging;
 pub mod files;
 pub mod icons;
+pub mod importing;
 pub mod jobs;
 pub mod keeper;
 pub mod keeping;
+mod keys;
 pub mod meshing;
 pub mod messages;
 mod pacing;
 pub mod panels;
-pub mod paper;
 mod playing;
 mod reading;
+pub mod rigging;
 pub mod safety;
 pub mod session;
-mod shortcuts;
 pub mod sketching;
 pub mod store;
 pub mod style;
 mod texturing;
+pub mod tools;
 pub mod viewport;
+mod words;
 
 use crate::design::{Design, bundled};
+use crate::operations::{Context, export, propose};
 use crate::picture::palette::Theme;
 use app::Studio;
 use eframe::egui;
@@ -44,7 +50,7 @@ use session::Services;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 use store::Store;
 use thiserror::Error;
@@ -124,11 +130,17 @@ pub fn run(design: Option<Design>, path: Option<PathBuf>) -> Result<(), StudioEr
 /// The real engine and exporter.
 pub fn services() -> Services {
     Services {
-        propose: Arc::new(crate::rigging::propose),
+        propose: Arc::new(|design, targets, parameters, cancel| {
+            // That nothing was found is told where the proposals would be.
+            propose::for_targets(design, targets, parameters, &Context::new(cancel)).unwrap_or_default()
+        }),
         export: Arc::new(|design, folder| {
-            crate::fabrication::export(design, folder, &Default::default())
-                .map(|_| ())
-                .map_err(|error| error.to_string())
+            export::run(design, folder, &export::Options::default(), &Context::new(&AtomicBool::new(false)))
+                .map(drop)
+                .map_err(|error| match error {
+                    export::Error::Export(error) => words::unexported(&error),
+                    export::Error::Cancelled(_) => error.to_string(),
+                })
         }),
     }
 }

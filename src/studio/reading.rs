@@ -1,7 +1,8 @@
 //! What panels, viewports and tests may read of the session.
 
+use super::canvas::Hit;
 use super::messages::Messages;
-use super::session::{Discovery, Look, Mode, Playback, Selection, Session, Shapes};
+use super::session::{Discovery, Look, Mode, Overlay, Playback, Renamed, Selection, Session, Shapes};
 use crate::design::history::History;
 use crate::design::{Design, Target};
 use crate::engine::{Quality, Request};
@@ -21,6 +22,35 @@ impl Session {
     /// The current pose; `None` is the rest shape.
     pub fn pose(&self) -> Option<usize> {
         self.pose
+    }
+
+    /// Whether a dialog, the palette or a page stands over the window.
+    pub fn is_covered(&self) -> bool {
+        self.files.dialog.is_some() || self.overlay.is_some()
+    }
+
+    /// Whether a tool is the one for its canvas.
+    pub fn has_taken(&self, id: &str) -> bool {
+        self.tools.contains(&id)
+    }
+
+    /// What stands over the window.
+    pub fn overlay(&self) -> Option<Overlay> {
+        self.overlay
+    }
+
+    /// A name that is being typed.
+    pub fn renaming(&self) -> Option<&(Renamed, String)> {
+        self.renaming.as_ref()
+    }
+
+    /// What commands are about when nothing is pointed at.
+    pub fn selected(&self) -> Hit {
+        match self.selection {
+            Selection::Target(index) => Hit::Target(index),
+            Selection::Pin(index) => Hit::Pin(index),
+            _ => Hit::Nothing,
+        }
     }
 
     pub fn selection(&self) -> Selection {
@@ -47,9 +77,16 @@ impl Session {
         &self.look
     }
 
-    /// Whether a thread is busy with a file.
+    /// Whether a thread is busy with a file, a keyframe or a rig.
     pub fn is_working(&self) -> bool {
-        self.files.working.is_some()
+        self.working().is_some()
+    }
+
+    /// What threads are busy with, ready to be shown.
+    pub fn working(&self) -> Option<&'static str> {
+        let keying = self.keying.is_some().then_some("Working out the keyframe");
+        let rigging = self.rigging.running.is_some().then_some("Looking for winches and tendons");
+        self.files.working.or(rigging).or(keying)
     }
 
     /// Whether the window is about to close.
@@ -65,8 +102,9 @@ impl Session {
         }
     }
 
+    /// Whether a hand is in the middle of a change.
     pub fn is_dragging(&self) -> bool {
-        self.drag.is_some()
+        self.history.in_gesture()
     }
 
     /// Whether the shapes answer the newest question; while the outline is drawn none is asked.

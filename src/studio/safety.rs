@@ -1,10 +1,10 @@
 //! That nothing is lost: work that is kept until it is saved, files that others change, what a window remembers.
 
+use super::canvas::Plushie;
 use super::files::Dialog;
 use super::keeper::{Abandoned, Facts, Keeper, Kept, Work};
 use super::session::Session;
 use super::store::{Settings, Store};
-use super::viewport::Plushie;
 use crate::files::{Hold, Stamp, shown};
 use crate::outline::Drawing;
 use crate::picture::palette::Theme;

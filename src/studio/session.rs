@@ -1,17 +1,18 @@
 //! The state of the window, and everything that changes it.
 
 use super::action::{Action, FileAction};
+use super::canvas::{Camera, Plushie};
 use super::change::{Change, Made};
 use super::files::Files;
-use super::jobs::{Jobs, Report, Wake};
+use super::jobs::{Finished, Jobs, Outcome, Running, Wake};
 use super::keeping::Kept;
 use super::meshing::Meshing;
 use super::messages::Messages;
+use super::rigging::Rigging;
 use super::safety::Safety;
 use super::sketching::{Sketch, Sketching};
 use super::texturing::Texturing;
-use super::viewport::Plushie;
-use super::viewport::camera::Camera;
+use crate::design::file::MAX_BYTES;
 use crate::design::history::History;
 use crate::design::{Design, Target, edit};
 use crate::discovery::Parameters;
@@ -25,14 +26,6 @@ use crate::rigging::Proposal;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
-use std::time::Instant;
-
-/// What a press on the body does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Tool {
-    Drag,
-    Pin,
-}
 
 /// What is picked out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,6 +36,23 @@ pub enum Selection {
     Pin(usize),
     Keyframe(usize),
     Network(usize),
+}
+
+/// What stands over the window for the keyboard's sake.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Overlay {
+    /// Every command by name.
+    Palette,
+    /// What every key does.
+    Shortcuts,
+}
+
+/// What gets another name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Renamed {
+    Pose(usize),
+    Network(usize),
+    Plushie,
 }
 
 /// Whether the views show a pose or the animation.
@@ -65,6 +75,8 @@ pub struct Look {
     pub views: Views,
     /// `None`: fits the body.
     pub camera: Option<Camera>,
+    /// Times which the scale shall change about the middle, as soon as a view knows what it shows.
+    pub zoom: Option<f32>,
 }
 
 /// Which views are shown: one at least. What is hidden is not solved.
@@ -80,6 +92,10 @@ impl Views {
             Self::Both => true,
             Self::Only(shown) => shown == plushie,
         }
+    }
+
+    pub fn toggled(self, plushie: Plushie) -> Self {
+        self.with(plushie, !self.shows(plushie))
     }
 
     /// With one of them shown or hidden. Where that leaves none, the other one comes back.
@@ -101,13 +117,6 @@ pub struct Discovery {
     /// Which proposal the views show.
     pub shown: Option<usize>,
     pub stage: Stage,
-    /// Counts the runs; what an abandoned one reports is not wanted.
-    pub(super) serial: u64,
-}
-
-pub struct Running {
-    pub started: Instant,
-    pub(super) cancel: Arc<AtomicBool>,
 }
 
 /// The newest good shapes.
@@ -115,14 +124,6 @@ pub struct Running {
 pub struct Shapes {
     pub idealized: Option<Arc<Shape>>,
     pub realizable: Option<Arc<Shape>>,
-}
-
-/// A target in hand.
-pub(super) struct Drag {
-    pub(super) pose: usize,
-    pub(super) target: usize,
-    /// From the pointer to the goal, mm.
-    pub(super) offset: Point,
 }
 
 /// Makes proposals for a design and the targets of a pose.
@@ -147,7 +148,11 @@ pub struct Session {
     pub(super) texturing: Texturing,
     pub(super) pose: Option<usize>,
     pub(super) selection: Selection,
-    pub(super) tool: Tool,
+    /// By their names, of the views and of the sheet.
+    pub(super) tools: [&'static str; 2],
+    pub(super) overlay: Option<Overlay>,
+    /// A name that is being typed.
+    pub(super) renaming: Option<(Renamed, String)>,
     pub(super) mode: Mode,
     pub(super) playback: Playback,
     pub(super) look: Look,
@@ -165,21 +170,21 @@ pub struct Session {
     pub(super) jobs: Jobs,
     pub(super) services: Services,
     pub(super) worker: Worker,
-    pub(super) drag: Option<Drag>,
     /// Of the solver, last.
     pub(super) asked: Option<Request>,
     /// Outcomes before this one belong to another document.
     pub(super) first_id: u64,
     pub(super) answered_id: Option<u64>,
-    /// A keyframe to be set once the solver has settled, on the winches too if their view is hidden.
-    pub(super) key_wanted: bool,
+    /// A keyframe that is worked out.
+    pub(super) keying: Option<Running>,
+    pub(super) rigging: Rigging,
     pub(super) warning: Option<String>,
 }
 
 impl Session {
     pub fn new(design: Design, path: Option<PathBuf>, wake: Wake, services: Services) -> Self {
         let on_outcome = wake.clone();
-        let seen = path.as_deref().and_then(|path| Stamp::at(path).ok().flatten());
+        let seen = path.as_deref().and_then(|path| Stamp::at(path, MAX_BYTES).ok());
         Self {
             pose: first_pose(&design),
             history: History::new(design.clone()),
@@ -188,10 +193,12 @@ impl Session {
             kept: None,
             texturing: Texturing::default(),
             selection: Selection::Nothing,
-            tool: Tool::Drag,
+            tools: [""; 2],
+            overlay: None,
+            renaming: None,
             mode: Mode::Pose,
             playback: Playback { time_s: 0.0, playing: false, looping: true },
-            look: Look { theme: Theme::Light, shown: Shown::default(), views: Views::Both, camera: None },
+            look: Look { theme: Theme::Light, shown: Shown::default(), views: Views::Both, camera: None, zoom: None },
             quality: Quality::Balanced,
             discovery: Discovery {
                 parameters: Parameters::default(),
@@ -199,7 +206,6 @@ impl Session {
                 proposals: Vec::new(),
                 shown: None,
                 stage: Stage::Result,
-                serial: 0,
             },
             meshing: Meshing::default(),
             sketching: Sketching::default(),
@@ -211,11 +217,11 @@ impl Session {
             jobs: Jobs::new(wake),
             services,
             worker: Worker::spawn(Box::new(move || on_outcome())),
-            drag: None,
             asked: None,
             first_id: 0,
             answered_id: None,
-            key_wanted: false,
+            keying: None,
+            rigging: Rigging::default(),
             warning: None,
         }
     }
@@ -242,8 +248,8 @@ impl Session {
         self.discovery.proposals.clear();
         self.discovery.shown = None;
         self.shapes = Shapes::default();
-        self.drag = None;
-        self.key_wanted = false;
+        self.cancel_keying();
+        self.cancel_rig();
         self.warning = None;
         self.first_id = self.asked.as_ref().map_or(0, |asked| asked.id + 1);
         self.answered_id = None;
@@ -253,43 +259,26 @@ impl Session {
         match action {
             Action::Change(change) => self.change(change),
             Action::Live(change) => self.live(change),
-            Action::Undo => self.travel("Undone", History::undo),
-            Action::Redo => self.travel("Redone", History::redo),
-            Action::Grab { what, pointer } => self.grab(what, pointer),
-            Action::DragTo(pointer) => self.drag_to(pointer),
-            Action::Release => self.release(),
-            Action::Escape => self.escape(),
+            Action::Run(command, at) => match command.refused(self, at) {
+                None => (command.run)(self, at),
+                Some(why) => self.messages.info(why),
+            },
+            Action::Overlay(overlay) => self.overlay = overlay,
+            Action::Typed(renaming) => self.renaming = renaming,
+            Action::DragTarget(to) => self.drag_target(to),
             Action::SelectPose(pose) => self.select_pose(pose),
             Action::Select(selection) => self.selection = selection,
-            Action::DeleteSelected => self.delete_selected(),
-            Action::SetTool(tool) => self.tool = tool,
-            Action::SetTheme(theme) => self.look.theme = theme,
-            Action::ShowLayer(name, shown) => self.look.shown.set(name, shown),
-            Action::ShowView(plushie, shown) => self.look.views = self.look.views.with(plushie, shown),
             Action::SetQuality(quality) => self.quality = quality,
-            Action::SetCamera(camera) => self.look.camera = Some(camera),
-            Action::Pan { from, delta, always } => {
-                if always || self.drag.is_none() {
-                    self.look.camera = Some(from.panned(delta));
-                }
+            Action::SetCamera(camera) => {
+                self.look.camera = Some(camera);
+                self.look.zoom = None;
             }
-            Action::Fit if self.sketching.open => self.sketching.camera = None,
-            Action::Fit => self.look.camera = None,
-            Action::Play => self.play(),
-            Action::Pause => self.playback.playing = false,
-            Action::SetLooping(looping) => self.playback.looping = looping,
             Action::Scrub(time_s) => self.scrub(time_s),
-            Action::AddKeyframe => self.add_keyframe(),
             Action::SetParameters(parameters) => self.discovery.parameters = parameters,
             Action::SetResolution(resolution) => self.meshing.wanted = Some(resolution),
-            Action::Remesh => self.start_remesh(),
-            Action::CancelRemesh => self.cancel_remesh(),
-            Action::Propose => self.start_propose(),
-            Action::CancelPropose => self.cancel_propose(),
+            Action::SetRig(choice) => self.rigging.choice = choice,
             Action::ShowProposal(index) => self.discovery.shown = index,
             Action::ShowStage(stage) => self.discovery.stage = stage,
-            Action::Accept(index) => self.accept(index),
-            Action::Reject(index) => self.reject(index),
             Action::Sketch(sketch) => self.sketch(sketch),
             Action::File(action) => self.file(action),
             Action::DismissMessage(id) => self.messages.dismiss(id),
@@ -300,8 +289,8 @@ impl Session {
     /// `hands_off`: nobody holds a button or types, so gestures are over.
     pub fn tick(&mut self, now_s: f64, passed_s: f64, hands_off: bool) {
         self.messages.tick(now_s);
-        while let Some(report) = self.jobs.next() {
-            self.take_report(report);
+        while let Some(finished) = self.jobs.next() {
+            self.take_finished(finished);
         }
         self.take_outcome();
         if hands_off {
@@ -309,11 +298,6 @@ impl Session {
         }
         if self.playback.playing {
             self.advance(passed_s);
-        }
-        let winches_asked = self.asked.as_ref().is_some_and(|request| request.show_realizable);
-        if self.key_wanted && self.mode == Mode::Pose && winches_asked && self.is_settled() {
-            self.key_wanted = false;
-            self.key_pose();
         }
         self.clamp();
         self.follow_texture();
@@ -344,6 +328,18 @@ impl Session {
         }
     }
 
+    /// Goes on with the gesture that made the target, or begins one that moves it.
+    fn drag_target(&mut self, to: Point) {
+        let (Selection::Target(index), Some(pose)) = (self.selection, self.pose) else { return };
+        let change = Change::MoveTarget { pose, index, to };
+        if !self.history.in_gesture() {
+            return self.live(change);
+        }
+        if let Err(error) = self.history.preview(|design| change.apply(design)) {
+            self.messages.error(error.to_string());
+        }
+    }
+
     pub(super) fn pick_out(&mut self, made: Made) {
         match made {
             Made::Nothing => {}
@@ -358,8 +354,43 @@ impl Session {
         self.clamp();
     }
 
+    pub(super) fn undo(&mut self) {
+        self.travel("Undone", History::undo);
+    }
+
+    pub(super) fn redo(&mut self) {
+        self.travel("Redone", History::redo);
+    }
+
+    /// Shows all of the body, or of the drawing.
+    pub(super) fn fit(&mut self) {
+        if self.sketching.open {
+            self.sketching.camera = None;
+        } else {
+            self.look.camera = None;
+        }
+    }
+
+    pub(super) fn zoom(&mut self, factor: f32) {
+        self.look.zoom = Some(self.look.zoom.unwrap_or(1.0) * factor);
+    }
+
+    pub(super) fn next_quality(&mut self) {
+        self.quality = match self.quality {
+            Quality::Draft => Quality::Balanced,
+            Quality::Balanced => Quality::Accurate,
+            Quality::Accurate => Quality::Draft,
+        };
+    }
+
+    /// Starts to edit the name of the current pose.
+    pub(super) fn rename_pose(&mut self) {
+        if let Some((index, pose)) = self.pose.and_then(|index| Some((index, self.design().poses.get(index)?))) {
+            self.renaming = Some((Renamed::Pose(index), pose.name.clone()));
+        }
+    }
+
     fn travel(&mut self, done: &str, step: impl FnOnce(&mut History) -> Option<String>) {
-        self.drag = None;
         if let Some(label) = step(&mut self.history) {
             self.messages.info(format!("{done}: {label}"));
         }
@@ -397,10 +428,7 @@ impl Session {
         self.clamp();
     }
 
-    fn delete_selected(&mut self) {
-        if self.sketching.open {
-            return self.delete_drawn();
-        }
+    pub(super) fn delete_selected(&mut self) {
         match (self.selection, self.pose) {
             (Selection::Target(index), Some(pose)) => self.change(Change::RemoveTarget { pose, index }),
             (Selection::Pin(index), _) => self.change(Change::RemovePin(index)),
@@ -411,8 +439,11 @@ impl Session {
         self.selection = Selection::Nothing;
     }
 
-    fn escape(&mut self) {
-        if self.drag.take().is_some() || self.history.in_gesture() {
+    pub(super) fn escape(&mut self) {
+        if self.discovery.running.is_some() && !self.history.in_gesture() && !self.sketching.open {
+            return self.cancel_propose();
+        }
+        if self.history.in_gesture() {
             self.history.cancel();
         } else if self.files.dialog.is_some() {
             self.file(FileAction::CloseDialog);
@@ -428,30 +459,40 @@ impl Session {
         self.clamp();
     }
 
-    fn take_report(&mut self, report: Report) {
-        match report {
-            Report::Proposed { serial, proposals } => {
-                if serial != self.discovery.serial {
-                    return;
-                }
-                self.discovery.running = None;
-                if proposals.is_empty() {
-                    self.messages
-                        .warning("No network was found for this pose. Try more seeds or longer joining paths.");
-                }
-                self.discovery.proposals = proposals.into_iter().map(Arc::new).collect();
-                self.discovery.shown = if self.discovery.proposals.is_empty() { None } else { Some(0) };
-                self.discovery.stage = Stage::Result;
-            }
-            Report::Meshed { serial, made } => self.take_mesh(serial, made),
-            Report::Textured { path, texture } => self.take_texture(path, texture),
-            Report::Broken { job, why } => {
-                self.discovery.running = None;
-                self.cancel_remesh();
-                self.files.working = None;
+    fn take_finished(&mut self, Finished { serial, outcome }: Finished) {
+        match outcome {
+            Outcome::Proposed(proposals) => self.take_proposals(serial, proposals),
+            Outcome::Remeshed(made) => self.take_mesh(serial, made),
+            Outcome::Reshaped(made) => self.take_body(serial, made),
+            Outcome::Rigged(rigged) => self.take_rig(serial, rigged),
+            Outcome::Keyed(keyed) => self.take_key(serial, keyed),
+            Outcome::Imported(result) => self.take_import(result),
+            Outcome::Exported { folder, result } => self.take_export(&folder, result),
+            Outcome::Textured { path, texture } => self.take_texture(path, texture),
+            Outcome::Picked { path, at_once } => self.take_path(path, at_once),
+            Outcome::Broken { job, why } => {
+                self.break_off(serial);
                 self.messages.error(format!("{job} failed: {why}"));
             }
-            other => self.take_file_report(other),
+        }
+    }
+
+    /// Nobody waits for a job any more that broke.
+    fn break_off(&mut self, serial: u64) {
+        let jobs = [
+            &mut self.discovery.running,
+            &mut self.meshing.running,
+            &mut self.rigging.running,
+            &mut self.keying,
+            &mut self.files.running,
+        ];
+        for running in jobs {
+            if Running::is(running.as_ref(), serial) {
+                *running = None;
+            }
+        }
+        if self.files.running.is_none() {
+            self.files.working = None;
         }
     }
 }
@@ -459,6 +500,9 @@ impl Session {
 impl Drop for Session {
     fn drop(&mut self) {
         self.cancel_propose();
+        self.cancel_remesh();
+        self.cancel_keying();
+        self.cancel_rig();
     }
 }
 

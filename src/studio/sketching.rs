@@ -2,37 +2,24 @@
 //!
 //! The drawing is part of the document, so that every stroke can be undone; the body stays as it is until a new one is made.
 
+use super::canvas::Camera;
 use super::change::Change;
-use super::jobs::{Made, Report};
+use super::jobs::Outcome;
 use super::session::{Mode, Session};
-use super::viewport::camera::Camera;
+use super::words;
 use crate::design::Design;
-use crate::design::edit::EditError;
-use crate::design::reshape::{Body, reshape};
+use crate::operations::reshape::{self, Error, Note, Options, Reshaped, Source};
+use crate::operations::{Context, FiberCount};
 use crate::outline::drawing::{Item, Primitive};
-use crate::outline::{Changes, Drawing, Import, Outline};
+use crate::outline::{Drawing, Outline};
 
-/// What a press on the paper does.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Pencil {
-    /// Picks out and moves parts and their points.
-    #[default]
-    Select,
-    /// Follows the hand.
-    Sketch,
-    /// A corner a click.
-    Polygon,
-    Circle,
-    Capsule,
-    /// A line for tendons to run along, a point a click.
-    Track,
-}
+/// The tool that an empty sheet begins with.
+pub const FREEHAND: &str = "tool.freehand";
 
 /// What is asked for while the outline is drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Sketch {
     Open(bool),
-    Take(Pencil),
     /// Whether new parts are cut out.
     Cut(bool),
     /// A part or a track, and a point of it.
@@ -45,7 +32,6 @@ pub enum Sketch {
 #[derive(Default)]
 pub struct Sketching {
     pub open: bool,
-    pub pencil: Pencil,
     pub cut: bool,
     /// What is picked out, and which point of a path or track.
     pub item: Option<Item>,
@@ -79,14 +65,16 @@ impl Session {
                 self.mode = Mode::Pose;
                 self.clamp();
             }
-            Sketch::Take(pencil) => self.sketching.pencil = pencil,
             Sketch::Cut(cut) => self.sketching.cut = cut,
             Sketch::Select(item, point) => {
                 self.sketching.item = item;
                 self.sketching.point = point;
                 self.clamp_sketch();
             }
-            Sketch::Camera(camera) => self.sketching.camera = camera,
+            Sketch::Camera(camera) => {
+                self.sketching.camera = camera;
+                self.look.zoom = None;
+            }
             Sketch::MakeBody => self.start_body(),
         }
     }
@@ -133,32 +121,42 @@ impl Session {
         if self.meshing.running.is_some() {
             return;
         }
-        let resolution = self.resolution();
-        let drawing = self.drawing().clone();
-        let serial = self.begin_meshing();
-        self.jobs.start("Meshing", move || {
-            let imported = drawing.import(&Import::default()).map_err(|e| e.to_string());
-            let made = imported.and_then(|imported| {
-                let (changes, corner) = (imported.changes.clone(), imported.drawn_box[0]);
-                let body = Body::with_fibers(imported, resolution.fibers, resolution.finer, corner);
-                Ok(Made::Body(body.map_err(|e| e.to_string())?, changes))
-            });
-            Report::Meshed { serial, made: made.map(Box::new) }
-        });
+        let fibers = match self.meshing.wanted {
+            None => FiberCount::Usual,
+            // What an empty sheet begins with was nobody's wish.
+            Some(resolution) if self.sketching.fresh => FiberCount::AtLeast(resolution.fibers),
+            Some(resolution) => FiberCount::Exactly(resolution.fibers),
+        };
+        let options = Options { fibers, finer: self.resolution().finer, ..Options::default() };
+        let (design, drawing) = (self.design().clone(), self.drawing().clone());
+        self.meshing.running = Some(self.jobs.start("Meshing", move |cancel| {
+            let made = reshape::prepare(&design, Source::Drawing(&drawing), &options, &Context::new(cancel));
+            Outcome::Reshaped(made.map(Box::new))
+        }));
     }
 
-    pub(super) fn take_body(&mut self, body: Body, changes: &Changes) {
-        let report = match self.history.edit("New body", |design| Ok::<_, EditError>(reshape(design, body))) {
+    /// Gives the design as it is by now the body that was drawn.
+    pub(super) fn take_body(&mut self, serial: u64, made: Result<Box<Reshaped>, Error>) {
+        if !self.is_meshed(serial) {
+            return;
+        }
+        let told = made.as_ref().map(|made| (words::changes(&made.changes).collect::<Vec<_>>(), made.notes.clone()));
+        let (lines, notes) = told.unwrap_or_default();
+        let made = made.and_then(|made| Ok(self.history.edit("New body", |design| made.apply(design))?));
+        let report = match made {
             Ok(report) => report,
-            Err(error) => return self.messages.error(format!("New body: {error}")),
+            Err(error) => return self.messages.error(format!("New body: {}", words::unshaped(&error))),
         };
         self.meshing.wanted = None;
         self.look.camera = None;
         self.sketching.fresh = false;
         self.sketch(Sketch::Open(false));
         self.tell_carried(&report);
-        for line in changes.lines() {
+        for line in lines {
             self.messages.info(line);
+        }
+        for Note::MoreFibers { asked, count } in notes {
+            self.messages.info(words::more_fibers(asked, count));
         }
     }
 }

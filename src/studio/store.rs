@@ -1,8 +1,8 @@
 //! What the window keeps between its runs, in the platform's folder for the state of programs (`~/.local/state/plushwright` by the XDG
 //! rules): work that was not saved, which files are open, recent files and settings.
 
+use super::canvas::Plushie;
 use super::session::Views;
-use super::viewport::Plushie;
 use crate::engine::Quality;
 use crate::files::{self, sha256};
 use crate::picture::Shown;

@@ -1,6 +1,6 @@
 //! The texture of the document, read on a thread: once for every file that it names.
 
-use super::jobs::Report;
+use super::jobs::Outcome;
 use super::session::Session;
 use crate::design::{file, texture};
 use crate::files::shown;
@@ -59,10 +59,10 @@ impl Session {
         self.texturing = Texturing { path: path.clone(), found: Found::Nothing };
         if let Some(path) = path {
             let design = self.design().clone();
-            self.jobs.start("The texture", move || {
+            self.jobs.start("The texture", move |_| {
                 let may = texture::find(&design, &from).map_err(|error| error.to_string());
                 let texture = may.and_then(|_| Texture::read(&path).map(Arc::new).map_err(|error| error.to_string()));
-                Report::Textured { path, texture }
+                Outcome::Textured { path, texture }
             });
         }
     }

@@ -161,6 +161,23 @@ fn only_the_room_of_files_writes() {
     }
 }
 
+#[test]
+fn only_the_commands_name_options_of_the_command_line() {
+    let option = |code: &str| {
+        code.match_indices("--").any(|(at, _)| {
+            let before = code[..at].chars().next_back();
+            let after = code[at + 2..].chars().next();
+            after.is_some_and(|c| c.is_ascii_lowercase()) && before.is_some_and(|c| c != '-' && !is_word(c))
+        })
+    };
+    assert!(option("\"; --holes fill makes\"") && option("\"--height\"") && !option("\"---x\"") && !option("a -- b"));
+    for source in sources().iter().filter(|source| source.room() != "commands" && source.room() != "main") {
+        let named: Vec<&str> = source.code.lines().filter(|line| option(line)).collect();
+        assert!(named.is_empty(), "src/{} names an option of the command line: {named:?}", source.path);
+        assert!(!source.code.contains("`plushwright "), "src/{} names a command", source.path);
+    }
+}
+
 /// A file that grows beyond this many lines may hold two ideas. Worth a look, not a failure.
 const LONG: usize = 400;
 

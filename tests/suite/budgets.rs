@@ -4,7 +4,7 @@
 use plushwright::bench::extremes::scenes::{aim, bar, bent_arm, fibers_on_all_edges, pin};
 use plushwright::physics::Model;
 use plushwright::problem::file::{DragData, SoftIkData};
-use plushwright::problem::{Failure, Options, Problem, answer, solve};
+use plushwright::problem::{Failure, Options, Problem, model, solve};
 use plushwright::soft_ik::{Actuation, Budget, Objective, PointTarget, Quality, Question, Tracker, Winch, method};
 use std::cell::Cell;
 use std::time::{Duration, Instant};
@@ -18,7 +18,7 @@ struct Scene {
 
 fn scene() -> Scene {
     let problem = bent_arm(0.0);
-    let model = answer::model(&problem).unwrap();
+    let model = model(&problem).unwrap();
     let winch = |e: usize| Winch { members: vec![(e, 1.0)], lower: 0.0, upper: 0.5 * problem.elements[e].alpha0 };
     let count = problem.elements.len();
     let actuation = Actuation { winches: (0..count).map(winch).collect(), fixed: vec![0.0; count] };

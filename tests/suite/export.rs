@@ -325,7 +325,7 @@ fn followed(motion: &str, rows: &[Vec<String>], nodes: usize) -> Vec<(f64, f64)>
     let at = |row: usize, column: usize| rows[row][column].parse::<f64>().expect("a figure");
     (1..=nodes)
         .map(|node| {
-            let (mut x, mut v, mut t) = (0.0_f64, 0.0_f64, at(0, 0));
+            let (mut x, mut v) = (0.0_f64, 0.0_f64);
             let (mut speed, mut acceleration, mut loaded) = (0.0, 0.0, 0.0);
             let (mut lag, mut highest, mut step) = (0.0_f64, 0.0_f64, 0);
             for (_, name, value) in commands(motion).into_iter().filter(|c| c.0 == node) {
@@ -346,7 +346,6 @@ fn followed(motion: &str, rows: &[Vec<String>], nodes: usize) -> Vec<(f64, f64)>
                                 * speed.min((2.0 * acceleration * rest.abs()).sqrt()).min(rest.abs() / dt.max(1e-9));
                             v += (want - v).clamp(-acceleration * dt, acceleration * dt);
                             x += v * dt;
-                            t += dt;
                             let part = (k + 1) as f64 / ticks;
                             lag = lag.max((x - (from + (to - from) * part)).abs());
                             highest = highest.max(x);

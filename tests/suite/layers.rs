@@ -162,9 +162,9 @@ fn layers_of_a_dxf_and_of_its_blocks() {
     );
     assert!(refusal(&file, &["notes"]).contains("nothing is painted"));
     let whole = import(&file, &Import { pieces: Pieces::Largest, ..Import::default() }).unwrap();
-    assert!(whole.changes.notes.iter().any(|note| note.contains("text")));
+    assert!(whole.changes.notes.iter().any(|note| note.to_string().contains("text")));
     let part = import(&file, &options(&["Ears"])).unwrap();
-    assert!(!part.changes.notes.iter().any(|note| note.contains("text")), "{:?}", part.changes.notes);
+    assert!(!part.changes.notes.iter().any(|note| note.to_string().contains("text")), "{:?}", part.changes.notes);
 }
 
 #[test]

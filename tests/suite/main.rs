@@ -19,6 +19,10 @@ mod minimum;
 mod networks;
 mod networks_reference;
 mod outlines;
+#[cfg(feature = "studio")]
+mod palette;
+#[cfg(feature = "studio")]
+mod parity;
 mod physics;
 mod problems;
 mod properties;

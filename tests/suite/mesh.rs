@@ -3,7 +3,7 @@
 use crate::support::shapes::{nasty, ring};
 use plushwright::design::reshape::{self, Body};
 use plushwright::design::{Design, edit, remesh};
-use plushwright::mesh::quality::{Fit, Quality};
+use plushwright::mesh::quality::{Fit, MeshQuality};
 use plushwright::mesh::{self, MeshError, Request, Size};
 use plushwright::outline::{self, Drawing, Import, Outline, Point, polygon, svg};
 
@@ -13,8 +13,8 @@ const KINDS: usize = 12;
 const SEEDS: u64 = 1;
 
 /// What must hold for every mesh; its quality.
-fn check(name: &str, outline: &Outline, fibers: usize, mesh: &mesh::Mesh) -> (Quality, Fit) {
-    let (quality, fit) = (Quality::of(mesh), Fit::of(mesh, outline));
+fn check(name: &str, outline: &Outline, fibers: usize, mesh: &mesh::Mesh) -> (MeshQuality, Fit) {
+    let (quality, fit) = (MeshQuality::of(mesh), Fit::of(mesh, outline));
     assert_eq!(mesh.validate(), Ok(()), "{name}");
     assert_eq!(mesh.boundary().len(), 1 + outline.holes.len(), "{name}");
     assert!(quality.edges.abs_diff(fibers) * 100 <= 3 * fibers, "{name}: {} of {fibers}", quality.edges);
@@ -111,7 +111,7 @@ const DRAWING: &str = "(parts: [
 #[test]
 fn the_tracks_of_a_drawing_are_edges_of_every_mesh_of_it() {
     let imported = Drawing::read(DRAWING.as_bytes()).unwrap().import(&Import::default()).unwrap();
-    let Body { outline, mesh, drawing, .. } = Body::with_fibers(imported.clone(), 400, 1, [0.0; 2]).unwrap();
+    let Body { outline, mesh, drawing, .. } = Body::new(imported.clone(), &Request::fibers(400), 1, [0.0; 2]).unwrap();
     let mut design = Design { drawing, ..Design::new("limb", outline, mesh) };
     // 30 mm to the right of the corner, and 30 mm above it.
     assert_eq!(design.tracks(), [[[160.0, 50.0], [90.0, 35.0], [-1e7 + 30.0, 35.0]]]);
@@ -121,14 +121,15 @@ fn the_tracks_of_a_drawing_are_edges_of_every_mesh_of_it() {
         design.validate().unwrap();
         let off = off_edges(&design.mesh, &inside);
         assert!(off.is_empty(), "{what}: {off:?}");
-        let low = Quality::of(&design.mesh).below_20_deg;
+        let low = MeshQuality::of(&design.mesh).below_20_deg;
         assert!(low * 1000 <= design.mesh.triangles.len(), "{what}: {low}");
     };
     check(&design, "new");
     let request = Request { tracks: design.tracks().to_vec(), ..Request::fibers(800) };
-    remesh::remesh(&mut design, &request, 2).unwrap();
+    let (mesh, fibers) = remesh::body(&design.outline, &request, 2).unwrap();
+    remesh::carry(&mut design, mesh, fibers);
     check(&design, "another resolution");
-    let body = Body::with_fibers(imported, 500, 1, [0.0; 2]).unwrap();
+    let body = Body::new(imported, &Request::fibers(500), 1, [0.0; 2]).unwrap();
     reshape::reshape(&mut design, body);
     check(&design, "another body");
     // A silhouette that was not drawn keeps them too.
@@ -136,7 +137,7 @@ fn the_tracks_of_a_drawing_are_edges_of_every_mesh_of_it() {
     let mut plain = outline::import(&plain, &Import::default()).unwrap();
     edit::set_tracks(&mut design, vec![vec![[120.0, 110.0], [180.0, 110.0]]]).unwrap();
     reshape::keep_tracks(&design, &mut plain);
-    reshape::reshape(&mut design, Body::with_fibers(plain, 571, 1, [0.0; 2]).unwrap());
+    reshape::reshape(&mut design, Body::new(plain, &Request::fibers(571), 1, [0.0; 2]).unwrap());
     assert!(off_edges(&design.mesh, &[[120.0, 110.0], [180.0, 110.0]]).is_empty());
 }
 
@@ -145,7 +146,7 @@ fn a_size_in_mm_is_met() {
     let outline = Outline { outer: ring([0.0; 2], 200, |_| 100.0), holes: vec![] };
     for length in [6.0, 12.0, 25.0] {
         let request = Request { size: Size::EdgeMm(length), ..Request::fibers(0) };
-        let mean = Quality::of(&mesh::build(&outline, &request).unwrap().mesh).mean_edge;
+        let mean = MeshQuality::of(&mesh::build(&outline, &request).unwrap().mesh).mean_edge;
         assert!((mean / length - 1.0).abs() < 0.15, "{mean} {length}");
     }
 }

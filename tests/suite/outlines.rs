@@ -1,6 +1,6 @@
 //! Outlines of real files: the six bundled ones with meshes fit for posing, one that few counts can mesh, and mutations of all formats.
 
-use plushwright::mesh::{self, MeshError, quality::Quality};
+use plushwright::mesh::{self, MeshError, quality::MeshQuality};
 use plushwright::outline::{Import, Pieces, import, svg};
 
 #[test]
@@ -23,7 +23,7 @@ fn the_bundled_outlines_mesh_well() {
         assert!((250.0..=300.0).contains(&longer) && outline.holes.is_empty(), "{name}: {high:?}");
 
         let mesh = mesh::generate(&outline, fibers).unwrap();
-        let quality = Quality::of(&mesh);
+        let quality = MeshQuality::of(&mesh);
         assert_eq!(mesh.validate(), Ok(()));
         assert_eq!(quality.edges, fibers, "{name}");
         assert!(quality.min_angle_deg > least_deg && quality.bridges == 0, "{name}: {quality:?}");

@@ -6,7 +6,7 @@ use nalgebra::Matrix2;
 use plushwright::physics::pattern::{Pattern, Scatter};
 use plushwright::physics::{
     Body, Cause, Contractile, Element, Energy, Gravity, Ground, HessianForm, Hyperelastic, Kind, Law, MaterialKind,
-    Model, NeoHookean, Pin, Pins, StVenantKirchhoff, StaticsSettings, TermKind, statics,
+    Model, NeoHookean, PinSpring, Pins, StVenantKirchhoff, StaticsSettings, TermKind, statics,
 };
 
 /// A smooth, uninverted deformation of unit-sized bodies: turned, stretched and bent.
@@ -70,7 +70,8 @@ fn terms() -> Vec<NamedTerm> {
         terms.push((format!("{name}, given tension"), Box::new(cable)));
     }
     terms.push(("pins on nodes".into(), Box::new(mesh.left_pins(40.0))));
-    let barycentric = Pin { nodes: vec![9, 16, 10], weights: vec![0.5, 0.2, 0.3], anchor: [0.1, 0.9], stiffness: 12.0 };
+    let barycentric =
+        PinSpring { nodes: vec![9, 16, 10], weights: vec![0.5, 0.2, 0.3], anchor: [0.1, 0.9], stiffness: 12.0 };
     terms.push(("pin on a triangle".into(), Box::new(Pins { pins: vec![barycentric] })));
     let areas = mesh.body(neo_hookean(), None).nodal_areas(mesh.nodes.len());
     let (nodes, triangles) = (&mesh.nodes, &mesh.triangles);
@@ -204,7 +205,12 @@ fn whole(material: Box<dyn Hyperelastic>) -> Model {
     elements.push(stretched(&[0, 9, 17, 25, 34], 0.04, 4.0, &x));
     elements.push(stretched(&[5, 20, 5], 0.04, 0.5, &x));
     let mut pins = mesh.left_pins(30.0);
-    pins.pins.push(Pin { nodes: vec![9, 16, 10], weights: vec![0.5, 0.2, 0.3], anchor: [0.1, 0.9], stiffness: 12.0 });
+    pins.pins.push(PinSpring {
+        nodes: vec![9, 16, 10],
+        weights: vec![0.5, 0.2, 0.3],
+        anchor: [0.1, 0.9],
+        stiffness: 12.0,
+    });
     let areas = mesh.body(neo_hookean(), None).nodal_areas(mesh.nodes.len());
     let gravity = Gravity::new(&areas, 0.6, [0.3, -9.8]);
     let mut model = mesh.model(material, elements, pins, vec![Box::new(gravity)]);
@@ -383,7 +389,7 @@ fn patch_tests_are_exact_on_irregular_meshes() {
             let k = 50.0;
             let pins = boundary(&mesh).into_iter().map(|n| {
                 let at = [0, 1].map(|a| expected[2 * n + a] + pull[2 * n + a] / k);
-                Pin::node(n, at, k)
+                PinSpring::node(n, at, k)
             });
             let mut model = mesh.model(material(), Vec::new(), Pins { pins: pins.collect() }, Vec::new());
             let rest = model.rest.clone();
@@ -527,7 +533,7 @@ fn free_bodies_come_to_rest_up_to_their_rigid_motion() {
     assert!(largest_difference(&lengths(&free, &again.x), &reference) < 1e-7);
     // One pin holds a point; the shape is the same, whatever the stiffness.
     for stiffness in [1e-3, 1.0, 1e10] {
-        let pin = Pin::node(mesh.at(3, 1), [0.5, 0.5], stiffness);
+        let pin = PinSpring::node(mesh.at(3, 1), [0.5, 0.5], stiffness);
         let mut one = mesh.model(neo_hookean(), bent(&mesh), Pins { pins: vec![pin] }, Vec::new());
         assert_eq!(one.free_pieces(), 1);
         let state = settle(&mut one, &rest);
@@ -536,7 +542,7 @@ fn free_bodies_come_to_rest_up_to_their_rigid_motion() {
         assert!((state.x[k] - 0.5).hypot(state.x[k + 1] - 0.5) < 1e-6);
     }
     // Two pins at the same rest point still leave a rotation free.
-    let twice = Pin::node(mesh.at(3, 1), [0.5, 0.5], 10.0);
+    let twice = PinSpring::node(mesh.at(3, 1), [0.5, 0.5], 10.0);
     let model = mesh.model(neo_hookean(), bent(&mesh), Pins { pins: vec![twice.clone(), twice] }, Vec::new());
     assert_eq!(model.free_pieces(), 1);
 }
@@ -547,7 +553,7 @@ fn one_pin_under_gravity_hangs_straight_down_and_none_is_an_error() {
     let areas = mesh.body(neo_hookean(), None).nodal_areas(mesh.nodes.len());
     let gravity = || -> Vec<Box<dyn Energy>> { vec![Box::new(Gravity::new(&areas, 0.05, [0.0, -1.0]))] };
     let corner = mesh.at(0, 3);
-    let pin = Pin::node(corner, mesh.nodes[corner], 50.0);
+    let pin = PinSpring::node(corner, mesh.nodes[corner], 50.0);
     let mut model = mesh.model(neo_hookean(), Vec::new(), Pins { pins: vec![pin] }, gravity());
     let rest = model.rest.clone();
     let state = settle(&mut model, &rest);
@@ -570,7 +576,7 @@ fn pins_on_every_node_and_very_stiff_pins_hold() {
     let mesh = bar(1.0, 0.3, 10, 3);
     let rest = mesh.flat();
     for stiffness in [1.0, 1e4, 1e10] {
-        let pins = (0..mesh.nodes.len()).map(|n| Pin::node(n, mesh.nodes[n], stiffness)).collect();
+        let pins = (0..mesh.nodes.len()).map(|n| PinSpring::node(n, mesh.nodes[n], stiffness)).collect();
         let mut model = mesh.model(neo_hookean(), bent(&mesh), Pins { pins }, Vec::new());
         let state = settle(&mut model, &rest);
         let moved = largest_difference(&state.x, &rest);

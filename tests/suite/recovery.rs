@@ -279,6 +279,12 @@ fn a_file_that_was_changed_is_not_replaced_in_silence() {
     change(&mut window);
     press(&mut window, Modifiers::COMMAND, Key::S);
     assert!(!session(&window).history().is_modified());
+
+    fs::remove_file(&path).unwrap();
+    Command::new("mkfifo").arg(&path).status().unwrap();
+    change(&mut window);
+    press(&mut window, Modifiers::COMMAND, Key::S);
+    assert!(messages(&window).contains("nothing would be kept") && session(&window).history().is_modified());
 }
 
 #[test]
@@ -302,6 +308,11 @@ fn saving_over_another_file_is_a_question() {
     press(&mut window, Modifiers::NONE, Key::Enter);
     click(&mut window, "Replace it");
     assert_eq!(file::read(&notes).unwrap(), pig());
+    press(&mut window, Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
+    type_path(&mut window, Path::new("/dev/null"));
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    assert!(messages(&window).contains("nothing would be kept"));
+    click(&mut window, "Cancel");
     // A read-only file says so, and what was to follow does not.
     let mut permissions = fs::metadata(&notes).unwrap().permissions();
     permissions.set_readonly(true);

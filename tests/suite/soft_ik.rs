@@ -3,7 +3,7 @@
 use crate::support::Random;
 use crate::support::bodies::{self, Mesh, bar, dot, largest, largest_difference, neo_hookean};
 use plushwright::physics::{
-    Energy, HessianForm, Hyperelastic, Model, NeoHookean, Pin, Pins, StVenantKirchhoff, StaticsSettings, statics,
+    Energy, HessianForm, Hyperelastic, Model, NeoHookean, PinSpring, Pins, StVenantKirchhoff, StaticsSettings, statics,
 };
 use plushwright::soft_ik::contraction::GaussNewton;
 use plushwright::soft_ik::gradient::Gradient;
@@ -53,7 +53,7 @@ fn rigged(seed: u64) -> (Model, Actuation, Objective) {
     let fixed = (0..elements.len()).map(|_| random.between(-0.02, 0.04)).collect();
     let actuation = Actuation { winches, fixed };
     let mut pins = mesh.left_pins(20.0);
-    pins.pins.push(Pin {
+    pins.pins.push(PinSpring {
         nodes: vec![mesh.at(4, 1), mesh.at(5, 1)],
         weights: vec![0.3, 0.7],
         anchor: [0.6, 0.2],
@@ -498,7 +498,7 @@ fn no_winches_and_no_targets_are_answered_with_rest() {
 #[test]
 fn a_free_body_is_posed_up_to_its_rigid_motion() {
     let mesh = bar(1.0, 0.25, 8, 2);
-    let pin = Pin::node(mesh.at(0, 1), mesh.nodes[mesh.at(0, 1)], 100.0);
+    let pin = PinSpring::node(mesh.at(0, 1), mesh.nodes[mesh.at(0, 1)], 100.0);
     let mut model = mesh.model(neo_hookean(), mesh.fibers(3.0), Pins { pins: vec![pin] }, Vec::new());
     let objective = fiber_objective(&mesh, &model, vec![target(mesh.at(8, 1), [0.9, 0.125])]);
     let actuation = muscles(&model, 0.35, -1.0);

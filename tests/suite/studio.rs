@@ -11,19 +11,20 @@ use plushwright::outline::{Outline, polygon};
 use plushwright::picture::palette::Theme;
 use plushwright::rigging::Proposal;
 use plushwright::studio::app::Studio;
+use plushwright::studio::commands::command::Scope;
 use plushwright::studio::messages::Level;
 use plushwright::studio::session::{Selection, Services, Session, Views};
-use plushwright::studio::sketching::Pencil;
+use plushwright::studio::tools::taken;
 use plushwright::studio::viewport::Plushie;
 use plushwright::studio::viewport::camera::Camera;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
-type Window = Harness<'static, Option<Studio>>;
+pub type Window = Harness<'static, Option<Studio>>;
 
 /// A bar of 6 x 2 squares, 120 x 40 mm, its left end pinned.
-fn bar() -> Design {
+pub fn bar() -> Design {
     let (across, up) = (7, 3);
     let nodes = (0..up).flat_map(|j| (0..across).map(move |i| [20.0 * i as f64, 20.0 * j as f64])).collect();
     let mut triangles = Vec::new();
@@ -70,11 +71,11 @@ fn services() -> Services {
     }
 }
 
-fn window(design: Design) -> Window {
+pub fn window(design: Design) -> Window {
     window_with(design, services())
 }
 
-fn window_with(design: Design, services: Services) -> Window {
+pub fn window_with(design: Design, services: Services) -> Window {
     let mut given = Some((design, services));
     let mut window = Harness::builder().with_max_steps(32).with_size(vec2(1280.0, 800.0)).build_ui_state(
         move |ui, studio: &mut Option<Studio>| {
@@ -90,19 +91,19 @@ fn window_with(design: Design, services: Services) -> Window {
     window
 }
 
-fn session(window: &Window) -> &Session {
+pub fn session(window: &Window) -> &Session {
     window.state().as_ref().expect("made in the first frame").session()
 }
 
 /// Runs frames until the solver has answered and no thread is busy.
-fn settle(window: &mut Window) {
+pub fn settle(window: &mut Window) {
     wait(window, |s| {
         s.is_settled() && s.discovery().running.is_none() && !s.is_working() && s.meshing().running.is_none()
     });
     window.run();
 }
 
-fn wait(window: &mut Window, done: impl Fn(&Session) -> bool) {
+pub fn wait(window: &mut Window, done: impl Fn(&Session) -> bool) {
     let started = Instant::now();
     loop {
         window.step();
@@ -114,25 +115,25 @@ fn wait(window: &mut Window, done: impl Fn(&Session) -> bool) {
     }
 }
 
-fn click(window: &mut Window, name: &str) {
+pub fn click(window: &mut Window, name: &str) {
     window.get_by_label(name).click();
     settle(window);
 }
 
-fn press(window: &mut Window, modifiers: Modifiers, key: Key) {
+pub fn press(window: &mut Window, modifiers: Modifiers, key: Key) {
     window.key_press_modifiers(modifiers, key);
     settle(window);
 }
 
 /// Where a point of the body is on the screen; both views fit the bar in the same way.
-fn on_screen(window: &Window, view: &str, p: [f64; 2]) -> Pos2 {
+pub fn on_screen(window: &Window, view: &str, p: [f64; 2]) -> Pos2 {
     let rect = window.get_by_label(view).rect();
     let scale = (rect.width() / (120.0 * 1.32)).min(rect.height() / (40.0 * 1.32));
     let center = rect.center();
     pos2(center.x + (p[0] as f32 - 60.0) * scale, center.y - (p[1] as f32 - 20.0) * scale)
 }
 
-fn drag(window: &mut Window, from: Pos2, to: Pos2) {
+pub fn drag(window: &mut Window, from: Pos2, to: Pos2) {
     window.hover_at(from);
     window.step();
     window.drag_at(from);
@@ -146,12 +147,12 @@ fn drag(window: &mut Window, from: Pos2, to: Pos2) {
 }
 
 /// Drags the free end of the bar up.
-fn pose(window: &mut Window, view: &str) {
+pub fn pose(window: &mut Window, view: &str) {
     let (from, to) = (on_screen(window, view, [120.0, 20.0]), on_screen(window, view, [115.0, 45.0]));
     drag(window, from, to);
 }
 
-fn with_network() -> Window {
+pub fn with_network() -> Window {
     let mut design = bar();
     design.networks.push(network());
     let mut window = window(design);
@@ -637,7 +638,7 @@ fn another_resolution_can_be_had_and_undone() {
 }
 
 /// Where a place of the drawing is on the screen, while the sheet shows the box from `low` to `high`.
-fn on_sheet(window: &Window, (low, high): ([f64; 2], [f64; 2]), p: [f64; 2]) -> Pos2 {
+pub fn on_sheet(window: &Window, (low, high): ([f64; 2], [f64; 2]), p: [f64; 2]) -> Pos2 {
     let rect = window.get_by_label("Drawing sheet").rect();
     Camera::fit(low, high, rect.size()).to_screen(rect, p)
 }
@@ -798,7 +799,7 @@ fn a_polygon_that_is_not_closed_is_kept() {
         _ => 0,
     };
     assert_eq!((parts(&window).len(), corners(&parts(&window)[1])), (2, 3));
-    assert_eq!(session(&window).sketching().pencil, Pencil::Circle);
+    assert_eq!(taken(session(&window), Scope::Outline).id, "tool.circle");
     press(&mut window, Modifiers::COMMAND, Key::Z);
     assert_eq!(*session(&window).design(), before);
     click(&mut window, "Polygon");

@@ -2,7 +2,7 @@
 
 use plushwright::bench::winding::rigs::{Rig, rig};
 use plushwright::engine::compile::{Plushie, View, compile, objective};
-use plushwright::engine::solver::target_error;
+use plushwright::engine::target_error;
 use plushwright::engine::{self, Effort, Outcome, Quality, Request, Shape, Solver};
 use plushwright::soft_ik::contraction::GaussNewton;
 use plushwright::soft_ik::winding::{Care, Search, distance, wound};

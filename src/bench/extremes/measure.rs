@@ -3,7 +3,7 @@
 use super::reference;
 use super::row::{Bar, Case, Outcome};
 use crate::physics::statics::norm;
-use crate::problem::{self, Options, Problem, Quality, Statics, answer};
+use crate::problem::{self, Options, Problem, Quality, Statics, model};
 use serde_json::Value;
 use std::time::{Duration, Instant};
 
@@ -112,7 +112,7 @@ fn judge_pose(problem: &Problem, pose: &Value, outcome: &mut Outcome) -> Result<
     let x: Vec<f64> = numbers(&pose["x"]).ok_or_else(|| missing("x"))?;
     let contractions = numbers(&pose["alpha_c"]).ok_or_else(|| missing("alpha_c"))?;
     let held = Problem { contractions: Some(contractions), ..problem.clone() };
-    let model = answer::model(&held).map_err(|e| e.to_string())?;
+    let model = model(&held).map_err(|e| e.to_string())?;
     let mut gradient = vec![0.0; x.len()];
     model.gradient(&x, &mut gradient);
     let residual = norm(&gradient) / model.force_scale(&x).max(f64::MIN_POSITIVE);
@@ -151,7 +151,7 @@ fn unsound(state: &Statics) -> Option<String> {
 fn rigid_motions(problem: &Problem) -> (usize, usize) {
     let motions =
         |m: crate::physics::Model| (m.loose().iter().map(|l| if l.pinned == 0 { 3 } else { 1 }).sum(), m.pieces());
-    answer::model(problem).map_or((0, 1), motions)
+    model(problem).map_or((0, 1), motions)
 }
 
 /// Longer side of the rest shape's box, m.

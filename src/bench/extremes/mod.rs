@@ -46,6 +46,9 @@ pub fn rows(short: bool) -> Vec<Row> {
 
 impl Extremes {
     /// The table, and the rows that do not pass.
+    ///
+    /// # Errors
+    /// The study was cancelled, or the table's plot cannot be drawn.
     pub fn run(&self, session: &Session) -> Result<(Report, Option<String>), BenchError> {
         let judged = self.judge(session)?;
         let failing: Vec<&str> = judged.iter().filter(|j| !j.passes()).map(|j| j.row.name).collect();
@@ -78,6 +81,9 @@ impl Extremes {
     }
 
     /// Runs every case of the rows asked for.
+    ///
+    /// # Errors
+    /// The study was cancelled.
     pub fn judge(&self, session: &Session) -> Result<Vec<Judged>, BenchError> {
         let mut judged = Vec::new();
         for row in self.wanted() {

@@ -1,7 +1,7 @@
 //! A mesh against the outline it came from.
 
 use crate::mesh::Mesh;
-use crate::mesh::quality::{self, Quality};
+use crate::mesh::quality::{self, MeshQuality};
 use crate::outline::{Outline, Point, polygon};
 
 /// Samples along a side of the outline, at least, and along its box's height: how finely the boundary is compared.
@@ -29,7 +29,7 @@ pub(super) struct Grade {
 
 impl Grade {
     pub fn of(mesh: &Mesh, outline: &Outline) -> Self {
-        let quality = Quality::of(mesh);
+        let quality = MeshQuality::of(mesh);
         let rim: Vec<Vec<Point>> =
             mesh.boundary().iter().map(|ring| ring.iter().map(|&n| mesh.nodes[n]).collect()).collect();
         let sharp = sharp_nodes(mesh);

@@ -2,7 +2,7 @@
 
 use super::draw::Drawn;
 use crate::physics::Model;
-use crate::problem::{self, Answered, Failure, Options, Problem, Quality, answer};
+use crate::problem::{self, Answered, Failure, Options, Problem, Quality, model};
 use serde_json::Value;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
@@ -57,6 +57,9 @@ impl End {
 }
 
 /// Runs a problem; what is wrong with what came out is the error.
+///
+/// # Errors
+/// What was violated, in words.
 pub fn problem(drawn: &Drawn) -> Result<End, String> {
     let clock = Instant::now();
     let run = catch_unwind(AssertUnwindSafe(|| run(drawn)));
@@ -110,7 +113,7 @@ fn judge(problem: &Problem, answered: &Answered) -> Result<(), String> {
     if let Some(place) = not_finite(document, "") {
         return Err(format!("{place} is not finite"));
     }
-    let body = answer::model(problem).map_err(|e| e.to_string())?;
+    let body = model(problem).map_err(|e| e.to_string())?;
     let mut poses = vec![("x", &document["x"])];
     if let Some(ik) = document.get("soft_ik") {
         poses.push(("soft_ik.x", &ik["x"]));

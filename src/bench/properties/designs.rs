@@ -20,6 +20,9 @@ const EDITS: usize = 40;
 const SHOWN_EVERY: usize = 10;
 
 /// A sequence of edits; what is wrong with what came of it is the error. Returns how many edits took effect.
+///
+/// # Errors
+/// What was violated, in words.
 pub fn sequence(seed: u64, number: u64) -> Result<usize, String> {
     let run = catch_unwind(AssertUnwindSafe(|| run(Random::of(seed, "design", number))));
     run.map_err(|_| "panic".to_owned())?

@@ -38,12 +38,19 @@ pub struct Found {
 
 impl Properties {
     /// The counts, and whether anything was violated.
+    ///
+    /// # Errors
+    /// The study was cancelled.
     pub fn run(&self, session: &Session) -> Result<(Report, Option<String>), BenchError> {
         let found = self.try_out(session)?;
         let count = found.violations.len();
         Ok((self.report(&found, session.seed), (count > 0).then(|| format!("{count} violations"))))
     }
 
+    /// Runs all problems and sequences of edits.
+    ///
+    /// # Errors
+    /// The study was cancelled.
     pub fn try_out(&self, session: &Session) -> Result<Found, BenchError> {
         let mut found = Found::default();
         for number in self.first..self.first + self.problems {

@@ -9,12 +9,12 @@
 pub mod rigs;
 
 use self::rigs::{Rig, rig};
-use super::report::significant;
+use super::figures::significant;
 use super::statistics::Summary;
 use super::{BenchError, Cell, Report, Session, Table};
 use crate::design::Target;
 use crate::engine::compile::{Plushie, View, compile, objective};
-use crate::engine::solver::target_error;
+use crate::engine::target_error;
 use crate::engine::{Effort, Quality, Question as Asked, Request, Shape, Solver};
 use crate::soft_ik::contraction::GaussNewton;
 use crate::soft_ik::winding::{self, Care, Search};
@@ -58,6 +58,10 @@ struct Scan {
 }
 
 impl Winding {
+    /// Runs the study.
+    ///
+    /// # Errors
+    /// A shape that cannot be meshed, or the study was cancelled.
     pub fn run(&self, session: &Session) -> Result<Report, BenchError> {
         let headings = [
             "rig",

@@ -30,6 +30,9 @@ pub struct Rig {
 }
 
 /// The rig of this number.
+///
+/// # Errors
+/// A name that is no shape, or a shape that cannot be meshed or compiled.
 pub fn rig(shape: &str, winches: usize, seed: u64, number: u64, stop: &dyn Fn() -> bool) -> Result<Rig, BenchError> {
     let mut random = Random::of(seed, &format!("{shape} winding {winches}"), number);
     let fibers = random.between(FIBERS[0], FIBERS[1]) as usize;

@@ -24,7 +24,7 @@ const PIN_MARK_MM: f64 = 3.0;
 /// Half the length of the ticks at the ends of the turning gap, mm.
 const GAP_TICK_MM: f64 = 2.5;
 
-/// Where a piece lies on the sheet.
+/// The place of a piece on the sheet.
 struct Placement {
     mirrored: bool,
     shift: Point,

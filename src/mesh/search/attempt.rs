@@ -1,14 +1,16 @@
 //! The meshes that are tried for one closeness: boundary spacings about the even one, each finished and checked.
 
 use super::budget::{REFINE_WORK, SMOOTH_WORK, VERTEX_WORK};
-use super::candidate::Candidate;
-use super::{Subject, most_nodes};
-use crate::mesh::quality::Quality;
+use super::found_mesh::FoundMesh;
+use super::subject::{Subject, most_nodes};
+use crate::mesh::boundary::Boundary;
+use crate::mesh::order::order;
+use crate::mesh::quality::MeshQuality;
 use crate::mesh::refine::{Fill, Refiner};
-use crate::mesh::sample::{Bends, Boundary, Closeness, Extra, sample};
+use crate::mesh::sample::{Bends, Closeness, Extra, sample};
 use crate::mesh::smooth::Sliding;
 use crate::mesh::symmetry::unfold;
-use crate::mesh::{Mesh, generate, smooth, tracks};
+use crate::mesh::{Mesh, smooth, tracks};
 
 /// Boundary spacings tried, relative to the evenly dense one.
 const SPACINGS: [f64; 18] =
@@ -49,10 +51,10 @@ impl<'a> Subject<'a> {
         fibers: usize,
         close: Closeness,
         effort: usize,
-        found: &mut Vec<Candidate>,
+        found: &mut Vec<FoundMesh>,
     ) -> bool {
         let mut patience = (PATIENCE / fibers.max(1)).clamp(LEAST_TRIES, MOST_TRIES);
-        let good = |found: &[Candidate]| found.iter().any(Candidate::is_good);
+        let good = |found: &[FoundMesh]| found.iter().any(FoundMesh::is_good);
         let before = found.len();
         let over = || self.spent.get() > effort || self.is_exhausted();
         'tried: for factor in SPACINGS {
@@ -91,7 +93,7 @@ impl<'a> Subject<'a> {
     }
 
     /// A mesh at a boundary spacing, if there is one with the asked count, or nearly.
-    fn attempt(&self, bends: &Bends, fill: Fill, fibers: usize, close: Closeness) -> Option<Candidate> {
+    fn attempt(&self, bends: &Bends, fill: Fill, fibers: usize, close: Closeness) -> Option<FoundMesh> {
         let mut near: Option<Refiner> = None;
         let own = if self.axis.is_some() { fibers / 2 + fibers / 4 } else { fibers };
         let most = most_nodes(self.rim.outline, own)?;
@@ -141,7 +143,7 @@ impl<'a> Subject<'a> {
     }
 
     /// Smooths, and checks what came out.
-    fn finish(&self, refiner: Refiner, close: Closeness) -> Option<Candidate> {
+    fn finish(&self, refiner: Refiner, close: Closeness) -> Option<FoundMesh> {
         let Refiner { mut tri, places, .. } = refiner;
         self.spend(SMOOTHING * tri.edges());
         self.budget.spend(SMOOTH_WORK * tri.edges());
@@ -149,15 +151,15 @@ impl<'a> Subject<'a> {
         let mut rim = Sliding { places, curves: self.rim.curves, stray: close.stray, mirror };
         smooth::smooth(&mut tri, &mut rim);
         let mut mesh = Mesh { nodes: tri.points, triangles: tri.corners };
-        generate::order(&mut mesh.triangles);
+        order(&mut mesh.triangles);
         if let Some(axis) = self.axis {
             let (low, high) = self.whole.bounding_box();
             mesh = unfold(&mesh, axis, (high[0] - low[0]).max(high[1] - low[1]));
         }
-        let quality = Quality::of(&mesh);
+        let quality = MeshQuality::of(&mesh);
         let lost = (mesh.area() / self.whole.area() - 1.0).abs();
         let sound = quality.below_5_deg == 0 && lost < AREA_SLACK * close.area && mesh.validate().is_ok();
-        sound.then(|| Candidate::new(mesh, quality))
+        sound.then(|| FoundMesh::new(mesh, quality))
     }
 }
 

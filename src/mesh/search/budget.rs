@@ -19,14 +19,14 @@ pub(super) const REFINE_WORK: usize = 20;
 pub(super) const SMOOTH_WORK: usize = 40;
 
 /// Work done altogether, and the most of it, in the units of [`WORK`].
-pub(in crate::mesh) struct Budget {
+pub(in crate::mesh) struct WorkBudget {
     done: Cell<usize>,
     most: usize,
     /// Whether something was given up for it.
     missed: Cell<bool>,
 }
 
-impl Budget {
+impl WorkBudget {
     /// Where so many fibres are asked for.
     pub fn new(fibers: usize) -> Self {
         Self { done: Cell::new(0), most: WORK + WORK_PER_FIBER * fibers, missed: Cell::new(false) }
@@ -61,13 +61,13 @@ impl Budget {
 
 /// How much work a search may take.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::mesh) enum Effort {
+pub(in crate::mesh) enum Thoroughness {
     Full,
     /// A quarter: for one of several counts. What is found with it is found with all of it too.
     Little,
 }
 
-impl Effort {
+impl Thoroughness {
     /// The most work for one mesh of an outline and fibres of this size together.
     pub fn most(self, size: usize) -> usize {
         match self {

@@ -8,21 +8,23 @@
 
 mod attempt;
 mod budget;
-mod candidate;
+mod found_mesh;
+mod subject;
 
-pub(in crate::mesh) use budget::{Budget, Effort};
+pub(in crate::mesh) use budget::{Thoroughness, WorkBudget};
+pub(in crate::mesh) use subject::Subject;
 
 use super::Mesh;
 use super::curve::Curve;
-use super::quality::Quality;
+use super::quality::MeshQuality;
 use super::sample::{Closeness, Extra, Rim};
 use super::symmetry::{Axis, Half};
-use super::tracks::Sampled;
 use crate::outline::{Outline, Point};
 use attempt::FILLS;
 use budget::REFINE_WORK;
-use candidate::take_best;
+use found_mesh::take_best;
 use std::cell::{Cell, OnceCell, RefCell};
+use subject::most_nodes;
 
 /// The part of all work for finding out how many edges good angles need.
 const LEAST_SHARE: f64 = 0.4;
@@ -47,28 +49,6 @@ impl<'a> Pool<'a> {
     }
 }
 
-/// What is to be meshed: an outline, or one half of it.
-pub(super) struct Subject<'a> {
-    /// The whole, for its size and its fit.
-    whole: &'a Outline,
-    rim: Rim<'a>,
-    tracks: &'a [Vec<Point>],
-    /// Their nodes at the spacing that was tried last.
-    sampled: RefCell<Option<(f64, Option<Sampled>)>>,
-    axis: Option<Axis>,
-    height: f64,
-    /// What is lost of the closeness by taking the image of one half for the other, mm.
-    off: f64,
-    /// Vertices of the outline.
-    vertices: usize,
-    /// Work done for the mesh that is sought.
-    spent: Cell<usize>,
-    budget: Budget,
-    has_fine_features: OnceCell<bool>,
-    /// Whether an outline may be followed less closely than it should.
-    lenient: Cell<bool>,
-}
-
 impl<'a> Subject<'a> {
     /// `fibers` are those asked for at first.
     pub fn whole(outline: &'a Outline, pool: &'a Pool<'a>, tracks: &'a [Vec<Point>], fibers: usize) -> Self {
@@ -84,7 +64,7 @@ impl<'a> Subject<'a> {
             off: 0.0,
             vertices,
             spent: Cell::new(0),
-            budget: Budget::new(fibers),
+            budget: WorkBudget::new(fibers),
             has_fine_features: OnceCell::new(),
             lenient: Cell::new(false),
         }
@@ -123,7 +103,7 @@ impl<'a> Subject<'a> {
     }
 
     /// The best mesh found with `fibers` edges, or nearly.
-    pub fn mesh(&self, even: f64, fibers: usize, effort: Effort) -> Option<(Mesh, Quality)> {
+    pub fn mesh(&self, even: f64, fibers: usize, effort: Thoroughness) -> Option<(Mesh, MeshQuality)> {
         let mut found = Vec::new();
         let effort = effort.most(self.vertices + fibers);
         self.spent.set(0);
@@ -201,13 +181,6 @@ fn vertices(outline: &Outline) -> usize {
 fn height(outline: &Outline) -> f64 {
     let (low, high) = outline.bounding_box();
     high[1] - low[1]
-}
-
-/// Boundary nodes of a mesh with `edges` edges: those without an interior node. `None` where the rings cannot have so few.
-fn most_nodes(outline: &Outline, edges: usize) -> Option<usize> {
-    let rings = outline.holes.len() + 1;
-    let most = (edges + 3).checked_sub(3 * outline.holes.len())? / 2;
-    (most >= 3 * rings).then_some(most)
 }
 
 /// The edge length at which equilateral triangles fill the area and the boundary with `fibers` edges in all:

@@ -29,10 +29,10 @@ struct Drive {
     /// rev/s^2.
     acceleration: f64,
     deceleration: f64,
-    /// Where the limits are, and whether they are watched.
+    /// Limits of travel, and whether they are watched.
     limits: [f64; 2],
     limited: bool,
-    /// Where `M` goes.
+    /// Target that `M` starts for.
     loaded: f64,
     target: f64,
     position: f64,
@@ -44,7 +44,7 @@ struct Drive {
 const BAUD: f64 = 9600.0;
 /// A start bit, eight bits and a stop bit.
 const BITS_A_BYTE: f64 = 10.0;
-/// Step of the simulation, s: a drive passes a place by less than it goes in one, and comes back.
+/// Step of the simulation, s: a drive is where it would be to within its way in one step.
 const TICK_S: f64 = 1e-3;
 /// Ends a command; replies end with one more byte.
 const COMMAND_END: usize = 1;
@@ -58,16 +58,19 @@ impl SimulatedLink {
         Self { drives: vec![Drive::new(); drives], open: false, now_s: 0.0, replies: VecDeque::new() }
     }
 
-    /// Where a node is, counts; `None` if there is no such node.
+    /// The position of a node, counts; `None` if there is no such node.
     pub fn position(&self, node: usize) -> Option<i64> {
         Some(self.drives.get(node.checked_sub(1)?)?.position.round() as i64)
     }
 
-    /// Lets time pass until every drive stands at its target.
-    pub fn settle(&mut self) {
-        while self.drives.iter().any(|drive| !drive.is_there()) {
+    /// Lets time pass until every drive that is on stands at its target, for `patience_s` at most; whether they do.
+    pub fn settle(&mut self, patience_s: f64) -> bool {
+        let end_s = self.now_s + patience_s;
+        let moving = |drives: &[Drive]| drives.iter().any(|drive| !drive.is_there());
+        while moving(&self.drives) && self.now_s < end_s {
             self.pass(TICK_S);
         }
+        !moving(&self.drives)
     }
 
     fn pass(&mut self, duration_s: f64) {
@@ -199,8 +202,8 @@ impl Drive {
             (self.position, self.velocity) = (self.target, 0.0);
             return;
         }
-        // The speed from which the rest of the way is just enough to stop, and no more than one tick's way.
-        let stopping = (2.0 * fall * distance.abs()).sqrt().min(distance.abs() / dt);
+        // The speed from which the way that is left after this tick is just enough to stop: v dt + v^2 / (2 fall) = distance.
+        let stopping = (fall * dt).hypot((2.0 * fall * distance.abs()).sqrt()) - fall * dt;
         let wanted = distance.signum() * stopping.min(self.speed * self.resolution / 60.0);
         let speeding_up = wanted.abs() > self.velocity.abs() && wanted * self.velocity >= 0.0;
         let most = dt * if speeding_up { rise } else { fall };

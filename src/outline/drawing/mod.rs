@@ -20,7 +20,7 @@ pub use primitive::{PathPoint, Primitive};
 pub use track::Track;
 
 use super::regions::{self, Shapes};
-use super::{Import, Imported, Outline, OutlineError, Painting, Point, import};
+use super::{Outline, OutlineError, Point};
 use serde::{Deserialize, Serialize};
 
 /// Parts of a drawing, and points of all its paths together, at most.
@@ -50,7 +50,7 @@ pub struct Drawing {
 pub struct Part {
     pub primitive: Primitive,
     /// Cut out of what was drawn before, not joined to it.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "primitive::is_false")]
     pub cut: bool,
 }
 
@@ -132,26 +132,12 @@ impl Drawing {
         Ok(covered)
     }
 
-    /// One clean outline of what is drawn, and the drawing itself moved (and scaled, where a height is asked for) to where the
-    /// outline is: with its lower left corner in the origin. Where that was is [`Imported::drawn_box`].
-    ///
-    /// # Errors
-    /// As [`super::import`]: nothing drawn, several pieces.
-    pub fn import(&self, import: &Import) -> Result<Imported, OutlineError> {
-        let mut imported = import::finish(self.painting()?, import)?;
-        let [low, high] = imported.drawn_box;
-        let (_, made) = imported.outline.bounding_box();
-        let scale = if import.height_mm.is_some() { made[1] / (high[1] - low[1]) } else { 1.0 };
-        imported.drawing = Some(self.moved(low.map(|v| -v)).scaled(scale));
-        Ok(imported)
-    }
-
     /// The drawing with every point moved.
     pub fn moved(&self, by: Point) -> Self {
         self.each(|primitive| primitive.moved(by), |p| [p[0] + by[0], p[1] + by[1]])
     }
 
-    fn scaled(&self, factor: f64) -> Self {
+    pub(super) fn scaled(&self, factor: f64) -> Self {
         if factor == 1.0 {
             return self.clone();
         }
@@ -163,17 +149,6 @@ impl Drawing {
         let track = |track: &Track| track.iter().map(|&p| to(p)).collect();
         Self { parts: self.parts.iter().map(part).collect(), tracks: self.tracks.iter().map(track).collect() }
     }
-
-    fn painting(&self) -> Result<Painting, OutlineError> {
-        if self.parts.iter().all(|part| part.cut) {
-            return Err(OutlineError::NothingPainted("the drawing has no part that is not cut out"));
-        }
-        let shapes = self.regions()?;
-        if shapes.is_empty() {
-            return Err(OutlineError::NothingPainted("all that is drawn is cut out again"));
-        }
-        Ok(Painting { shapes, unit_mm: 1.0, notes: Vec::new() })
-    }
 }
 
 impl Part {
@@ -183,27 +158,16 @@ impl Part {
     }
 }
 
-/// Whether a file begins as drawings do: a parenthesis, and the first words.
-pub(super) fn is_drawing(head: &[u8]) -> bool {
-    let text = String::from_utf8_lossy(head);
-    let code = text.lines().map(|line| line.split("//").next().unwrap_or_default()).collect::<String>();
-    let code = code.trim_start_matches('\u{feff}').trim_start();
-    code.strip_prefix("Drawing")
-        .unwrap_or(code)
-        .trim_start()
-        .strip_prefix('(')
-        .is_some_and(|inside| ["parts", "tracks"].iter().any(|name| inside.trim_start().starts_with(name)))
-}
-
-fn is_false(value: &bool) -> bool {
-    !value
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::outline::{Pieces, polygon};
+    use crate::outline::readers::reader_of;
+    use crate::outline::{Import, Pieces, polygon};
     use std::f64::consts::PI;
+
+    fn is_drawing(bytes: &[u8]) -> bool {
+        reader_of(bytes).is_some_and(|reader| reader.extensions() == ["ron"])
+    }
 
     fn circle(x: f64, y: f64, radius: f64) -> Part {
         Part::joined(Primitive::Circle { center: [x, y], radius })

@@ -34,7 +34,7 @@ pub enum Primitive {
 #[serde(deny_unknown_fields)]
 pub struct PathPoint {
     pub at: Point,
-    #[serde(default, skip_serializing_if = "super::is_false")]
+    #[serde(default, skip_serializing_if = "is_false")]
     pub corner: bool,
 }
 
@@ -258,6 +258,10 @@ pub(super) fn segment(points: &[PathPoint], i: usize) -> Vec<Point> {
         [0, 1].map(|k| w0 * from.at[k] + w1 * c[k] + w2 * d[k] + w3 * to.at[k])
     };
     (0..CURVE_CHORDS).map(at).collect()
+}
+
+pub(super) fn is_false(value: &bool) -> bool {
+    !value
 }
 
 #[cfg(test)]

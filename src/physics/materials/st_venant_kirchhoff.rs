@@ -143,7 +143,7 @@ fn barrier(j: f64) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::physics::{Body, Contractile, Element, Model, Pin, Pins, StaticsSettings, statics};
+    use crate::physics::{Body, Contractile, Element, Model, PinSpring, Pins, StaticsSettings, statics};
 
     /// A square of two triangles, held at its lower side; cables draw its upper corners down to the lower ones.
     fn pressed(lambda: f64, stiffness: f64) -> Model {
@@ -153,7 +153,7 @@ mod tests {
         let cable = |routing: [usize; 2]| Element { routing: routing.to_vec(), stiffness, epsilon: 1e-3, alpha0: 1.0 };
         let mut cables = Contractile::new(vec![cable([0, 3]), cable([1, 2])]);
         cables.set_contractions(&[0.999; 2]);
-        let pins = Pins { pins: vec![Pin::node(0, nodes[0], 1e3), Pin::node(1, nodes[1], 1e3)] };
+        let pins = Pins { pins: vec![PinSpring::node(0, nodes[0], 1e3), PinSpring::node(1, nodes[1], 1e3)] };
         Model::new(&nodes, body, cables, pins, Vec::new()).unwrap()
     }
 

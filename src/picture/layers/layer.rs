@@ -1,4 +1,4 @@
-//! What a layer is: its inputs, taken from the subject of a picture, and how they are drawn.
+//! Layers: inputs taken from the subject of a picture, and how they are drawn.
 
 use super::subject::{Shown, Subject};
 use crate::picture::scene::Item;

@@ -10,7 +10,7 @@ use crate::picture::scene::Item;
 /// A disc on every pinned point of the body.
 #[derive(Debug, PartialEq)]
 pub struct Pins {
-    /// Where the pinned points are now, mm.
+    /// Places of the pinned points now, mm.
     at: Vec<Point>,
     theme: Theme,
 }

@@ -1,4 +1,4 @@
-//! What a picture is of, and which of its layers are shown.
+//! Subjects of pictures, and the layers that are shown.
 
 use crate::design::{Design, Network, Target};
 use crate::discovery::Stages;
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// What a picture is of. Every layer takes its own inputs from it.
+/// The subject of a picture. Every layer takes its own inputs from it.
 #[derive(Clone, Debug)]
 pub struct Subject<'a> {
     pub design: &'a Arc<Design>,
@@ -18,7 +18,7 @@ pub struct Subject<'a> {
     /// Whether the plushie has fibres: the idealized one.
     pub fibers: bool,
     pub theme: Theme,
-    /// Which layers are shown.
+    /// The layers that are shown.
     pub shown: &'a Shown,
     /// The picture on the body, if there is one.
     pub texture: Option<&'a Arc<Texture>>,
@@ -51,12 +51,12 @@ impl<'a> Subject<'a> {
     }
 }
 
-/// Which layers somebody has asked to show or to hide, by their names; the others are as at first.
+/// The layers that somebody has asked to show or to hide, by their names; the others are as at first.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Shown(BTreeMap<String, bool>);
 
 impl Shown {
-    /// What was asked for a layer; `None` where nothing was.
+    /// Whether a layer was asked for or hidden; `None` where nothing was asked.
     pub fn asked(&self, name: &str) -> Option<bool> {
         self.0.get(name).copied()
     }

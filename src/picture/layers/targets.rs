@@ -16,7 +16,7 @@ pub struct Targets {
 
 #[derive(Debug, PartialEq)]
 struct Mark {
-    /// Where the point of the body is now, mm.
+    /// Place of the point of the body now, mm.
     at: Point,
     /// mm.
     goal: Point,

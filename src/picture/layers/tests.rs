@@ -1,4 +1,4 @@
-//! Which items the layers draw, and when a picture is the same.
+//! Items that the layers draw, and pictures that are the same.
 
 use super::*;
 use crate::design::{Design, Network, Pin, Target, Tendon};

@@ -1,8 +1,8 @@
 //! What a rig still misses of its poses.
 
-use super::{Baseline, Criterion, Judged};
 use crate::engine::target_error;
-use crate::rigging::Reached;
+use crate::rigging::criterion::{Criterion, Judged};
+use crate::rigging::{Baseline, Reached};
 
 /// The fourth powers of the errors relative to the rest pose, summed, so that the worst pose counts most. Infinite where nothing
 /// was reached.

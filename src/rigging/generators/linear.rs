@@ -5,10 +5,10 @@
 //! tendons' own `D = 1/(2K)`. For every root of a winch tree the tendons (paths of the tree that leave the root by different
 //! branches) are added greedily so that the targets' residual, at its best `beta` in each pose, falls most.
 
-use super::Baseline;
 use crate::design::Design;
 use crate::engine::compile::{View, compile};
 use crate::engine::patch::patch;
+use crate::rigging::Baseline;
 use crate::soft_ik::Actuation;
 use nalgebra::{DMatrix, DVector};
 use std::collections::BTreeMap;

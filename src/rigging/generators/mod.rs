@@ -6,31 +6,13 @@ mod response;
 
 use super::activation::ActivationGraph;
 use super::candidate::{Baseline, Candidate};
+use super::generator::{Generator, Given};
 use crate::design::{Design, Target};
-use crate::discovery::{self, Parameters, Stages};
+use crate::discovery::{self, Parameters};
 use std::sync::atomic::AtomicBool;
-
-/// A way to candidate networks.
-pub trait Generator: Sync {
-    /// Networks for the pose whose activations are given, the most promising first; empty where this way leads nowhere.
-    fn generate(&self, given: &Given) -> Vec<Candidate>;
-}
 
 /// All ways, in the order in which their candidates are tried out. A new one is a file and a line here.
 const GENERATORS: [&dyn Generator; 2] = [&response::Response, &algorithm2::Algorithm2];
-
-/// What a generator may draw on.
-pub struct Given<'a> {
-    pub design: &'a Design,
-    /// What the fibres of the idealized plushie do in the pose at hand.
-    pub graph: &'a ActivationGraph,
-    /// Networks of Algorithm 2 on that graph, its parameters varied; never empty, the asked parameters first.
-    pub found: &'a [(Parameters, Stages)],
-    /// All poses that the network should serve.
-    pub poses: &'a [Baseline<'a>],
-    /// Numbers of tendons, the preferred one first.
-    pub tendon_nums: &'a [usize],
-}
 
 /// Distinct candidates of all generators for the pose of `targets`, from the fibres' activations of the idealized plushie in it.
 /// Empty where the body cannot be posed or no fibre is contracted.

@@ -4,8 +4,9 @@
 //! `linear`): on the winch trees of Algorithm 2, and on wider ones that reach every active limb.
 
 use super::linear::select;
-use super::{Candidate, Generator, Given};
 use crate::discovery::{self, Parameters, Stages};
+use crate::rigging::Candidate;
+use crate::rigging::generator::{Generator, Given};
 
 /// SEED_NUM of the wide winch trees, and their JOIN_DEPTH and JOIN_LEN.
 const WIDE_SEEDS: [usize; 4] = [16, 32, 64, 100];

@@ -3,8 +3,8 @@
 //! Every finite bound is a side with the distance `s = +-(beta - bound) > 0` and a multiplier `z > 0`; on the central path `s z = mu`.
 //! A step solves `(H + D + sum z/s) dbeta = -(slopes -+ (mu - c)/s)` with `c` the second-order term that the predictor has shown.
 
-use super::quadratic::{Model, Point};
-use super::saddle::NotConvex;
+use super::damped::{Model, Point};
+use super::form::NotConvex;
 
 /// Steps at most: ten times the gap a step is usual, and the gap begins some five orders above what is asked for.
 const MOST_STEPS: usize = 25;

@@ -7,14 +7,19 @@
 //! It is a local method: what it finds depends on where it starts ([`super::fibers`]). An element that is slack feels
 //! nothing but the regulariser.
 
+mod border;
+mod damped;
+mod form;
 mod interior;
 mod quadratic;
 mod rows;
 mod saddle;
+mod structure;
 
 use super::{Answer, Budget, Method, Posture, Question};
 use crate::physics::HessianForm;
-use saddle::{Form, Local, NotConvex, Saddle, Step};
+use form::{Form, NotConvex};
+use saddle::{Local, Saddle, Step};
 
 /// Descends to a point where the projected gradient of `O` vanishes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -131,7 +136,7 @@ impl Search {
         Some(Self {
             saddle: Saddle::new(question)?,
             local: Local::default(),
-            size: super::tension::extent(&question.model.rest),
+            size: question.body_size(),
             lengths: rows::lengths(question.actuation, &question.model.contractile.elements),
             damping: FIRST_DAMPING,
             convex: 0,
@@ -264,7 +269,7 @@ impl Search {
         let damping: Vec<f64> = self.units(question).iter().map(|unit| damping * unit).collect();
         let beta = &answer.posture.beta;
         let room = question.actuation.winches.iter().zip(beta).map(|(w, b)| [w.lower - b, w.upper - b]).collect();
-        let mut model = quadratic::Model {
+        let mut model = damped::Model {
             saddle: &mut self.saddle,
             question,
             local: &self.local,
@@ -356,7 +361,8 @@ impl Search {
         true
     }
 
-    /// `dO/dbeta_j = lambda sum r alpha_c/alpha_0^2 - force_j . p`.
+    /// `dO/dbeta_j = lambda sum r alpha_c/alpha_0^2 - force_j . p`, from the rows at hand: what [`super::sensitivity::gradient`] finds
+    /// element by element, but for the order of the sums.
     fn gradient(&mut self, question: &Question, contractions: &[f64], p: &[f64]) {
         let elements = &question.model.contractile.elements;
         let lambda = question.objective.contraction_weight;

@@ -6,9 +6,10 @@
 //! ([`interior`]; Mehrotra, SIAM J. Optim. 2, 1992), whose count of steps does not depend on them. A step of either is one factorisation of the
 //! saddle-point matrix; values and gradients of the model are two solves with the factor of `H`.
 
+use super::damped::{Model, Point};
+use super::form::NotConvex;
 use super::interior;
-use super::saddle::{Form, Local, NotConvex, Saddle, Step};
-use crate::soft_ik::Question;
+use super::saddle::Step;
 
 /// Projected Newton steps before the interior-point method.
 const PROJECTED_STEPS: usize = 2;
@@ -18,27 +19,6 @@ const MOST_HALVINGS: usize = 8;
 const SUFFICIENT: f64 = 1e-4;
 /// A winch that is as near to a bound as this part of its length, and is pushed against it, is moved there and held.
 const NEAR: f64 = 1e-4;
-
-/// The damped model at hand.
-pub(super) struct Model<'a, 'q> {
-    pub saddle: &'a mut Saddle,
-    pub question: &'a mut Question<'q>,
-    pub local: &'a Local,
-    pub form: Form,
-    pub damping: &'a [f64],
-    /// How far each winch may move down and up.
-    pub room: Vec<[f64; 2]>,
-    pub lengths: &'a [f64],
-    /// `O` at no step.
-    pub objective: f64,
-}
-
-/// A point of the model: the step, the slopes there, and the value.
-pub(super) struct Point {
-    pub step: Step,
-    pub slopes: Vec<f64>,
-    pub value: f64,
-}
 
 /// A point near the minimiser of the damped model within the bounds, at which the model is below its value at no step. The factor
 /// of the body's model must be that of `local.hessian`.
@@ -101,13 +81,5 @@ impl Model<'_, '_> {
             t *= 0.5;
         }
         Ok((None, false))
-    }
-
-    /// The damped model at a step.
-    pub fn evaluate(&mut self, beta: Vec<f64>) -> Point {
-        let (step, slopes) = self.saddle.evaluate(self.question, self.local, self.form, self.damping, beta);
-        let own: f64 = step.beta.iter().zip(self.damping).map(|(d, w)| w * d * d).sum();
-        let value = step.slope + step.curvature + 0.5 * own;
-        Point { step, slopes, value }
     }
 }

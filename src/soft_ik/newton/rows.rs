@@ -1,6 +1,6 @@
 //! What each free winch contributes to the optimality conditions: sparse rows over the nodes that its elements pass.
 
-use super::saddle::Form;
+use super::form::Form;
 use crate::physics::{Element, Energy};
 use crate::soft_ik::{Actuation, Question};
 

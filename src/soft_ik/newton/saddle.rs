@@ -16,33 +16,13 @@
 //! never negative. The exact one is positive definite where the saddle-point matrix has as many negative eigenvalues as there
 //! are coordinates.
 
+use super::form::{Form, NotConvex};
 use super::rows::{Rows, Stencils};
 use crate::physics::Energy;
 use crate::physics::indefinite::Indefinite;
 use crate::physics::pattern::{Pattern, Scatter, Slots};
 use crate::soft_ik::Question;
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
-
-/// The second derivatives in use.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Form {
-    Exact,
-    /// Without the concave part of each element's own law: where a slack element is about to be pulled taut, `O` is concave in its
-    /// deformation, and elements one after the other would keep the exact form from being used at all.
-    Convexified,
-    GaussNewton,
-}
-
-impl Form {
-    /// Which of the second derivatives of [`Local`] and [`Rows`].
-    pub fn index(self) -> Option<usize> {
-        match self {
-            Self::Exact => Some(0),
-            Self::Convexified => Some(1),
-            Self::GaussNewton => None,
-        }
-    }
-}
+use nalgebra::{Cholesky, Dyn};
 
 /// The optimality conditions linearised at an equilibrium.
 #[derive(Default)]
@@ -66,112 +46,40 @@ pub(super) struct Step {
     pub curvature: f64,
 }
 
-/// The reduced Hessian is not positive definite, or the system could not be solved.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct NotConvex;
-
-/// Up to this many winches the dense border costs less than a factorisation of the saddle-point matrix.
-const FEW: usize = 16;
-
 /// Structure, factor and buffers.
 pub(super) struct Saddle {
-    pattern: Pattern,
+    pub(super) pattern: Pattern,
     /// None where there are few winches: all of them stand on the border, and what is left is solved with the factor of `H` alone.
-    factor: Option<Indefinite>,
+    pub(super) factor: Option<Indefinite>,
     /// Whether each winch is eliminated by its own row.
-    eliminated: Vec<bool>,
-    pub stencils: Stencils,
+    pub(super) eliminated: Vec<bool>,
+    pub(super) stencils: Stencils,
     /// Where each stored value of the model's Hessian lands: positions with positions, multipliers with positions, and the mirror
     /// of the latter.
-    places: Vec<[u32; 3]>,
+    pub(super) places: Vec<[u32; 3]>,
     /// Slots of the winches of one element.
-    slots: Slots,
+    pub(super) slots: Slots,
     /// Slots of all elements in the model's own pattern.
-    element_slots: Slots,
+    pub(super) element_slots: Slots,
     /// Where the weights of the targets land: target, row, column, product of the weights of two of its nodes.
-    weights: Vec<(usize, u32, f64)>,
-    base: Vec<f64>,
-    values: Vec<f64>,
+    pub(super) weights: Vec<(usize, u32, f64)>,
+    pub(super) base: Vec<f64>,
+    pub(super) values: Vec<f64>,
     /// Of the last factorisation: its form, the damped weight of every winch (infinite where it is held), the free winches of several
     /// elements, the solutions for their rows, and their Schur complement.
-    form: Form,
-    weights_now: Vec<f64>,
-    border: Vec<usize>,
-    columns: Vec<f64>,
+    pub(super) form: Form,
+    pub(super) weights_now: Vec<f64>,
+    pub(super) border: Vec<usize>,
+    pub(super) columns: Vec<f64>,
     /// Whether the columns of few winches are those of the matrix assembled last.
-    fresh: bool,
-    schur: Option<Cholesky<f64, Dyn>>,
-    z: Vec<f64>,
-    rest: Vec<f64>,
-    product: Vec<f64>,
+    pub(super) fresh: bool,
+    pub(super) schur: Option<Cholesky<f64, Dyn>>,
+    pub(super) z: Vec<f64>,
+    pub(super) rest: Vec<f64>,
+    pub(super) product: Vec<f64>,
 }
 
 impl Saddle {
-    /// `None` only where the factor would not fit into memory.
-    pub fn new(question: &Question) -> Option<Self> {
-        let stencils = Stencils::new(question);
-        let model = &*question.model;
-        let nodes = model.dimension() / 2;
-        let twice = |list: &[usize]| list.iter().flat_map(|n| [2 * n, 2 * n + 1]).collect::<Vec<usize>>();
-        let winches = &question.actuation.winches;
-        let few = winches.len() <= FEW;
-        let eliminated: Vec<bool> = winches.iter().map(|w| !few && w.members.len() == 1).collect();
-        let single: Vec<Vec<usize>> =
-            (0..stencils.count()).map(|j| if eliminated[j] { twice(stencils.nodes(j)) } else { Vec::new() }).collect();
-        let coupled = coupled(model.pattern());
-        let pairs: Vec<Vec<usize>> = coupled.iter().map(|pair| twice(pair)).collect();
-        let held: Vec<Vec<usize>> = question.objective.targets.iter().map(|t| twice(&t.nodes)).collect();
-        let all = pairs.iter().chain(&single).chain(&held).map(|s| s.as_slice());
-        let pattern = Pattern::new(2 * nodes, all);
-        let slots = pattern.slots(single.iter().map(|s| s.as_slice()));
-        let factor = if few { None } else { Some(Indefinite::new(&pattern)?) };
-        let mut places = Vec::with_capacity(model.pattern().nonzeros());
-        let spread: Vec<usize> = model.pattern().unknowns().map(|d| 4 * (d / 2) + d % 2).collect();
-        for column in 0..model.dimension() {
-            let range = model.pattern().column_starts()[column]..model.pattern().column_starts()[column + 1];
-            for &row in &model.pattern().row_indices()[range] {
-                let (r, c) = (spread[row], spread[column]);
-                places.push([(r, c), (r + 2, c), (c + 2, r)].map(|(r, c)| pattern.entry(r, c) as u32));
-            }
-        }
-        let mut weights = Vec::new();
-        for (k, target) in question.objective.targets.iter().enumerate() {
-            for (a, (&n, v)) in target.nodes.iter().zip(&target.weights).enumerate() {
-                for (&m, w) in target.nodes[..=a].iter().zip(&target.weights) {
-                    for axis in 0..2 {
-                        weights.push((k, pattern.entry(4 * n + axis, 4 * m + axis) as u32, v * w));
-                    }
-                }
-            }
-        }
-        let contractile = &model.contractile;
-        let element_slots = model.pattern().slots((0..contractile.stencils()).map(|k| contractile.stencil(k)));
-        let n = pattern.dimension();
-        let (base, values) = (vec![0.0; pattern.nonzeros()], vec![0.0; pattern.nonzeros()]);
-        let (z, rest, product) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
-        Some(Self {
-            pattern,
-            factor,
-            eliminated,
-            stencils,
-            places,
-            slots,
-            element_slots,
-            weights,
-            base,
-            values,
-            form: Form::GaussNewton,
-            weights_now: Vec::new(),
-            border: Vec::new(),
-            columns: Vec::new(),
-            fresh: false,
-            schur: None,
-            z,
-            rest,
-            product,
-        })
-    }
-
     /// Puts in what does not depend on which winches are free.
     pub fn assemble(&mut self, question: &Question, local: &Local, form: Form) {
         self.base.fill(0.0);
@@ -199,6 +107,9 @@ impl Saddle {
 
     /// Factorises the system with winches `held` where they are and all others free, each damped by `damping`. Needs
     /// [`Self::assemble`] in the same form.
+    ///
+    /// # Errors
+    /// [`NotConvex`] where the reduced Hessian is not positive definite.
     pub fn factorize(
         &mut self,
         question: &mut Question,
@@ -238,6 +149,9 @@ impl Saddle {
 
     /// The Newton step from a point at which the model has these `slopes`, with the last factor: the step, zero for held winches, and
     /// the first-order displacement in `z`.
+    ///
+    /// # Errors
+    /// [`NotConvex`] where the system could not be solved.
     pub fn solve(&mut self, rows: &Rows, slopes: &[f64]) -> Result<Vec<f64>, NotConvex> {
         let form = self.form;
         self.z.fill(0.0);
@@ -361,92 +275,6 @@ impl Saddle {
         });
     }
 
-    /// The Schur complement of the border: dense, as wide as there are free winches on it.
-    fn factorize_border(&mut self, question: &mut Question, rows: &Rows) -> Result<(), NotConvex> {
-        self.schur = None;
-        let width = self.border.len();
-        if width == 0 {
-            return Ok(());
-        }
-        self.solve_columns(question, rows);
-        let mut schur = DMatrix::zeros(width, width);
-        for (a, &j) in self.border.iter().enumerate() {
-            for (b, &k) in self.border.iter().enumerate() {
-                schur[(a, b)] = -rows.product(&self.stencils, j, self.column(b, k), self.form);
-            }
-            schur[(a, a)] += self.weights_now[j];
-        }
-        let schur = 0.5 * (&schur + schur.transpose());
-        self.schur = Some(schur.cholesky().ok_or(NotConvex)?);
-        Ok(())
-    }
-
-    /// The solution for the row of winch `j`, the `a`-th on the border.
-    fn column(&self, a: usize, j: usize) -> &[f64] {
-        let (n, k) = (self.z.len(), if self.factor.is_some() { a } else { j });
-        &self.columns[k * n..(k + 1) * n]
-    }
-
-    /// `K^-1 u` for the winches on the border; for few winches, of all, which neither bounds nor damping change.
-    fn solve_columns(&mut self, question: &mut Question, rows: &Rows) {
-        let n = self.z.len();
-        if let Some(factor) = &mut self.factor {
-            self.columns.clear();
-            self.columns.resize(n * self.border.len(), 0.0);
-            for (&j, column) in self.border.iter().zip(self.columns.chunks_exact_mut(n)) {
-                rows.add(&self.stencils, j, 1.0, column, self.form);
-            }
-            factor.solve_many(&mut self.columns, self.border.len());
-            return;
-        }
-        if self.fresh {
-            return;
-        }
-        self.fresh = true;
-        let count = self.stencils.count();
-        // K [dx, -dp] = u is H dx = u_p, then H (-dp) = u_x - L_xx dx.
-        let mut sides = vec![0.0; n / 2 * count];
-        self.columns.clear();
-        self.columns.resize(n * count, 0.0);
-        let columns = self.columns.chunks_exact_mut(n);
-        for ((j, column), side) in columns.enumerate().zip(sides.chunks_exact_mut(n / 2)) {
-            rows.add(&self.stencils, j, 1.0, column, self.form);
-            take(column, side, 2);
-        }
-        question.model.solve_many(&mut sides, count);
-        for (column, side) in self.columns.chunks_exact_mut(n).zip(sides.chunks_exact_mut(n / 2)) {
-            self.z.fill(0.0);
-            put(side, &mut self.z, 0);
-            self.pattern.multiply(&self.base, &self.z, &mut self.product);
-            for (p, u) in self.product.iter_mut().zip(column.iter()) {
-                *p = u - *p;
-            }
-            put(side, column, 0);
-            take(&self.product, side, 0);
-        }
-        question.model.solve_many(&mut sides, count);
-        for (column, side) in self.columns.chunks_exact_mut(n).zip(sides.chunks_exact(n / 2)) {
-            put(side, column, 2);
-        }
-    }
-
-    /// The steps of the winches on the border; mends `z` for them.
-    fn solve_border(&mut self, rows: &Rows, slopes: &[f64]) -> Vec<f64> {
-        let Some(schur) = &self.schur else { return Vec::new() };
-        let rhs = self.border.iter().map(|&j| -slopes[j] - rows.product(&self.stencils, j, &self.z, self.form));
-        let moved = schur.solve(&DVector::from_iterator(self.border.len(), rhs));
-        let mut z = std::mem::take(&mut self.z);
-        let n = z.len();
-        for (a, (&j, d)) in self.border.iter().zip(moved.iter()).enumerate() {
-            let k = if self.factor.is_some() { a } else { j };
-            for (z, c) in z.iter_mut().zip(&self.columns[k * n..(k + 1) * n]) {
-                *z -= d * c;
-            }
-        }
-        self.z = z;
-        moved.iter().copied().collect()
-    }
-
     /// `z = K^-1 z`, once refined: pivots were free within panels only.
     fn refined(&mut self) {
         let Some(factor) = &mut self.factor else { return };
@@ -463,27 +291,14 @@ impl Saddle {
 }
 
 /// The positions (`at` 0) or multipliers (2) of a vector over both.
-fn take(both: &[f64], part: &mut [f64], at: usize) {
+pub(super) fn take(both: &[f64], part: &mut [f64], at: usize) {
     for (part, both) in part.chunks_exact_mut(2).zip(both.chunks_exact(4)) {
         part.copy_from_slice(&both[at..at + 2]);
     }
 }
 
-fn put(part: &[f64], both: &mut [f64], at: usize) {
+pub(super) fn put(part: &[f64], both: &mut [f64], at: usize) {
     for (part, both) in part.chunks_exact(2).zip(both.chunks_exact_mut(4)) {
         both[at..at + 2].copy_from_slice(part);
     }
-}
-
-/// The pairs of nodes that a pattern couples, every node with itself among them: a node of no element has no other.
-fn coupled(pattern: &Pattern) -> Vec<[usize; 2]> {
-    let mut pairs = Vec::new();
-    let nodes: Vec<usize> = pattern.unknowns().map(|d| d / 2).collect();
-    for column in (0..pattern.dimension()).step_by(2) {
-        let range = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
-        for &row in pattern.row_indices()[range].iter().filter(|row| *row % 2 == 0) {
-            pairs.push([nodes[column], nodes[row]]);
-        }
-    }
-    pairs
 }

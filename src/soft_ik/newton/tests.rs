@@ -1,10 +1,11 @@
 //! The reduced Hessian against differences of the gradient, and the ways to solve with it against each other.
 
+use super::damped::{Model as Quadratic, Point};
+use super::form::Form;
 use super::interior;
-use super::quadratic::{Model as Quadratic, Point};
-use super::saddle::{Form, Step};
+use super::saddle::Step;
 use super::*;
-use crate::physics::{Body, Contractile, Element, Model, NeoHookean, Pin, Pins};
+use crate::physics::{Body, Contractile, Element, Model, NeoHookean, PinSpring, Pins};
 use crate::soft_ik::{Actuation, Objective, PointTarget, Winch, sensitivity};
 
 const NEVER: &dyn Fn() -> bool = &|| false;
@@ -58,7 +59,7 @@ fn cantilever(nx: usize) -> (Model, Actuation, Objective) {
         tension_weight: 0.0,
     };
     let body = Body::new(&nodes, &triangles, Box::new(NeoHookean { mu: 1.0, kappa: 1.5 }), None).unwrap();
-    let pins = Pins { pins: (0..3).map(|j| Pin::node(at(0, j), nodes[at(0, j)], 50.0)).collect() };
+    let pins = Pins { pins: (0..3).map(|j| PinSpring::node(at(0, j), nodes[at(0, j)], 50.0)).collect() };
     let fixed = vec![0.0; elements.len()];
     let model = Model::new(&nodes, body, Contractile::new(elements), pins, Vec::new()).unwrap();
     (model, Actuation { winches, fixed }, objective)

@@ -27,30 +27,22 @@
 mod cables;
 mod dual;
 mod fiber;
-mod judgement;
+mod gain;
 mod run;
 mod secant;
+mod snap;
+mod state;
 mod step;
 mod workspace;
 
-pub(super) use run::Run;
+pub(super) use snap::{RETURNS, snapped};
+pub(super) use state::Run;
 pub(super) use workspace::Workspace;
 
 use super::{Answer, Budget, Method, Posture, Question};
 use crate::physics::Cause;
 
-/// Growth of `O`, as a factor and in squared body lengths, when a state is settled, from which on it counts as snapped.
-const SNAPPED: f64 = 1.01;
-const SNAPPED_BY: f64 = 1e-6;
-/// How often a run goes on from a pose that a converged state snapped into.
-pub(super) const RETURNS: usize = 4;
-
-/// Whether a state has snapped into another equilibrium when it was settled: `O` there, what it was taken for before, and the
-/// size of the body.
-pub(super) fn snapped(settled: f64, expected: f64, size: f64) -> bool {
-    settled > SNAPPED * expected && settled > expected + SNAPPED_BY * size * size
-}
-
+/// The all-at-once method.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AllAtOnce {
     /// Converged when no node moves further than this part of the body in an iteration.
@@ -113,17 +105,4 @@ impl Method for AllAtOnce {
         question.model.contractile.set_contractions(&contractions);
         answer
     }
-}
-
-/// The longer side of the box around flat coordinates.
-pub fn extent(x: &[f64]) -> f64 {
-    let mut low = [f64::INFINITY; 2];
-    let mut high = [f64::NEG_INFINITY; 2];
-    for p in x.chunks_exact(2) {
-        for a in 0..2 {
-            low[a] = low[a].min(p[a]);
-            high[a] = high[a].max(p[a]);
-        }
-    }
-    (high[0] - low[0]).max(high[1] - low[1])
 }

@@ -1,29 +1,22 @@
 //! The iteration of the all-at-once method, and the state that it moves.
 //!
-//! Where no reason is given for a constant, here or in the judgement, it is the best of those tried on seeded cold drags of 40 %
+//! Where no reason is given for a constant, here or in `gain`, it is the best of those tried on seeded cold drags of 40 %
 //! of the body length on the bundled shapes (1 to 4 targets, 414 fibres; other seeds than those of `plushwright bench cold`).
 
 use super::fiber::Fiber;
-use super::judgement::{Best, Verdict, value};
+use super::gain::Verdict;
 use super::secant::Secant;
-use super::step::longest;
-use super::workspace::Workspace;
+use super::state::{Best, LARGEST_PROXIMAL, REJECTION_GROWTH, Run, STANDSTILL, value};
+use super::workspace::{Workspace, longest};
 use crate::physics::{HessianForm, Model};
 use crate::soft_ik::{Phases, Posture, Question};
 use std::time::Instant;
 
 /// First proximal weight `nu`, in units of `rho`: robust from a cold start.
 const FIRST_PROXIMAL: f64 = 40.0;
-/// Smallest `nu`, in units of `rho`, reached where iterations go well.
-pub(super) const LEAST_PROXIMAL: f64 = 0.1;
-/// Largest `nu`, in units of `rho`: beyond it nothing moves.
-pub(super) const LARGEST_PROXIMAL: f64 = 1e8;
 /// Largest `nu`, in units of `rho`, with which new targets are met.
 const LARGEST_FIRST: f64 = 1e3;
-pub(super) const REJECTION_GROWTH: f64 = 6.0;
-/// A run stands still where an iteration promises less than this part of `O`, or after `STAGNANT` iterations without a gain
-/// of this part.
-pub(super) const STANDSTILL: f64 = 1e-6;
+/// A run stands still after so many iterations without a gain of [`STANDSTILL`].
 const STAGNANT: usize = 10;
 /// After this many iterations in a row that end farther from it, the next ones balance the forces before they move on.
 const UNBALANCED: usize = 5;
@@ -44,54 +37,6 @@ pub(in crate::soft_ik) struct Progress {
     pub gain: f64,
     /// How far `O` is above what was promised: what another iteration might still gain. Infinite where no step was chosen.
     pub lag: f64,
-}
-
-/// A step in tension.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Chosen {
-    /// `O` at the equilibrium near the state before it.
-    pub objective: f64,
-    /// How much the step promised to lower it.
-    pub promised: f64,
-    /// Whether the body moved enough by it for the outcome to be its own, not what settles on the way.
-    pub telling: bool,
-}
-
-/// A state between iterations.
-pub(in crate::soft_ik) struct Run {
-    pub x: Vec<f64>,
-    pub(super) fibers: Vec<Fiber>,
-    /// `dE/dx` under the present tensions.
-    pub(super) gradient: Vec<f64>,
-    /// Proximal weight.
-    pub(super) nu: f64,
-    /// Stiffness that stands for a stiff element's own where its tension is the unknown, as a part of `Workspace::softness`;
-    /// and that of the next iteration.
-    pub(super) steadiness: f64,
-    pub(super) next_steadiness: f64,
-    /// The forces at work where the run began; tensions since then may be larger.
-    pub(super) forces: f64,
-    /// Longest step of a node, as a part of the body.
-    pub(super) reach: f64,
-    /// Present limit on a target's pull, length.
-    pub(super) pull: f64,
-    /// The last step in tension; none of a fresh run.
-    pub(super) before: Option<Chosen>,
-    pub(super) secant: Secant,
-    /// The multipliers of the step before, and whether there was one since the run began.
-    pub(super) q: Vec<f64>,
-    pub(super) warm: bool,
-    pub best: Best,
-    /// `O` at the equilibrium near the present state.
-    pub(super) now: f64,
-    /// Iterations in a row that ended far from equilibrium, and such that ended too far from it to be kept.
-    pub(super) adrift: usize,
-    pub(super) unverified: usize,
-    /// Iterations since `O` last fell to `mark`, by more than a standstill.
-    pub(super) stagnant: usize,
-    pub(super) mark: f64,
-    /// Whether the run has just gone back to its best state.
-    pub(super) returned: bool,
 }
 
 impl Run {
@@ -231,7 +176,7 @@ impl Run {
         if !self.solve_sides(question, work, stop) {
             return None;
         }
-        if self.judge(question, form, work) == Verdict::Back {
+        if self.compare(question, form, work) == Verdict::Back {
             let stuck = self.nu >= LARGEST_PROXIMAL * work.rho;
             self.go_back(question, work);
             let moved = if stuck { 0.0 } else { f64::INFINITY };

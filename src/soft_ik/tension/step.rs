@@ -1,8 +1,8 @@
 //! One step of the all-at-once method: the linear solves, the choice of tensions, the motion that follows.
 
 use super::dual::Subproblem;
-use super::run::{Chosen, LARGEST_PROXIMAL, Run, STANDSTILL};
-use super::workspace::Workspace;
+use super::state::{Chosen, LARGEST_PROXIMAL, Run, STANDSTILL};
+use super::workspace::{Workspace, longest};
 use crate::physics::{HessianForm, statics};
 use crate::soft_ik::Question;
 use std::time::Instant;
@@ -257,9 +257,4 @@ impl Run {
         work.phases.line_search += clock.elapsed().as_secs_f64();
         (step, changed)
     }
-}
-
-/// The longest displacement of a node.
-pub(super) fn longest(dx: &[f64]) -> f64 {
-    dx.chunks_exact(2).map(|d| d[0] * d[0] + d[1] * d[1]).fold(0.0, f64::max).sqrt()
 }

@@ -69,7 +69,7 @@ impl Workspace {
             dual: Dual::default(),
             rho: if weight > 0.0 { weight } else { crate::defaults::TENSION_WEIGHT / (mu * mu) },
             softness: SOFT * mu,
-            size: super::extent(&question.model.rest),
+            size: question.body_size(),
             weight: question.objective.targets.iter().map(|t| t.weight).reduce(f64::min).unwrap_or(1.0),
             phases: Phases::default(),
         }
@@ -79,4 +79,9 @@ impl Workspace {
     pub fn worth(&self, part: f64) -> f64 {
         0.5 * self.weight * (part * self.size).powi(2)
     }
+}
+
+/// The longest displacement of a node.
+pub(super) fn longest(dx: &[f64]) -> f64 {
+    dx.chunks_exact(2).map(|d| d[0] * d[0] + d[1] * d[1]).fold(0.0, f64::max).sqrt()
 }

@@ -1,7 +1,8 @@
 //! The equilibrium of least `O` for problem files: on whatever branch, in a few times the work of one Gauss-Newton run.
 
+use super::care::{Care, LATTICE};
 use super::recruit;
-use super::search::{Care, LATTICE, Search};
+use super::search::Search;
 use crate::soft_ik::contraction::GaussNewton;
 use crate::soft_ik::{Answer, Budget, Method, Posture, Question};
 

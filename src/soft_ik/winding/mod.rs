@@ -19,6 +19,7 @@
 //!
 //! All of it is counted in factorisations and can be spread over frames.
 
+mod care;
 mod least;
 mod proof;
 mod rays;
@@ -26,8 +27,9 @@ mod recruit;
 mod search;
 mod walk;
 
+pub use care::{Care, LATTICE};
 pub use least::least;
 pub use proof::wound;
 pub use recruit::from_several;
-pub use search::{Care, LATTICE, Search};
+pub use search::Search;
 pub use walk::distance;

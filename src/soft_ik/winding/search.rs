@@ -1,14 +1,13 @@
 //! The search over wound states, unit by unit.
 
+use super::care::{Care, LATTICE};
 use super::proof::{Proof, SAME_POSE, Verdict};
 use super::rays::{Ray, ranges, rays, spread};
-use super::walk::{Pace, Walk, distance, size};
+use super::walk::{Walk, distance, size};
 use crate::soft_ik::contraction::{FIRST_DAMPING, GaussNewton};
 use crate::soft_ik::{Answer, Budget, Posture, Question};
 use std::collections::VecDeque;
 
-/// Up to this many winches, the lines lie on a lattice.
-pub const LATTICE: usize = 3;
 /// Gauss-Newton from a valley: relative decrease of `O` below which it ends, and iterations at most. Enough to tell values apart.
 const EXPLORING_DECREASE: f64 = 1e-5;
 const EXPLORING_ITERATIONS: usize = 40;
@@ -24,43 +23,6 @@ const NEXT_TO: f64 = 1.5;
 const REPEATS: usize = 2;
 /// Halvings between a wound state and one that winding does not reach: a part of 1/64 of the way is left.
 const HALVINGS: usize = 6;
-
-/// How carefully wound states are looked at.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Care {
-    /// Parts of a winch's range between lines, for one, two and three winches; powers of two.
-    pub levels: [usize; LATTICE],
-    /// Lines where there are more winches.
-    pub spread: usize,
-    /// How the lines are walked.
-    pub pace: Pace,
-    /// Valleys polished at most.
-    pub polished: usize,
-    /// Factorisations spent on walks at most.
-    pub walking: usize,
-    /// Whether the answer must be proved to be wound from rest.
-    pub proved: bool,
-}
-
-impl Care {
-    /// For a plushie's pose that is kept: what winding from rest reaches.
-    pub const THOROUGH: Self = Self {
-        levels: [1, 4, 2],
-        spread: 8,
-        pace: Pace { stride: 0.05, longest: 0.125, balance: 1e-4 },
-        polished: 8,
-        walking: usize::MAX,
-        proved: true,
-    };
-    /// For the equilibrium of least `O`, on whatever branch, in a few times the work of one Gauss-Newton run.
-    pub fn quick(winches: usize) -> Self {
-        let pace = match winches {
-            1 => Pace { stride: 0.1, longest: 0.125, balance: 1e-4 },
-            _ => Pace { stride: 0.2, longest: 0.25, balance: 1e-2 },
-        };
-        Self { levels: [1, 2, 2], spread: 0, pace, polished: 3, walking: usize::MAX, proved: false }
-    }
-}
 
 /// The bottom of a valley on a line.
 struct Valley {

@@ -2,11 +2,23 @@
 
 use super::{Actions, primary};
 use crate::files::shown;
+use crate::operations::FiberCount;
+use crate::outline::{Background, Holes, Import, Pieces};
 use crate::studio::action::{Action, FileAction};
 use crate::studio::files::{Dialog, PathDialog, Purpose, Why};
+use crate::studio::importing::ImportChoice;
 use crate::studio::session::Session;
-use eframe::egui::{Align, Context, DragValue, Id, Key, Layout, Modal, RichText, TextEdit, Ui};
+use eframe::egui::{
+    Align, CollapsingHeader, Context, DragValue, Grid, Id, Key, Layout, Modal, RichText, TextEdit, Ui, emath,
+};
+use std::ops::RangeInclusive;
 use std::path::Path;
+
+/// What can be typed for the silhouette's height, mm, and for the number of fibres; 0 for what is usual.
+const HEIGHTS_MM: RangeInclusive<f64> = 0.0..=5000.0;
+const FIBERS: RangeInclusive<f64> = 0.0..=20_000.0;
+/// The largest length of the clean-up, mm.
+const LARGEST_MM: f64 = 1000.0;
 
 pub fn show(ctx: &Context, session: &Session, actions: &mut Actions) {
     let Some(dialog) = &session.files.dialog else { return };
@@ -169,30 +181,94 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, actions: &mut Actio
 }
 
 fn import_settings(ui: &mut Ui, edited: &mut PathDialog) {
+    let ImportChoice { options, layers } = &mut edited.import;
     ui.horizontal(|ui| {
-        let label = ui.label("Height");
-        let import = &mut edited.import;
-        ui.add(DragValue::new(&mut import.height_mm).range(10.0..=5000.0).suffix(" mm")).labelled_by(label.id);
+        let tip = "Of the silhouette; 0: the size that the file has";
+        let mut height = options.import.height_mm.unwrap_or(0.0);
+        or_usual(ui, ("Height", tip), &mut height, ("as in the file", " mm"), HEIGHTS_MM);
+        options.import.height_mm = (height > 0.0).then_some(height);
         ui.add_space(12.0);
-        let label = ui.label("Muscle fibres");
-        ui.add(DragValue::new(&mut import.fibers).range(20..=20_000)).labelled_by(label.id);
+        let tip = "0: those of a file that brings its own mesh; otherwise 414, or more where the outline needs them";
+        let mut fibers = match options.fibers {
+            FiberCount::Usual => 0.0,
+            FiberCount::AtLeast(fibers) | FiberCount::Exactly(fibers) => fibers as f64,
+        };
+        or_usual(ui, ("Muscle fibres", tip), &mut fibers, ("as usual", ""), FIBERS);
+        options.fibers = FiberCount::asked((fibers > 0.0).then_some(fibers as usize));
     });
     ui.horizontal(|ui| {
-        let import = &mut edited.import;
-        ui.checkbox(&mut import.largest_piece, "Largest piece only")
+        let mut largest = options.import.pieces == Pieces::Largest;
+        ui.checkbox(&mut largest, "Largest piece only")
             .on_hover_text("Of a drawing in several pieces, which is refused otherwise");
+        options.import.pieces = if largest { Pieces::Largest } else { Pieces::Refuse };
         ui.add_space(12.0);
-        ui.checkbox(&mut import.fill_holes, "Fill holes").on_hover_text("Make a solid body of it");
+        let mut fill = options.import.holes == Holes::Fill;
+        ui.checkbox(&mut fill, "Fill holes").on_hover_text("Make a solid body of it");
+        options.import.holes = if fill { Holes::Fill } else { Holes::Keep };
     });
     let tip =
         "Show on the plushie what the SVG, PNG or JPEG shows; saving puts it beside the plushie, NAME.texture.png";
-    ui.checkbox(&mut edited.import.texture, "Keep the picture as texture").on_hover_text(tip);
+    ui.checkbox(&mut options.texture, "Keep the picture as texture").on_hover_text(tip);
     ui.horizontal(|ui| {
         let label = ui.label("Layers");
-        let field = TextEdit::singleline(&mut edited.import.layers).hint_text("all").desired_width(f32::INFINITY);
+        let field = TextEdit::singleline(layers).hint_text("all").desired_width(f32::INFINITY);
         let tip = "Of an SVG or DXF drawing: the names of those that count, between commas";
         ui.add(field).labelled_by(label.id).on_hover_text(tip);
     });
+    CollapsingHeader::new("Reading and clean-up")
+        .id_salt("import details")
+        .show(ui, |ui| details(ui, &mut options.import));
+}
+
+/// What is seldom asked for.
+fn details(ui: &mut Ui, import: &mut Import) {
+    let mut keep = import.background == Background::Keep;
+    let tip = "A rectangle as large as the page below everything else, which is left out otherwise";
+    ui.checkbox(&mut keep, "Keep the background").on_hover_text(tip);
+    import.background = if keep { Background::Keep } else { Background::Drop };
+    Grid::new("import details").num_columns(2).spacing([8.0, 4.0]).show(ui, |ui| {
+        let tip = "How far smoothing may move the boundary; corners stay";
+        or_usual(ui, ("Smooth", tip), &mut import.smooth_mm, ("not", " mm"), 0.0..=LARGEST_MM);
+        ui.end_row();
+        // A least width of nothing widens nothing, which is not the usual.
+        let tip = "Parts thinner than this are widened; -1: hairlines alone, as long as that changes little; 0: none";
+        let mut width = import.min_width_mm.unwrap_or(-1.0);
+        or_usual(ui, ("Least width", tip), &mut width, ("as usual", " mm"), -1.0..=LARGEST_MM);
+        import.min_width_mm = (width >= 0.0).then_some(width);
+        ui.end_row();
+        let tip = "What a plain number of a DXF or OBJ file or a pixel measures; 0: what the file says";
+        let mut unit = import.unit_mm.unwrap_or(0.0);
+        or_usual(ui, ("Unit", tip), &mut unit, ("as in the file", " mm"), 0.0..=LARGEST_MM);
+        import.unit_mm = (unit > 0.0).then_some(unit);
+        ui.end_row();
+        let tip = "Pictures: difference from the background, 0 to 255, from which a pixel is ink; -1: it is found";
+        let mut level = import.threshold.map_or(-1.0, f64::from);
+        or_usual(ui, ("Ink from", tip), &mut level, ("as found", ""), -1.0..=255.0);
+        import.threshold = (level >= 0.0).then_some(level as u8);
+        ui.end_row();
+    });
+}
+
+/// A number whose least value stands for what is usual, and is shown as that in words.
+fn or_usual(
+    ui: &mut Ui,
+    (name, tip): (&str, &str),
+    value: &mut f64,
+    (usual, unit): (&'static str, &'static str),
+    range: RangeInclusive<f64>,
+) {
+    let least = *range.start();
+    let label = ui.label(name).on_hover_text(tip);
+    let shown = move |value: f64, decimals: RangeInclusive<usize>| match value {
+        value if value <= least => usual.to_owned(),
+        value => format!("{}{unit}", emath::format_with_decimals_in_range(value, decimals)),
+    };
+    let typed = move |text: &str| match text.trim() {
+        text if text.is_empty() || text == usual => Some(least),
+        text => text.trim_end_matches(unit.trim_start()).trim().parse().ok(),
+    };
+    let drag = DragValue::new(value).range(range).speed(1.0).custom_formatter(shown).custom_parser(typed);
+    ui.add(drag).labelled_by(label.id).on_hover_text(tip);
 }
 
 /// An error as a sentence of its own.

@@ -1,14 +1,17 @@
 //! Proposing networks: parameters, progress, the proposals and their stages (fig. 6).
 
-use super::{Actions, State, heading, primary, wide};
+use super::{Actions, State, buttons, heading};
 use crate::picture::Stage;
 use crate::rigging::Proposal;
 use crate::studio::action::Action;
+use crate::studio::canvas::Hit;
+use crate::studio::commands::discovery::{ACCEPT, CANCEL, CANCEL_RIG, PROPOSE, REJECT, RIG};
+use crate::studio::commands::document::ESCAPE;
 use crate::studio::session::Session;
 use crate::studio::style;
 use eframe::egui::{
     Align2, Button, CollapsingHeader, DragValue, FontId, Grid, ProgressBar, Rect, Response, RichText, Role, ScrollArea,
-    Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2,
+    Sense, Spinner, Stroke, StrokeKind, TextEdit, Ui, WidgetInfo, vec2,
 };
 use std::time::Duration;
 
@@ -16,9 +19,13 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Act
     heading(ui, "Network discovery");
     match &session.discovery.running {
         Some(running) => progress(ui, running.started.elapsed(), actions),
-        None => propose(ui, session, actions),
+        None => {
+            let width = ui.available_width();
+            buttons::primary(ui, session, &PROPOSE, true, width, actions);
+        }
     }
     parameters(ui, session, actions);
+    rig(ui, session, actions);
     if session.discovery.proposals.is_empty() {
         return;
     }
@@ -32,22 +39,10 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Act
             row(ui, session, index, proposal, actions);
         }
     });
-    if let Some(index) = session.discovery.shown.filter(|&i| i < session.discovery.proposals.len()) {
-        verdict(ui, index, actions);
+    if session.shown_proposal().is_some() {
+        verdict(ui, session, actions);
         ui.add_space(2.0);
         stages(ui, session, state, actions);
-    }
-}
-
-fn propose(ui: &mut Ui, session: &Session, actions: &mut Actions) {
-    let why_not = session.cannot_propose();
-    let width = ui.available_width();
-    let response = primary(ui, why_not.is_none(), "Propose networks", width);
-    let response = response
-        .on_hover_text("Look for winch-tendon networks that reach this pose (G)")
-        .on_disabled_hover_text(why_not.unwrap_or_default());
-    if response.clicked() {
-        actions.push(Action::Propose);
     }
 }
 
@@ -57,8 +52,8 @@ fn progress(ui: &mut Ui, elapsed: Duration, actions: &mut Actions) {
         // How long it takes is not known; the bar comes nearer and nearer to the end.
         let bar = ProgressBar::new(1.0 - (-seconds / 4.0).exp()).desired_width(ui.available_width() - 70.0);
         ui.add(bar.text(format!("{seconds:.0} s"))).on_hover_text("Trying candidates in simulation");
-        if ui.button("Cancel").on_hover_text("Stop looking (Esc)").clicked() {
-            actions.push(Action::CancelPropose);
+        if ui.button("Cancel").on_hover_text(ESCAPE.hint(CANCEL.tip)).clicked() {
+            actions.push(Action::Run(&CANCEL, Hit::Nothing));
         }
     });
     // The seconds go on counting.
@@ -87,6 +82,48 @@ fn parameters(ui: &mut Ui, session: &Session, actions: &mut Actions) {
             actions.push(Action::SetParameters(p));
         }
     });
+}
+
+/// Networks for all poses at once.
+fn rig(ui: &mut Ui, session: &Session, actions: &mut Actions) {
+    CollapsingHeader::new("All poses").id_salt("rig").show(ui, |ui| {
+        let mut choice = session.rigging().choice.clone();
+        Grid::new("rig").num_columns(2).spacing([8.0, 4.0]).show(ui, |ui| {
+            let tip = "Winches that the plushie may have in the end";
+            let label = ui.label("Most winches").on_hover_text(tip);
+            ui.add(DragValue::new(&mut choice.max_winches).range(1..=64).speed(0.1)).labelled_by(label.id);
+            ui.end_row();
+            let tip = "One number for all (2), winch by winch (3,2), or what to choose from (1..4)";
+            let label = ui.label("Tendons of each winch").on_hover_text(tip);
+            let field = TextEdit::singleline(&mut choice.tendons).desired_width(70.0);
+            ui.add(field).labelled_by(label.id).on_hover_text(tip);
+            ui.end_row();
+        });
+        ui.checkbox(&mut choice.hold, "Hold the parameters").on_hover_text("Otherwise several are tried");
+        if choice != session.rigging().choice {
+            actions.push(Action::SetRig(choice));
+        }
+        match &session.rigging().running {
+            Some(running) => rigging(ui, session, running.started.elapsed(), actions),
+            None => {
+                let width = ui.available_width();
+                buttons::primary(ui, session, &RIG, true, width, actions);
+            }
+        }
+    });
+}
+
+fn rigging(ui: &mut Ui, session: &Session, elapsed: Duration, actions: &mut Actions) {
+    ui.horizontal(|ui| {
+        ui.add(Spinner::new());
+        ui.label(format!("{} s", elapsed.as_secs()));
+        if ui.button(CANCEL_RIG.label).on_hover_text(CANCEL_RIG.tip(session)).clicked() {
+            actions.push(Action::Run(&CANCEL_RIG, Hit::Nothing));
+        }
+    });
+    ui.label(RichText::new(session.rigging().step()).small().weak());
+    // The seconds go on counting.
+    ui.ctx().request_repaint_after(Duration::from_millis(200));
 }
 
 fn row(ui: &mut Ui, session: &Session, index: usize, proposal: &Proposal, actions: &mut Actions) {
@@ -153,15 +190,10 @@ fn thumbnail(ui: &mut Ui, session: &Session, state: &mut State, stage: Stage, na
     response
 }
 
-fn verdict(ui: &mut Ui, index: usize, actions: &mut Actions) {
+fn verdict(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     ui.horizontal(|ui| {
         let width = (ui.available_width() - 6.0) / 2.0;
-        if primary(ui, true, "Accept", width).on_hover_text("Build this network in (Enter)").clicked() {
-            actions.push(Action::Accept(index));
-        }
-        let reject = wide(ui, true, Button::new("Reject"), width);
-        if reject.on_hover_text("Drop this proposal (Backspace)").clicked() {
-            actions.push(Action::Reject(index));
-        }
+        buttons::primary(ui, session, &ACCEPT, true, width, actions);
+        buttons::wide(ui, session, &REJECT, width, actions);
     });
 }

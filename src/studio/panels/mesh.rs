@@ -1,10 +1,11 @@
 //! The mesh: how good it is, and another resolution for it.
 
-use super::{Actions, heading, meshing, primary};
+use super::{Actions, buttons, heading, meshing};
 use crate::design::MeshFigures;
-use crate::mesh::quality::{HISTOGRAM_BARS, HISTOGRAM_STEP_DEG, Quality};
+use crate::mesh::quality::{HISTOGRAM_BARS, HISTOGRAM_STEP_DEG, MeshQuality};
 use crate::mesh::{MAX_FIBERS, Mesh};
 use crate::studio::action::Action;
+use crate::studio::commands::document::REMESH;
 use crate::studio::meshing::FINEST;
 use crate::studio::session::Session;
 use crate::studio::style;
@@ -76,17 +77,15 @@ fn resolution(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     ui.add_space(2.0);
     match session.meshing().running {
         None => {
-            let tip = "Make a new mesh of the outline; pins, poses, networks and keyframes stay";
-            if primary(ui, true, "Remesh", ui.available_width()).on_hover_text(tip).clicked() {
-                actions.push(Action::Remesh);
-            }
+            let width = ui.available_width();
+            buttons::primary(ui, session, &REMESH, true, width, actions);
         }
-        Some(_) => meshing(ui, actions),
+        Some(_) => meshing(ui, session, actions),
     }
 }
 
 /// Bars of triangles by their smallest angle, 0 to 60 degrees.
-fn histogram(ui: &mut Ui, quality: &Quality) {
+fn histogram(ui: &mut Ui, quality: &MeshQuality) {
     let size = vec2(ui.available_width(), HISTOGRAM_HEIGHT + LEGEND_HEIGHT);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
     let text = format!("Histogram of smallest angles, least {:.1} degrees", quality.min_angle_deg);

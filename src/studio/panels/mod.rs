@@ -1,19 +1,25 @@
 //! The panels. Each borrows the session, read only, and says what it wants as actions.
 
+pub mod buttons;
 pub mod dialogs;
 pub mod discovery;
 pub mod mesh;
 pub mod messages;
 pub mod networks;
 pub mod outline;
+pub mod palette;
 pub mod poses;
 pub mod quality;
 pub mod settings;
+pub mod shortcuts;
 pub mod status;
 pub mod timeline;
 pub mod toolbar;
 
 use super::action::Action;
+pub use super::action::Actions;
+use super::commands::document::CANCEL_MESHING;
+use super::session::Session;
 use super::style;
 use super::viewport::thumbnail::Thumbnails;
 use eframe::egui::{Button, Frame, Margin, Response, RichText, Spinner, Ui};
@@ -22,10 +28,9 @@ use eframe::egui::{Button, Frame, Margin, Response, RichText, Spinner, Ui};
 #[derive(Default)]
 pub struct State {
     pub tab: Tab,
-    /// A name being typed, and what it is for.
-    pub renaming: Option<(Renamed, String)>,
     pub timeline: timeline::State,
     pub mesh: mesh::State,
+    pub palette: palette::State,
     pub thumbnails: Thumbnails,
     /// Whether pictures can be drawn.
     pub gpu: bool,
@@ -39,12 +44,8 @@ pub enum Tab {
     Settings,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Renamed {
-    Pose(usize),
-    Network(usize),
-    Plushie,
-}
+/// Height of a button that takes the width of its panel, logical pixels.
+pub const WIDE: f32 = 30.0;
 
 /// Of side panels: no fill, see [`style`].
 pub fn frame() -> Frame {
@@ -64,36 +65,34 @@ pub fn primary(ui: &mut Ui, enabled: bool, text: &str, width: f32) -> Response {
 }
 
 /// What stands in the place of a button while it is at work.
-pub fn meshing(ui: &mut Ui, actions: &mut Actions) {
+pub fn meshing(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     ui.horizontal(|ui| {
         ui.add(Spinner::new());
         ui.label("Meshing");
-        if ui.button("Cancel meshing").on_hover_text("Keep the body as it is").clicked() {
-            actions.push(Action::CancelRemesh);
-        }
+        buttons::text(ui, session, &CANCEL_MESHING, actions);
     });
 }
 
 /// A button of a given width, its text in the middle.
 pub fn wide(ui: &mut Ui, enabled: bool, button: Button<'_>, width: f32) -> Response {
-    ui.add_enabled_ui(enabled, |ui| ui.add_sized([width, 30.0], button)).inner
+    ui.add_enabled_ui(enabled, |ui| ui.add_sized([width, WIDE], button)).inner
 }
 
-/// A text field that is taken with Enter or a click elsewhere and dropped with Escape.
-pub fn name_field(ui: &mut Ui, renaming: &mut Option<(Renamed, String)>, label: &str) -> Option<(Renamed, String)> {
-    let (what, text) = renaming.as_mut()?;
-    let what = *what;
-    let response = ui.add(eframe::egui::TextEdit::singleline(text).desired_width(f32::INFINITY)).accessible_name(label);
+/// A text field that is taken with Enter or a click elsewhere and dropped with Escape. The name, once it is taken.
+pub fn name_field(ui: &mut Ui, session: &Session, label: &str, actions: &mut Actions) -> Option<String> {
+    let (what, text) = session.renaming()?;
+    let mut typed = text.clone();
+    let field = eframe::egui::TextEdit::singleline(&mut typed).desired_width(f32::INFINITY);
+    let response = ui.add(field).accessible_name(label);
     if !response.has_focus() && !response.lost_focus() {
         response.request_focus();
     }
     if response.lost_focus() {
-        let dropped = ui.input(|i| i.key_pressed(eframe::egui::Key::Escape));
-        let (_, text) = renaming.take()?;
-        return (!dropped).then_some((what, text));
+        actions.push(Action::Typed(None));
+        return (!ui.input(|i| i.key_pressed(eframe::egui::Key::Escape))).then_some(typed);
+    }
+    if typed != *text {
+        actions.push(Action::Typed(Some((*what, typed))));
     }
     None
 }
-
-/// Wanted, in the order in which it was asked for.
-pub type Actions = Vec<Action>;

@@ -1,16 +1,17 @@
 //! The winch-tendon networks that are built in.
 
-use super::{Actions, Renamed, State, heading, name_field};
+use super::{Actions, heading, name_field};
 use crate::picture::palette::Palette;
 use crate::studio::action::Action;
+use crate::studio::canvas::Plushie;
 use crate::studio::change::Change;
+use crate::studio::commands::document::DELETE;
 use crate::studio::icons::{self, Icon};
-use crate::studio::session::{Selection, Session};
+use crate::studio::session::{Renamed, Selection, Session};
 use crate::studio::style;
-use crate::studio::viewport::Plushie;
 use eframe::egui::{Align, Button, Layout, RichText, Sense, Ui, vec2};
 
-pub fn show(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actions) {
+pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     heading(ui, "Winch-tendon networks");
     let design = session.design();
     if design.networks.is_empty() {
@@ -19,15 +20,15 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Act
     }
     ui.scope(|ui| {
         ui.spacing_mut().item_spacing.y = 2.0;
-        rows(ui, session, state, actions);
+        rows(ui, session, actions);
     });
 }
 
-fn rows(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actions) {
+fn rows(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     let palette = Palette::of(session.look.theme);
     for (index, network) in session.design().networks.iter().enumerate() {
-        if matches!(state.renaming, Some((Renamed::Network(i), _)) if i == index) {
-            if let Some((_, name)) = name_field(ui, &mut state.renaming, "Network name") {
+        if matches!(session.renaming(), Some((Renamed::Network(i), _)) if *i == index) {
+            if let Some(name) = name_field(ui, session, "Network name", actions) {
                 actions.push(Action::Change(Change::RenameNetwork(index, name)));
             }
             continue;
@@ -36,8 +37,8 @@ fn rows(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actions
             let (chip, _) = ui.allocate_exact_size(vec2(12.0, 24.0), Sense::hover());
             ui.painter().circle_filled(chip.center(), 5.0, style::color32(palette.winch(index)));
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                let tip = "Delete this network (Delete)";
-                if icons::small_button(ui, Icon::Trash, &format!("Delete network {}", network.name), tip).clicked() {
+                let (name, tip) = (format!("Delete network {}", network.name), DELETE.hint("Delete this network"));
+                if icons::small_button(ui, Icon::Trash, &name, &tip).clicked() {
                     actions.push(Action::Change(Change::RemoveNetwork(index)));
                 }
                 // Both plushies have the same; a hidden one is not kept up to date.
@@ -58,7 +59,7 @@ fn rows(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actions
                 let response = ui.add(button).accessible_name(format!("Network {}", network.name));
                 let response = response.on_hover_text("Cable wound now. Double-click to rename");
                 if response.double_clicked() {
-                    state.renaming = Some((Renamed::Network(index), network.name.clone()));
+                    actions.push(Action::Typed(Some((Renamed::Network(index), network.name.clone()))));
                 } else if response.clicked() {
                     actions.push(Action::Select(Selection::Network(index)));
                 }

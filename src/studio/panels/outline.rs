@@ -1,51 +1,34 @@
 //! Drawing the outline: pencils, parts, the numbers of the part that is picked out, and the body that comes of it.
 
-use super::{Actions, heading, meshing, primary, wide};
+use super::{Actions, buttons, heading, meshing};
 use crate::mesh::MAX_FIBERS;
+use crate::outline::Point;
 use crate::outline::drawing::{Item, Part, Primitive, track};
-use crate::outline::{Drawing, Point};
 use crate::studio::action::Action;
+use crate::studio::canvas;
 use crate::studio::change::Change;
+use crate::studio::commands;
+use crate::studio::commands::command::Scope;
+use crate::studio::commands::outline::{CLOSE, CORNER, CUT, DELETE, MAKE_BODY, TRACE};
 use crate::studio::icons::{self, Icon};
 use crate::studio::meshing::Resolution;
-use crate::studio::paper;
 use crate::studio::session::Session;
-use crate::studio::sketching::{Pencil, Sketch};
-use eframe::egui::{Align, Button, DragValue, Grid, Layout, RichText, ScrollArea, Ui};
+use crate::studio::sketching::Sketch;
+use eframe::egui::{Align, DragValue, Grid, Layout, RichText, ScrollArea, Ui};
 
 /// Least radius, mm.
 const LEAST_MM: f64 = 0.5;
 
-pub const PENCILS: [(Pencil, &str, &str); 6] = [
-    (Pencil::Select, "Select", "Pick parts out, move them and their points (V)"),
-    (Pencil::Sketch, "Sketch", "Draw a line around with the mouse; it becomes a curve with few points (S)"),
-    (Pencil::Polygon, "Polygon", "Click the corners; Enter or a click on the first one closes it (P)"),
-    (Pencil::Circle, "Circle", "Drag from the middle (C)"),
-    (Pencil::Capsule, "Capsule", "A limb: drag from one end to the other (L)"),
-    (
-        Pencil::Track,
-        "Tendon track",
-        "A line inside the body along which mesh edges run, for tendons to follow: click its points; a double click or Enter ends it \
-         (R)",
-    ),
-];
-
-pub fn show(ui: &mut Ui, session: &Session, state: &mut paper::State, actions: &mut Actions) {
+pub fn show(ui: &mut Ui, session: &Session, state: &mut canvas::State, actions: &mut Actions) {
     let sketching = session.sketching();
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 1.0;
         ui.spacing_mut().button_padding.x = 6.0;
-        for (pencil, name, tip) in PENCILS {
-            if ui.selectable_label(sketching.pencil == pencil, name).on_hover_text(tip).clicked() {
-                actions.push(Action::Sketch(Sketch::Take(pencil)));
-            }
+        for command in commands::tools::ALL.iter().filter(|command| command.scope == Scope::Outline) {
+            buttons::choice(ui, session, command, actions);
         }
     });
-    let mut cut = sketching.cut;
-    let tip = "New parts are cut out of what was drawn before, not joined to it (X)";
-    if ui.checkbox(&mut cut, "Cut out what is drawn").on_hover_text(tip).changed() {
-        actions.push(Action::Sketch(Sketch::Cut(cut)));
-    }
+    buttons::tick(ui, session, &CUT, actions);
     ui.separator();
     heading(ui, "Parts");
     let rest = 240.0_f32.min(0.45 * ui.available_height());
@@ -87,10 +70,10 @@ fn row(ui: &mut Ui, session: &Session, item: Item, name: &str, short: &str, acti
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let (what, tip) = match item {
-                Item::Part(_) => ("Delete part", "Delete this part (Delete)"),
-                Item::Track(_) => ("Delete track", "Delete this track (Delete)"),
+                Item::Part(_) => ("Delete part", DELETE.hint("Delete this part")),
+                Item::Track(_) => ("Delete track", DELETE.hint("Delete this track")),
             };
-            if icons::small_button(ui, Icon::Trash, &format!("Delete {short}"), tip).clicked() {
+            if icons::small_button(ui, Icon::Trash, &format!("Delete {short}"), &tip).clicked() {
                 let drawing = session.drawing().without(item);
                 actions.push(Action::Change(Change::Draw { what, drawing }));
             }
@@ -165,7 +148,7 @@ fn numbers_of_part(ui: &mut Ui, part: &mut Part, point: Option<usize>) {
             Some(point) => {
                 place(ui, "Point", &mut point.at);
                 ui.label("");
-                ui.checkbox(&mut point.corner, "Corner").on_hover_text("Sharp, not round (K)");
+                ui.checkbox(&mut point.corner, "Corner").on_hover_text(CORNER.hint("Sharp, not round"));
                 ui.end_row();
             }
             None => count(ui, points.len()),
@@ -175,7 +158,7 @@ fn numbers_of_part(ui: &mut Ui, part: &mut Part, point: Option<usize>) {
     ui.checkbox(&mut part.cut, "Cut out").on_hover_text(tip);
 }
 
-fn body(ui: &mut Ui, session: &Session, state: &mut paper::State, actions: &mut Actions) {
+fn body(ui: &mut Ui, session: &Session, state: &mut canvas::State, actions: &mut Actions) {
     let surface = state.surface(session.drawing());
     let [wide_mm, high_mm] = surface.size;
     let trouble = match (surface.pieces, &surface.trouble) {
@@ -213,25 +196,14 @@ fn body(ui: &mut Ui, session: &Session, state: &mut paper::State, actions: &mut 
     ui.add_space(4.0);
     match session.meshing().running {
         None => {
-            let tip = "Put this body in place of the old one; pins, poses, networks and keyframes stay";
-            let button = primary(ui, trouble.is_none(), "Make the body", ui.available_width());
-            if button.on_hover_text(tip).clicked() {
-                actions.push(Action::Sketch(Sketch::MakeBody));
-            }
+            let width = ui.available_width();
+            buttons::primary(ui, session, &MAKE_BODY, trouble.is_none(), width, actions);
         }
-        Some(_) => meshing(ui, actions),
+        Some(_) => meshing(ui, session, actions),
     }
     let width = ui.available_width();
-    let tip = "Back to the plushies; the drawing stays in the document (O)";
-    if wide(ui, true, Button::new("Close the drawing"), width).on_hover_text(tip).clicked() {
-        actions.push(Action::Sketch(Sketch::Open(false)));
-    }
+    buttons::wide(ui, session, &CLOSE, width, actions);
     if session.design().drawing.is_some() {
-        let tip = "Draw the present body anew, with few points, in place of these parts; the tracks stay";
-        if wide(ui, true, Button::new("Trace the present body"), width).on_hover_text(tip).clicked() {
-            let tracks = session.drawing().tracks.clone();
-            let drawing = Drawing { tracks, ..Drawing::of(&session.design().outline) };
-            actions.push(Action::Change(Change::Draw { what: "Trace the body", drawing }));
-        }
+        buttons::wide(ui, session, &TRACE, width, actions);
     }
 }

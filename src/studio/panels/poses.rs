@@ -1,27 +1,28 @@
 //! Poses of the plushie, and the targets of the current one.
 
-use super::{Actions, Renamed, State, heading, name_field};
+use super::{Actions, buttons, heading, name_field};
 use crate::studio::action::Action;
 use crate::studio::change::Change;
+use crate::studio::commands::document::{ADD_POSE, CLEAR_TARGETS, DELETE, DELETE_POSE, DUPLICATE_POSE, RENAME_POSE};
 use crate::studio::icons::{self, Icon};
-use crate::studio::session::{Mode, Selection, Session};
+use crate::studio::session::{Mode, Renamed, Selection, Session};
 use eframe::egui::{Align, Button, DragValue, Layout, RichText, ScrollArea, Ui, vec2};
 
-pub fn show(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actions) {
-    title(ui, session, state, actions);
+pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
+    title(ui, session, actions);
     ui.add_space(8.0);
-    pose_buttons(ui, session, state, actions);
+    pose_buttons(ui, session, actions);
     ScrollArea::vertical().auto_shrink([false, true]).max_height(ui.available_height() * 0.55).show(ui, |ui| {
-        list(ui, session, state, actions);
+        list(ui, session, actions);
     });
     ui.add_space(10.0);
     targets(ui, session, actions);
 }
 
 /// The plushie's name, which a double click edits.
-fn title(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actions) {
-    if matches!(state.renaming, Some((Renamed::Plushie, _))) {
-        if let Some((_, name)) = name_field(ui, &mut state.renaming, "Plushie name") {
+fn title(ui: &mut Ui, session: &Session, actions: &mut Actions) {
+    if matches!(session.renaming(), Some((Renamed::Plushie, _))) {
+        if let Some(name) = name_field(ui, session, "Plushie name", actions) {
             actions.push(Action::Change(Change::Rename(name)));
         }
         return;
@@ -31,43 +32,29 @@ fn title(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Action
     let response = ui.add(Button::new(label).frame(false).truncate());
     let response = response.on_hover_text("Double-click to rename the plushie");
     if response.double_clicked() {
-        state.renaming = Some((Renamed::Plushie, name.clone()));
+        actions.push(Action::Typed(Some((Renamed::Plushie, name.clone()))));
     }
     let design = session.design();
     let body = format!("{} fibres, {:.0} mm", design.fiber_routings().len(), design.body_length_mm());
     ui.label(RichText::new(body).small().weak());
 }
 
-fn pose_buttons(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actions) {
+fn pose_buttons(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     ui.horizontal(|ui| {
         heading(ui, "Poses");
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.spacing_mut().item_spacing.x = 2.0;
-            if icons::small_button(ui, Icon::Plus, "Add pose", "Add a pose (Ctrl+Shift+N)").clicked() {
-                actions.push(Action::Change(Change::AddPose));
-            }
-            let Some(pose) = session.pose else { return };
-            if icons::small_button(ui, Icon::Trash, "Delete pose", "Delete this pose").clicked() {
-                actions.push(Action::Change(Change::RemovePose(pose)));
-            }
-            if icons::small_button(ui, Icon::Copy, "Duplicate pose", "Duplicate this pose (Ctrl+D)").clicked() {
-                actions.push(Action::Change(Change::DuplicatePose(pose)));
-            }
-            if icons::small_button(ui, Icon::Pen, "Rename pose", "Rename this pose (F2)").clicked() {
-                begin_rename(session, state);
+            buttons::small_icon(ui, session, &ADD_POSE, actions);
+            if session.pose.is_some() {
+                for command in [&DELETE_POSE, &DUPLICATE_POSE, &RENAME_POSE] {
+                    buttons::small_icon(ui, session, command, actions);
+                }
             }
         });
     });
 }
 
-/// Starts to edit the name of the current pose.
-pub fn begin_rename(session: &Session, state: &mut State) {
-    if let Some((index, pose)) = session.pose.and_then(|index| Some((index, session.design().poses.get(index)?))) {
-        state.renaming = Some((Renamed::Pose(index), pose.name.clone()));
-    }
-}
-
-fn list(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actions) {
+fn list(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     ui.spacing_mut().item_spacing.y = 2.0;
     let in_pose = session.mode == Mode::Pose;
     let row = |ui: &mut Ui, name: &str, detail: &str, selected: bool| {
@@ -83,8 +70,8 @@ fn list(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actions
         actions.push(Action::SelectPose(None));
     }
     for (index, pose) in session.design().poses.iter().enumerate() {
-        if matches!(state.renaming, Some((Renamed::Pose(i), _)) if i == index) {
-            if let Some((_, name)) = name_field(ui, &mut state.renaming, "Pose name") {
+        if matches!(session.renaming(), Some((Renamed::Pose(i), _)) if *i == index) {
+            if let Some(name) = name_field(ui, session, "Pose name", actions) {
                 actions.push(Action::Change(Change::RenamePose(index, name)));
             }
             continue;
@@ -96,7 +83,7 @@ fn list(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actions
         };
         let response = row(ui, &pose.name, &detail, in_pose && session.pose == Some(index));
         if response.double_clicked() {
-            state.renaming = Some((Renamed::Pose(index), pose.name.clone()));
+            actions.push(Action::Typed(Some((Renamed::Pose(index), pose.name.clone()))));
         } else if response.clicked() {
             actions.push(Action::SelectPose(Some(index)));
         }
@@ -118,9 +105,7 @@ fn targets(ui: &mut Ui, session: &Session, actions: &mut Actions) {
             return;
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            if icons::small_button(ui, Icon::Trash, "Remove all targets", "Remove all targets of this pose").clicked() {
-                actions.push(Action::Change(Change::ClearTargets(pose)));
-            }
+            buttons::small_icon(ui, session, &CLEAR_TARGETS, actions);
         });
     });
     if session.targets().is_empty() {
@@ -139,8 +124,8 @@ fn targets(ui: &mut Ui, session: &Session, actions: &mut Actions) {
                     actions.push(Action::Select(Selection::Target(index)));
                 }
                 ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                    let tip = "Remove this target (Delete)";
-                    if icons::small_button(ui, Icon::Close, &format!("Remove target {}", index + 1), tip).clicked() {
+                    let (name, tip) = (format!("Remove target {}", index + 1), DELETE.hint("Remove this target"));
+                    if icons::small_button(ui, Icon::Close, &name, &tip).clicked() {
                         actions.push(Action::Change(Change::RemoveTarget { pose, index }));
                     }
                     let mut weight = target.weight;

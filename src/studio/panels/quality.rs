@@ -3,6 +3,7 @@
 use super::Actions;
 use crate::engine::Quality;
 use crate::studio::action::Action;
+use crate::studio::commands::view::QUALITY;
 use crate::studio::session::Session;
 use eframe::egui::{Button, ComboBox, RichText, Ui, vec2};
 
@@ -14,15 +15,6 @@ pub fn name(quality: Quality) -> &'static str {
         Quality::Draft => "Draft",
         Quality::Balanced => "Balanced",
         Quality::Accurate => "Accurate",
-    }
-}
-
-/// The next one, round and round.
-pub fn after(quality: Quality) -> Quality {
-    match quality {
-        Quality::Draft => Quality::Balanced,
-        Quality::Balanced => Quality::Accurate,
-        Quality::Accurate => Quality::Draft,
     }
 }
 
@@ -54,8 +46,9 @@ pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     });
     let choices = ALL.map(|choice| format!("{}: {}", name(choice), explain(choice)));
     let tip = format!(
-        "Quality: how much work a frame may take while the hand moves (Q for the next)\n\n{}\n\nWhen the hand rests, the \
+        "Quality: how much work a frame may take while the hand moves ({} for the next)\n\n{}\n\nWhen the hand rests, the \
          shape is refined to equilibrium with any of them.",
+        QUALITY.keys_text(),
         choices.join("\n")
     );
     combo.response.labelled_by(label.id).on_hover_text(tip);

@@ -2,8 +2,10 @@
 
 use super::quality;
 use crate::engine::{EQUILIBRIUM, NEAR_EQUILIBRIUM, Shape};
-use crate::studio::session::{Mode, Session, Tool};
-use crate::studio::viewport::Plushie;
+use crate::studio::canvas::Plushie;
+use crate::studio::commands::command::Scope;
+use crate::studio::session::{Mode, Session};
+use crate::studio::tools::taken;
 use eframe::egui::{Align, Color32, FontId, Label, Layout, RichText, Ui, vec2};
 
 /// Height of both lines, logical pixels.
@@ -14,7 +16,7 @@ pub fn show(ui: &mut Ui, session: &Session) {
     ui.add_space(2.0);
     let weak = ui.visuals().weak_text_color();
     let warn = ui.visuals().warn_fg_color;
-    let (text, color) = if let Some(working) = session.files.working {
+    let (text, color) = if let Some(working) = session.working() {
         (format!("{working}…"), ui.visuals().strong_text_color())
     } else if let Some(warning) = session.solver_warning() {
         (warning.to_owned(), warn)
@@ -56,10 +58,9 @@ fn hint(session: &Session) -> &'static str {
     if session.sketching().open {
         return "Scroll to zoom, drag beside the drawing or with the middle button to move the sheet";
     }
-    match (session.mode, session.tool) {
-        (Mode::Animation, _) => "Showing the animation. Escape, or choosing a pose, returns to posing",
-        (Mode::Pose, Tool::Pin) => "Click the body to pin it, click a pin to remove it",
-        (Mode::Pose, Tool::Drag) => "Drag the body to pose it. Right-click for pins and targets",
+    match session.mode {
+        Mode::Animation => "Showing the animation. Escape, or choosing a pose, returns to posing",
+        Mode::Pose => taken(session, Scope::Views).hint,
     }
 }
 

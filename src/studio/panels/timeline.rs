@@ -1,10 +1,12 @@
 //! Keyframes in time: play, scrub, drag, ease. The curves are the winches' activations.
 
-use super::Actions;
+use super::{Actions, buttons};
 use crate::design::{Easing, animation};
 use crate::picture::palette::Palette;
 use crate::studio::action::Action;
 use crate::studio::change::Change;
+use crate::studio::commands::animation::{ADD_KEYFRAME, LOOP, PLAY};
+use crate::studio::commands::document::DELETE;
 use crate::studio::icons::{self, Icon};
 use crate::studio::session::{Mode, Selection, Session};
 use crate::studio::style;
@@ -39,25 +41,13 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Act
 fn controls(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
-        if session.playback.playing {
-            if icons::button(ui, Icon::Pause, "Pause", "Pause (Space)").clicked() {
-                actions.push(Action::Pause);
-            }
-        } else if icons::button(ui, Icon::Play, "Play", "Play the animation (Space)").clicked() {
-            actions.push(Action::Play);
-        }
-        let looping = session.playback.looping;
-        if icons::toggle(ui, Icon::Loop, "Loop", "Begin again at the end (L)", looping).clicked() {
-            actions.push(Action::SetLooping(!looping));
-        }
+        buttons::icon(ui, session, &PLAY, actions);
+        buttons::icon(ui, session, &LOOP, actions);
         let time = format!("{:.2} s / {:.2} s", session.playback.time_s, animation::duration_s(session.design()));
         ui.add_space(4.0);
         ui.label(RichText::new(time).monospace());
         ui.add_space(8.0);
-        let tip = "Put what the realizable plushie shows on the timeline (K)";
-        if ui.button("Add keyframe").on_hover_text(tip).clicked() {
-            actions.push(Action::AddKeyframe);
-        }
+        buttons::text(ui, session, &ADD_KEYFRAME, actions);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| selected_keyframe(ui, session, actions));
     });
 }
@@ -65,7 +55,7 @@ fn controls(ui: &mut Ui, session: &Session, actions: &mut Actions) {
 fn selected_keyframe(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     let Selection::Keyframe(index) = session.selection else { return };
     let Some(keyframe) = session.design().keyframes.get(index) else { return };
-    if icons::button(ui, Icon::Trash, "Delete keyframe", "Delete this keyframe (Delete)").clicked() {
+    if icons::button(ui, Icon::Trash, "Delete keyframe", &DELETE.hint("Delete this keyframe")).clicked() {
         actions.push(Action::Change(Change::RemoveKeyframe(index)));
     }
     let mut easing = keyframe.easing;

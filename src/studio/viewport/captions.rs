@@ -1,13 +1,12 @@
 //! Words and a scale over a view.
 
-use super::camera::Camera;
-use super::{Pane, Plushie};
 use crate::picture::Stage;
+use crate::studio::canvas::{Camera, Canvas, Plushie};
 use crate::studio::session::Session;
 use eframe::egui::{Align2, FontId, Pos2, Rect, Stroke, Ui, Vec2};
 
-pub fn show(ui: &Ui, pane: &Pane<'_>) {
-    let Pane { session, plushie, rect, camera } = *pane;
+pub fn show(ui: &Ui, canvas: &Canvas<'_>, plushie: Plushie) {
+    let Canvas { session, rect, camera, .. } = *canvas;
     let painter = ui.painter_at(rect);
     let (title, detail) = match (plushie, session.shown_proposal()) {
         (Plushie::Idealized, Some(_)) => ("Idealized", stage_name(session.discovery.stage).to_owned()),

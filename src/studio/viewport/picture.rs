@@ -2,9 +2,9 @@
 
 use super::geometry::Geometry;
 use super::renderer::ViewCallback;
-use super::{Pane, Plushie};
 use crate::engine::Shape;
 use crate::picture::{Layers, Subject};
+use crate::studio::canvas::{Canvas, Plushie};
 use crate::studio::session::{Selection, Session};
 use eframe::egui::Ui;
 use std::sync::Arc;
@@ -16,8 +16,8 @@ pub struct Picture {
 }
 
 impl Picture {
-    pub fn paint(&mut self, ui: &Ui, pane: &Pane<'_>, shape: &Arc<Shape>) {
-        let layers = Layers::of(&subject(pane.session, pane.plushie, shape));
+    pub fn paint(&mut self, ui: &Ui, canvas: &Canvas<'_>, plushie: Plushie, shape: &Arc<Shape>) {
+        let layers = Layers::of(&subject(canvas.session, plushie, shape));
         let geometry = match &self.made {
             Some((before, geometry)) if *before == layers => geometry.clone(),
             _ => {
@@ -26,9 +26,9 @@ impl Picture {
                 geometry
             }
         };
-        let (slot, size) = (pane.plushie as u64, pane.rect.size());
-        let callback = ViewCallback { slot, camera: pane.camera, size, geometry };
-        ui.painter().add(egui_wgpu::Callback::new_paint_callback(pane.rect, callback));
+        let (slot, size) = (plushie as u64, canvas.rect.size());
+        let callback = ViewCallback { slot, camera: canvas.camera, size, geometry };
+        ui.painter().add(egui_wgpu::Callback::new_paint_callback(canvas.rect, callback));
     }
 }
 

@@ -1,8 +1,8 @@
 //! Draws plushies with wgpu inside egui's pass. Knows nothing of panels, tools or designs.
 
-use super::camera::Camera;
 use super::geometry::{Batch, Capsule, Corner, Geometry, Textured};
 use super::skin::Skin;
+use crate::studio::canvas::Camera;
 use bytemuck::{Pod, Zeroable};
 use egui_wgpu::wgpu;
 use egui_wgpu::{CallbackResources, CallbackTrait, RenderState, ScreenDescriptor};

@@ -1,14 +1,15 @@
 //! The stages of a discovery as small pictures, like the paper's fig. 6.
 
-use super::camera::Camera;
 use super::geometry::Geometry;
 use super::renderer::ViewCallback;
 use crate::design::Design;
 use crate::engine::Shape;
+use crate::outline::polygon;
 use crate::picture::layers::{Layer, Pins};
 use crate::picture::palette::Theme;
 use crate::picture::{Layers, Shown, Stage, Subject};
 use crate::rigging::Proposal;
+use crate::studio::canvas::Camera;
 use crate::studio::session::Session;
 use eframe::egui::{Rect, Ui};
 use std::sync::Arc;
@@ -45,7 +46,7 @@ impl Thumbnails {
             self.made = Some(Made { design: design.clone(), proposal: proposal.clone(), theme, pictures });
         }
         let Some(made) = &self.made else { return };
-        let (low, high) = super::bounds(design);
+        let (low, high) = polygon::bounding_box(&design.mesh.nodes);
         let callback = ViewCallback {
             slot: FIRST_SLOT + stage as u64,
             camera: Camera::fit(low, high, rect.size()),

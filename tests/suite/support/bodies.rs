@@ -1,7 +1,7 @@
 //! Small bodies for the tests of the solvers: bars with fibres, tendons and pins.
 
 use super::Random;
-use plushwright::physics::{Body, Contractile, Element, Energy, Hyperelastic, Model, NeoHookean, Pin, Pins};
+use plushwright::physics::{Body, Contractile, Element, Energy, Hyperelastic, Model, NeoHookean, PinSpring, Pins};
 
 /// Nodes and counter-clockwise triangles.
 #[derive(Clone)]
@@ -86,7 +86,7 @@ impl Mesh {
 
     /// Pins on the nodes of the left end.
     pub fn left_pins(&self, stiffness: f64) -> Pins {
-        let pin = |j| Pin::node(self.at(0, j), self.nodes[self.at(0, j)], stiffness);
+        let pin = |j| PinSpring::node(self.at(0, j), self.nodes[self.at(0, j)], stiffness);
         Pins { pins: (0..=self.rows).map(pin).collect() }
     }
 

@@ -1,0 +1,109 @@
+//! What the core has to say, in the words of the command line: its options by name.
+
+use super::error::CommandError;
+use crate::fabrication::ExportError;
+use crate::motion::MotionError;
+use crate::operations::{Progress, Unbalanced, new_design, reshape};
+use crate::outline::{Change, Changes, Note, OutlineError, Remedy};
+use crate::rigging;
+use serde::Serialize;
+use std::path::Path;
+
+/// Why an outline made no design.
+pub fn unmade(path: &Path, error: new_design::Error) -> CommandError {
+    match error {
+        new_design::Error::Outline(error) => CommandError::input(path, outline(&error)),
+        new_design::Error::Mesh(error) => CommandError::input(path, error),
+        new_design::Error::Cancelled(_) => CommandError::Cancelled,
+    }
+}
+
+/// Why a design was not given another silhouette.
+pub fn unshaped(design: &Path, path: &Path, error: reshape::Error) -> CommandError {
+    match error {
+        reshape::Error::Outline(error) => CommandError::input(path, outline(&error)),
+        reshape::Error::Mesh(error) => CommandError::input(path, error),
+        reshape::Error::Edit(error) => CommandError::input(design, error),
+        reshape::Error::Cancelled(_) => CommandError::Cancelled,
+    }
+}
+
+/// Why there is no blueprint of a design.
+pub fn unexported(design: &Path, error: ExportError) -> CommandError {
+    match error {
+        ExportError::Write { path, source } => CommandError::write(&path, source),
+        ExportError::NotOurs { .. } | ExportError::Changed { .. } => CommandError::Usage(error.to_string()),
+        ExportError::Motion(MotionError::TooFast { .. }) => CommandError::input(design, format!("{error} (--stretch)")),
+        ExportError::NoNetworks => CommandError::input(design, format!("{error}; run `plushwright rig` first")),
+        error => CommandError::input(design, error),
+    }
+}
+
+/// Fails where a plushie did not come to equilibrium; for the end of a command, when what was found is written.
+pub fn balanced<'a>(unbalanced: impl IntoIterator<Item = &'a Unbalanced>) -> Result<(), CommandError> {
+    let told: Vec<String> = unbalanced.into_iter().map(Unbalanced::to_string).collect();
+    if told.is_empty() { Ok(()) } else { Err(CommandError::NotConverged(told.join("; "))) }
+}
+
+/// One line about a step of an operation.
+pub fn progress(step: &Progress) -> String {
+    match step {
+        Progress::Rig(rigging::Progress::Candidates { winch, count }) => {
+            format!("winch {}: {count} candidate networks", winch + 1)
+        }
+        Progress::Rig(rigging::Progress::Accepted { winch, tendons, errors }) => {
+            let errors: Vec<String> =
+                errors.iter().map(|(name, error)| format!("{name} {:.1} %", 100.0 * error)).collect();
+            format!("winch {}: {tendons} tendons; {}", winch + 1, errors.join(", "))
+        }
+    }
+}
+
+/// A note of a reader or the clean-up, and the option that would have it otherwise.
+fn note(note: &Note) -> String {
+    match note.remedy() {
+        Some(remedy @ (Remedy::Unit | Remedy::Threshold | Remedy::Background)) => {
+            format!("{note} ({})", option(remedy))
+        }
+        Some(remedy) => format!("{note}; {}", option(remedy)),
+        None => note.to_string(),
+    }
+}
+
+/// Why there is no outline, and the option that may help.
+fn outline(error: &OutlineError) -> String {
+    error.remedy().map_or_else(|| error.to_string(), |remedy| format!("{error}; {}", option(remedy)))
+}
+
+fn option(remedy: Remedy) -> &'static str {
+    match remedy {
+        Remedy::Height => "--height sets another height",
+        Remedy::Unit => "--unit sets another",
+        Remedy::Threshold => "--threshold sets another value",
+        Remedy::Background => "--background keep keeps it",
+        Remedy::Holes => "--holes fill makes a solid body of it",
+        Remedy::MinWidth => "--min-width widens them",
+        Remedy::Pieces => "choose --pieces largest, or join them in the drawing",
+    }
+}
+
+/// The report of a clean-up as it is printed.
+#[derive(Serialize)]
+pub struct CleanUp<'a> {
+    #[serde(flatten)]
+    changes: &'a Changes,
+    notes: Vec<String>,
+}
+
+impl<'a> CleanUp<'a> {
+    /// `more`: what the operation has to say besides.
+    pub fn new<N: ToString>(changes: &'a Changes, more: &[N]) -> Self {
+        let notes = changes.notes.iter().map(note).chain(more.iter().map(N::to_string)).collect();
+        Self { changes, notes }
+    }
+
+    /// A line for each step and note.
+    pub fn lines(&self) -> impl Iterator<Item = String> {
+        self.changes.steps.iter().map(Change::line).chain(self.notes.iter().cloned())
+    }
+}

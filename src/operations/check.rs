@@ -1,0 +1,208 @@
+//! The figures of a design: sizes, and how close both plushies come to each pose.
+
+use super::posing::{self, solve};
+use super::{Cancelled, Context, NoSuchPose, Unbalanced, View};
+use crate::design::{Design, Pose};
+use crate::engine::target_error;
+use crate::engine::{Question, Warning};
+use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// What is checked.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Options {
+    /// Names of poses; none for all.
+    pub poses: Vec<String>,
+}
+
+/// Why a design has no figures.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Error {
+    #[error(transparent)]
+    NoSuchPose(#[from] NoSuchPose),
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// What the solver has to say about a pose.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Note {
+    /// The figures are those of the nearest state found.
+    Unbalanced(Unbalanced),
+    Warning {
+        pose: String,
+        view: View,
+        warning: Warning,
+    },
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::Unbalanced(unbalanced) => unbalanced.fmt(f),
+            Self::Warning { pose, view, warning } => write!(f, "{pose}, {view}: {warning}"),
+        }
+    }
+}
+
+/// Sizes and poses. Errors are rms distances of the targets in body lengths.
+#[derive(Clone, Debug, Serialize)]
+pub struct Figures {
+    pub name: String,
+    pub fibers: usize,
+    pub nodes: usize,
+    pub triangles: usize,
+    pub winches: usize,
+    pub tendons: usize,
+    pub body_length_mm: f64,
+    pub poses: Vec<PoseFigures>,
+    #[serde(skip)]
+    pub notes: Vec<Note>,
+}
+
+/// How close both plushies come to a pose, and what that took.
+#[derive(Clone, Debug, Serialize)]
+pub struct PoseFigures {
+    pub name: String,
+    pub targets: usize,
+    pub error_rest: f64,
+    pub error_idealized: f64,
+    pub error_realizable: f64,
+    /// The worst error of the realizable plushie where one winch is a millimetre off; absent without winches.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error_realizable_1mm_off: Option<f64>,
+    /// Whether that is so much worse that the pose counts as narrow.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub narrow: Option<bool>,
+    pub milliseconds_idealized: f64,
+    pub milliseconds_realizable: f64,
+    /// Largest unbalanced force as a part of the forces at work.
+    pub imbalance_idealized: f64,
+    pub imbalance_realizable: f64,
+}
+
+/// Solves poses from rest, as many at a time as the machine has cores. Each pose has a solver of its own, so that its figures do
+/// not depend on how many there are.
+///
+/// # Errors
+/// [`Error::NoSuchPose`] for a name that none has; [`Error::Cancelled`].
+pub fn run(design: &Design, options: &Options, context: &Context) -> Result<Figures, Error> {
+    options.poses.iter().try_for_each(|name| posing::targets(design, name).map(drop))?;
+    let wanted = |pose: &&Pose| options.poses.is_empty() || options.poses.contains(&pose.name);
+    let wanted: Vec<&Pose> = design.poses.iter().filter(wanted).collect();
+    // A context belongs to one thread; what tells it to stop does not.
+    let cancel = context.cancel();
+    let solved = every_pose(&wanted, |pose| pose_figures(design, pose, &Context::new(cancel)));
+    let mut figures = Figures {
+        name: design.name.clone(),
+        fibers: design.fiber_routings().len(),
+        nodes: design.mesh.nodes.len(),
+        triangles: design.mesh.triangles.len(),
+        winches: design.networks.len(),
+        tendons: design.networks.iter().map(|n| n.tendons.len()).sum(),
+        body_length_mm: design.body_length_mm(),
+        poses: Vec::new(),
+        notes: Vec::new(),
+    };
+    for solved in solved {
+        let (pose, notes) = solved?;
+        figures.poses.push(pose);
+        figures.notes.extend(notes);
+    }
+    Ok(figures)
+}
+
+/// `solve` of every pose, in the order of the poses.
+fn every_pose<T: Send>(poses: &[&Pose], solve: impl Fn(&Pose) -> T + Sync) -> Vec<T> {
+    let threads = std::thread::available_parallelism().map_or(1, |n| n.get()).min(poses.len());
+    if threads <= 1 {
+        return poses.iter().map(|pose| solve(pose)).collect();
+    }
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut done = Vec::new();
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            let Some(pose) = poses.get(index) else { return done };
+            done.push((index, solve(pose)));
+        }
+    };
+    let mut done: Vec<(usize, T)> = std::thread::scope(|scope| {
+        let others: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
+        let mut done = work();
+        for other in others {
+            match other.join() {
+                Ok(more) => done.extend(more),
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
+        }
+        done
+    });
+    done.sort_by_key(|(index, _)| *index);
+    done.into_iter().map(|(_, value)| value).collect()
+}
+
+fn pose_figures(design: &Design, pose: &Pose, context: &Context) -> Result<(PoseFigures, Vec<Note>), Cancelled> {
+    let shapes = solve(design, Question::Targets(pose.targets.clone()), [true, true], context)?;
+    let mut notes: Vec<Note> = Unbalanced::of(&pose.name, &shapes).into_iter().map(Note::Unbalanced).collect();
+    for (view, shape) in [View::Idealized, View::Realizable].into_iter().zip(&shapes) {
+        let warning = shape.warning.clone();
+        notes.extend(warning.map(|warning| Note::Warning { pose: pose.name.clone(), view, warning }));
+    }
+    let [idealized, realizable] = shapes;
+    let figures = PoseFigures {
+        name: pose.name.clone(),
+        targets: pose.targets.len(),
+        error_rest: target_error(design, &pose.targets, &design.mesh.nodes),
+        error_idealized: idealized.target_error,
+        error_realizable: realizable.target_error,
+        error_realizable_1mm_off: realizable.play.map(|play| play.error),
+        narrow: realizable.play.map(|_| matches!(realizable.warning, Some(Warning::Narrow { .. }))),
+        milliseconds_idealized: idealized.milliseconds,
+        milliseconds_realizable: realizable.milliseconds,
+        imbalance_idealized: idealized.distance_from_equilibrium(),
+        imbalance_realizable: realizable.distance_from_equilibrium(),
+    };
+    Ok((figures, notes))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::testing;
+    use std::sync::atomic::AtomicBool;
+
+    #[test]
+    fn poses_keep_their_order_and_are_solved_once() {
+        let pose = |k: usize| Pose { name: format!("{k}"), ..Pose::default() };
+        for count in [0, 1, 2, 37] {
+            let poses: Vec<Pose> = (0..count).map(pose).collect();
+            let calls = AtomicUsize::new(0);
+            let solved = every_pose(&poses.iter().collect::<Vec<_>>(), |pose| {
+                calls.fetch_add(1, Ordering::Relaxed);
+                pose.name.clone()
+            });
+            assert_eq!(calls.into_inner(), count);
+            assert!(solved.iter().zip(&poses).all(|(name, pose)| *name == pose.name) && solved.len() == count);
+        }
+    }
+
+    #[test]
+    fn the_poses_asked_for_are_checked_and_others_refused() {
+        let mut design = testing::sample();
+        design.pins.clear();
+        let first = design.poses[0].name.clone();
+        let go = AtomicBool::new(false);
+        let of = |name: &str| run(&design, &Options { poses: vec![name.to_owned()] }, &Context::new(&go));
+        let figures = of(&first).unwrap();
+        assert_eq!((figures.poses.len(), &figures.poses[0].name), (1, &first));
+        // Nothing holds the body.
+        assert!(figures.notes.iter().any(|note| note.to_string().contains("free to move")), "{:?}", figures.notes);
+        assert!(matches!(of("none"), Err(Error::NoSuchPose(NoSuchPose { name, .. })) if name == "none"));
+        let stop = AtomicBool::new(true);
+        let stopped = run(&design, &Options::default(), &Context::new(&stop));
+        assert!(matches!(stopped, Err(Error::Cancelled(_))));
+    }
+}

@@ -1,0 +1,136 @@
+//! A pose on the timeline, as the winch activations that reach it.
+
+use super::posing::{self, solve};
+use super::{Cancelled, Context, NoSuchPose, Unbalanced};
+use crate::design::edit::{self, EditError};
+use crate::design::{Design, Easing, Keyframe};
+use crate::engine::{Question, Shape};
+use serde::{Deserialize, Serialize};
+
+/// What is put on the timeline, and when.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Options {
+    /// Name of the pose; none: at rest, with nothing wound.
+    pub pose: Option<String>,
+    pub time_s: f64,
+    pub easing: Easing,
+}
+
+/// Why there is no keyframe.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Error {
+    #[error("the design has no winches to key")]
+    NoNetworks,
+    #[error(transparent)]
+    NoSuchPose(#[from] NoSuchPose),
+    #[error("the solver returned no activation for some winches")]
+    Unsolved,
+    #[error(transparent)]
+    Edit(#[from] EditError),
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// What the keyframe's maker should know.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Note {
+    /// The activations are the best that were found.
+    Unbalanced(Unbalanced),
+}
+
+/// A keyframe that was worked out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Keyed {
+    pub keyframe: Keyframe,
+    pub notes: Vec<Note>,
+}
+
+/// Works out the activations of a pose: those of the realizable plushie, looked for from rest with all effort.
+///
+/// # Errors
+/// The design has no winches or no such pose; [`Error::Cancelled`].
+pub fn prepare(design: &Design, options: &Options, context: &Context) -> Result<Keyed, Error> {
+    if design.networks.is_empty() {
+        return Err(Error::NoNetworks);
+    }
+    let &Options { ref pose, time_s, easing } = options;
+    let (activations_mm, notes) = match pose {
+        None => (vec![0.0; design.networks.len()], Vec::new()),
+        Some(pose) => {
+            let question = Question::Targets(posing::targets(design, pose)?);
+            let [_, shape] = solve(design, question, [false, true], context)?;
+            if shape.activations_mm.len() != design.networks.len() {
+                return Err(Error::Unsolved);
+            }
+            (shape.activations_mm.clone(), unbalanced(design, pose, shape))
+        }
+    };
+    Ok(Keyed { keyframe: Keyframe { time_s, activations_mm, pose: pose.clone(), easing }, notes })
+}
+
+fn unbalanced(design: &Design, pose: &str, realizable: Shape) -> Vec<Note> {
+    let shapes = [posing::at_rest(design), realizable];
+    Unbalanced::of(pose, &shapes).into_iter().map(Note::Unbalanced).collect()
+}
+
+impl Keyed {
+    /// Puts the keyframe on the timeline, in the place of one at the same time, and returns its number.
+    ///
+    /// # Errors
+    /// The design has other winches or poses by now, or the time is none.
+    pub fn apply(self, design: &mut Design) -> Result<usize, EditError> {
+        edit::set_keyframe(design, self.keyframe)
+    }
+}
+
+/// [`prepare`] and [`Keyed::apply`] in one; the keyframe with its notes comes back.
+///
+/// # Errors
+/// As both; the design is as it was then.
+pub fn run(design: &mut Design, options: &Options, context: &Context) -> Result<Keyed, Error> {
+    let keyed = prepare(design, options, context)?;
+    keyed.clone().apply(design)?;
+    Ok(keyed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::testing;
+    use std::sync::atomic::AtomicBool;
+
+    fn at(pose: Option<&str>, time_s: f64) -> Options {
+        Options { pose: pose.map(str::to_owned), time_s, ..Options::default() }
+    }
+
+    #[test]
+    fn a_pose_becomes_the_activations_that_reach_it() {
+        let mut design = testing::sample();
+        design.keyframes.clear();
+        let pose = design.poses[0].name.clone();
+        let go = AtomicBool::new(false);
+        let context = Context::new(&go);
+        let keyed = run(&mut design, &at(Some(&pose), 1.0), &context).unwrap();
+        assert_eq!(keyed.keyframe.activations_mm.len(), design.networks.len());
+        assert_eq!(run(&mut design, &at(Some(&pose), 1.0), &context).unwrap(), keyed);
+        run(&mut design, &at(None, 2.0), &context).unwrap();
+        assert_eq!(design.keyframes.len(), 2);
+        assert!(design.keyframes[1].activations_mm.iter().all(|mm| *mm == 0.0));
+    }
+
+    #[test]
+    fn what_cannot_be_keyed_is_told_and_changes_nothing() {
+        let mut design = testing::sample();
+        let before = design.clone();
+        let (go, stop) = (AtomicBool::new(false), AtomicBool::new(true));
+        let pose = design.poses[0].name.clone();
+        assert!(matches!(run(&mut design, &at(Some("none"), 0.0), &Context::new(&go)), Err(Error::NoSuchPose(_))));
+        assert!(matches!(run(&mut design, &at(None, -1.0), &Context::new(&go)), Err(Error::Edit(_))));
+        assert!(matches!(run(&mut design, &at(Some(&pose), 0.0), &Context::new(&stop)), Err(Error::Cancelled(_))));
+        assert_eq!(design, before);
+        design.networks.clear();
+        design.keyframes.clear();
+        assert_eq!(run(&mut design, &at(None, 0.0), &Context::new(&go)), Err(Error::NoNetworks));
+    }
+}

@@ -1,0 +1,51 @@
+//! Every use case once: what the command line and the window both do, without a word of either.
+//!
+//! | operation | from, to |
+//! | --- | --- |
+//! | [`new_design`] | the bytes of an outline to a meshed design |
+//! | [`remesh`] | a design to the same one at another resolution |
+//! | [`reshape`] | a design and another outline to the design with that body |
+//! | [`pose`] | places of the body to pins, and to targets of a pose |
+//! | [`propose`] | a pose to networks that reach it, the best first |
+//! | [`rig`] | all poses to networks, and to a timeline where there is none |
+//! | [`key`] | a pose to a keyframe of winch activations |
+//! | [`check`] | a design to its figures |
+//! | [`export`] | a design to the folder of its blueprint |
+//! | [`render`] | a design to a picture of both plushies |
+//!
+//! An operation has `Options` (with a default, and readable from a file), runs under a [`Context`], and fails with an `Error` of its own.
+//! What its caller should know comes back as `Note`s. Both are data: their texts say what happened, and which option of which front end
+//! would help is for that front end to say.
+//!
+//! An operation that takes long has two halves, for a window in which the design goes on changing: `prepare` works out what is to be
+//! put in, and that is put into the design, as it is by then, by `apply`. [`run`](remesh::run) does both.
+
+pub mod check;
+mod context;
+pub mod export;
+mod fibers;
+pub mod key;
+pub mod new_design;
+pub mod pose;
+mod posing;
+pub mod propose;
+pub mod remesh;
+pub mod render;
+pub mod reshape;
+pub mod rig;
+
+pub use context::{Cancelled, Context, Progress};
+pub use fibers::FiberCount;
+pub use posing::{NoSuchPose, Unbalanced, View};
+
+use crate::design::Design;
+use crate::design::edit::EditError;
+
+/// Changes a design, unless that is refused or what comes of it is unsound.
+fn changed<T>(design: &mut Design, change: impl FnOnce(&mut Design) -> Result<T, EditError>) -> Result<T, EditError> {
+    let mut changed = design.clone();
+    let outcome = change(&mut changed)?;
+    changed.validate()?;
+    *design = changed;
+    Ok(outcome)
+}

@@ -1,0 +1,76 @@
+//! Networks for a pose, tried out by simulation, the best first.
+
+use super::posing::{self, NoSuchPose};
+use super::{Cancelled, Context};
+use crate::design::{Design, Target};
+use crate::discovery::Parameters;
+use crate::rigging::{self, Proposal};
+use serde::{Deserialize, Serialize};
+
+/// Which pose is served, and how networks are looked for.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Options {
+    pub pose: String,
+    pub parameters: Parameters,
+}
+
+/// Why there is no proposal.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Error {
+    #[error(transparent)]
+    NoSuchPose(#[from] NoSuchPose),
+    #[error("the pose has no targets to be reached")]
+    NoTargets,
+    #[error("no network brings the pose closer to its targets")]
+    NothingFound,
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// Looks for networks that bring the realizable plushie closer to a pose. The design stays as it is: accepting one is an edit.
+///
+/// # Errors
+/// There is no such pose, it has no targets, nothing helps; [`Error::Cancelled`].
+pub fn run(design: &Design, options: &Options, context: &Context) -> Result<Vec<Proposal>, Error> {
+    let targets = posing::targets(design, &options.pose)?;
+    for_targets(design, &targets, &options.parameters, context)
+}
+
+/// [`run`] for the targets of a pose.
+///
+/// # Errors
+/// As [`run`].
+pub fn for_targets(
+    design: &Design,
+    targets: &[Target],
+    parameters: &Parameters,
+    context: &Context,
+) -> Result<Vec<Proposal>, Error> {
+    if targets.is_empty() {
+        return Err(Error::NoTargets);
+    }
+    let proposals = rigging::propose(design, targets, parameters, context.cancel());
+    context.check()?;
+    if proposals.is_empty() { Err(Error::NothingFound) } else { Ok(proposals) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::testing;
+    use std::sync::atomic::AtomicBool;
+
+    #[test]
+    fn what_cannot_be_proposed_for_is_told_apart() {
+        let design = testing::sample();
+        let (go, stop) = (AtomicBool::new(false), AtomicBool::new(true));
+        let of = |pose: &str, cancel| {
+            let options = Options { pose: pose.to_owned(), ..Options::default() };
+            run(&design, &options, &Context::new(cancel)).map(|proposals| proposals.len())
+        };
+        assert!(matches!(of("none", &go), Err(Error::NoSuchPose(_))));
+        assert_eq!(of("rest", &go), Err(Error::NoTargets));
+        assert_eq!(of("lean", &stop), Err(Error::Cancelled(Cancelled)));
+    }
+}

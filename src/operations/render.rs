@@ -1,0 +1,156 @@
+//! A picture of both plushies.
+
+use super::posing::{self, solve};
+use super::{Cancelled, Context, NoSuchPose, Unbalanced};
+use crate::design::animation::activations_at;
+use crate::design::texture::find;
+use crate::design::{Design, file};
+use crate::engine::{Question, Shape};
+use crate::picture::{self, Texture};
+use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// What is drawn, and how large.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Options {
+    pub what: What,
+    /// Width and height, pixels.
+    pub size: (u32, u32),
+    /// Whether the design's texture is drawn.
+    pub texture: bool,
+}
+
+/// What the plushies do in the picture.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub enum What {
+    #[default]
+    Rest,
+    /// A pose, by its name.
+    Pose(String),
+    /// The animation at a time, s.
+    Time(f64),
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { what: What::Rest, size: (1280, 720), texture: true }
+    }
+}
+
+/// Why there is no picture.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Error {
+    #[error(transparent)]
+    NoSuchPose(#[from] NoSuchPose),
+    #[error("the design has no keyframes to show")]
+    NoKeyframes,
+    #[error("{0}")]
+    Picture(String),
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// What is to be known of the picture.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Note {
+    /// Drawn without the texture that the design names.
+    NoTexture {
+        path: PathBuf,
+        why: String,
+    },
+    Unbalanced(Unbalanced),
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::NoTexture { path, why } => write!(f, "drawn without its texture {}: {why}", path.display()),
+            Self::Unbalanced(unbalanced) => unbalanced.fmt(f),
+        }
+    }
+}
+
+/// A picture (PNG), what is drawn in it, and what is to be known of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rendered {
+    pub png: Vec<u8>,
+    /// Idealized and realizable.
+    pub shapes: [Shape; 2],
+    pub notes: Vec<Note>,
+}
+
+/// Solves both plushies from rest and draws them, idealized left and realizable right. `from`: the file that the design was read
+/// from, beside which its texture is.
+///
+/// # Errors
+/// There is no such pose or no animation; the picture is too large for the memory; [`Error::Cancelled`].
+pub fn run(design: &Design, from: &Path, options: &Options, context: &Context) -> Result<Rendered, Error> {
+    let (question, place) = match &options.what {
+        What::Rest => (Question::Targets(Vec::new()), "rest".to_owned()),
+        What::Pose(pose) => (Question::Targets(posing::targets(design, pose)?), pose.clone()),
+        What::Time(_) if design.keyframes.is_empty() => return Err(Error::NoKeyframes),
+        What::Time(time) => (Question::Activations(activations_at(design, *time)), format!("{time} s")),
+    };
+    let mut notes = Vec::new();
+    let targets = match &question {
+        Question::Targets(targets) => targets.clone(),
+        Question::Activations(_) => Vec::new(),
+    };
+    let shapes = solve(design, question, [true, true], context)?;
+    let texture = if options.texture { texture(design, from, &mut notes) } else { None };
+    let png = picture::png(design, &shapes, &targets, texture.as_ref(), options.size)
+        .map_err(|error| Error::Picture(error.to_string()))?;
+    notes.extend(Unbalanced::of(&place, &shapes).into_iter().map(Note::Unbalanced));
+    Ok(Rendered { png, shapes, notes })
+}
+
+/// The texture of a design; one that cannot be read is not drawn, and that is noted.
+fn texture(design: &Design, from: &Path, notes: &mut Vec<Note>) -> Option<Arc<Texture>> {
+    let path = file::texture_path(design, from)?;
+    let why = match find(design, from) {
+        Ok(None) => return None,
+        Ok(Some(path)) => match Texture::read(&path) {
+            Ok(texture) => return Some(Arc::new(texture)),
+            Err(error) => error.to_string(),
+        },
+        Err(error) => error.to_string(),
+    };
+    notes.push(Note::NoTexture { path, why });
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::testing;
+    use std::sync::atomic::AtomicBool;
+
+    #[test]
+    fn a_missing_texture_is_noted_and_what_is_not_there_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let from = folder.path().join("a.plush");
+        let mut design = testing::sample();
+        design.texture = Some("none.png".into());
+        let go = AtomicBool::new(false);
+        let small = Options { size: (64, 32), ..Options::default() };
+        let rendered = run(&design, &from, &small, &Context::new(&go)).unwrap();
+        assert!(rendered.png.starts_with(b"\x89PNG"));
+        assert!(
+            rendered
+                .notes
+                .iter()
+                .any(|note| matches!(note, Note::NoTexture { path, .. } if path.ends_with("none.png")))
+        );
+        let plain = run(&design, &from, &Options { texture: false, ..small.clone() }, &Context::new(&go)).unwrap();
+        assert!(!plain.notes.iter().any(|note| matches!(note, Note::NoTexture { .. })));
+        design.keyframes.clear();
+        let of = |what| run(&design, &from, &Options { what, ..small.clone() }, &Context::new(&go));
+        assert_eq!(of(What::Time(1.0)), Err(Error::NoKeyframes));
+        assert!(matches!(of(What::Pose("none".into())), Err(Error::NoSuchPose(_))));
+        let stopped = run(&design, &from, &small, &Context::new(&AtomicBool::new(true)));
+        assert_eq!(stopped, Err(Error::Cancelled(Cancelled)));
+    }
+}

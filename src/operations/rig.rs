@@ -1,0 +1,178 @@
+//! Winches and tendons for all poses, and the poses on a timeline where there is none.
+
+use super::{Cancelled, Context, Progress, key};
+use crate::defaults;
+use crate::design::edit::{self, EditError};
+use crate::design::{Design, Easing, Keyframe, Network};
+use crate::mesh::Mesh;
+use crate::motion;
+use crate::rigging::{self, RigError};
+
+pub use crate::rigging::{RigOptions as Options, TendonChoice};
+
+/// Why there is no rig.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Error {
+    #[error("the design has no pose with targets, so there is nothing to rig for")]
+    NoTargets,
+    #[error("no network brings any pose closer to its targets")]
+    NothingFound,
+    #[error(transparent)]
+    Key(key::Error),
+    #[error(transparent)]
+    Edit(#[from] EditError),
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// What the rig's maker should know.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Note {
+    /// About a keyframe of the timeline that was laid out.
+    Key(key::Note),
+}
+
+/// A rig, ready to be put into the design that it was found for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rigged {
+    pub networks: Vec<Network>,
+    /// The timeline, where the design had none.
+    pub keyframes: Vec<Keyframe>,
+    pub notes: Vec<Note>,
+    /// What it was found for.
+    mesh: Mesh,
+    present: Vec<Network>,
+}
+
+/// Looks for networks: solves, discovers, tries out. Where the design has no keyframes its poses are laid on the timeline one after the
+/// other, with rest at both ends.
+///
+/// # Errors
+/// There is nothing to rig for, or nothing found; [`Error::Cancelled`].
+pub fn prepare(design: &Design, options: &Options, context: &mut Context) -> Result<Rigged, Error> {
+    let cancel = context.cancel();
+    let mut progress = |step| context.tell(&Progress::Rig(step));
+    let mut rigged = rigging::rig(design, options, &mut progress, cancel).map_err(|error| match error {
+        RigError::NoTargets => Error::NoTargets,
+        RigError::NothingFound => Error::NothingFound,
+        RigError::Cancelled => Error::Cancelled(Cancelled),
+    })?;
+    context.check()?;
+    let notes = if rigged.keyframes.is_empty() { lay_out(&mut rigged, context)? } else { Vec::new() };
+    let networks = rigged.networks.split_off(design.networks.len());
+    let keyframes = if design.keyframes.is_empty() { rigged.keyframes } else { Vec::new() };
+    Ok(Rigged { networks, keyframes, notes, mesh: rigged.mesh, present: design.networks.clone() })
+}
+
+/// Lays the poses on the timeline, [`defaults::KEYFRAME_SPACING_S`] apart or as far as the motors need, with rest at both ends.
+fn lay_out(design: &mut Design, context: &Context) -> Result<Vec<Note>, Error> {
+    let names: Vec<String> = design.poses.iter().filter(|p| !p.targets.is_empty()).map(|p| p.name.clone()).collect();
+    let stops = std::iter::once(None).chain(names.into_iter().map(Some)).chain([None]);
+    let mut notes = Vec::new();
+    for (index, pose) in stops.enumerate() {
+        let options =
+            key::Options { pose, time_s: index as f64 * defaults::KEYFRAME_SPACING_S, easing: Easing::default() };
+        let keyed = key::run(design, &options, context).map_err(|error| match error {
+            key::Error::Cancelled(cancelled) => Error::Cancelled(cancelled),
+            error => Error::Key(error),
+        })?;
+        notes.extend(keyed.notes.into_iter().map(Note::Key));
+    }
+    space_out(design);
+    Ok(notes)
+}
+
+/// Moves keyframes apart until motors can follow, to tenths of a second.
+fn space_out(design: &mut Design) {
+    /// Rounding that does not cost another tenth, s.
+    const ROUNDING_S: f64 = 1e-9;
+    for k in 1..design.keyframes.len() {
+        let needs =
+            motion::smooth_s(design, &design.keyframes[k - 1].activations_mm, &design.keyframes[k].activations_mm);
+        let spacing = ((needs - ROUNDING_S) * 10.0).ceil().max(10.0 * defaults::KEYFRAME_SPACING_S);
+        let tenths = (10.0 * design.keyframes[k - 1].time_s).round() + spacing;
+        design.keyframes[k].time_s = tenths / 10.0;
+    }
+}
+
+impl Rigged {
+    /// Whether it was found for another mesh or beside other networks than the design has by now.
+    pub fn is_stale(&self, design: &Design) -> bool {
+        design.mesh != self.mesh || design.networks != self.present
+    }
+
+    /// Puts the networks into the design, and the timeline where it has none. It must not be [stale](Self::is_stale).
+    ///
+    /// # Errors
+    /// A network does not lie on the mesh.
+    pub fn apply(self, design: &mut Design) -> Result<(), EditError> {
+        for network in self.networks {
+            edit::accept_network(design, network)?;
+        }
+        if design.keyframes.is_empty() {
+            let poses = &design.poses;
+            // A pose may have gone by now.
+            let known = |keyframe: &Keyframe| {
+                keyframe.pose.as_ref().is_none_or(|name| poses.iter().any(|pose| pose.name == *name))
+            };
+            design.keyframes = self.keyframes.into_iter().filter(known).collect();
+        }
+        Ok(())
+    }
+}
+
+/// [`prepare`] and [`Rigged::apply`] in one.
+///
+/// # Errors
+/// As both; the design is as it was then.
+pub fn run(design: &mut Design, options: &Options, context: &mut Context) -> Result<Rigged, Error> {
+    let rigged = prepare(design, options, context)?;
+    super::changed(design, |design| rigged.clone().apply(design))?;
+    Ok(rigged)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::testing;
+    use std::sync::atomic::AtomicBool;
+
+    #[test]
+    fn a_design_without_poses_and_a_cancelled_one_stay_as_they_are() {
+        let mut design = testing::sample();
+        let before = design.clone();
+        let stop = AtomicBool::new(true);
+        let stopped = run(&mut design, &Options::default(), &mut Context::new(&stop));
+        assert_eq!(stopped, Err(Error::Cancelled(Cancelled)));
+        assert_eq!(design, before);
+        design.poses.iter_mut().for_each(|pose| pose.targets.clear());
+        let go = AtomicBool::new(false);
+        assert_eq!(run(&mut design, &Options::default(), &mut Context::new(&go)), Err(Error::NoTargets));
+    }
+
+    #[test]
+    fn a_rig_is_put_only_into_the_design_that_it_was_found_for() {
+        let mut design = testing::sample();
+        let added = Network { name: "more".into(), ..design.networks[0].clone() };
+        let rigged = Rigged {
+            networks: vec![added],
+            keyframes: Vec::new(),
+            notes: Vec::new(),
+            mesh: design.mesh.clone(),
+            present: design.networks.clone(),
+        };
+        assert!(!rigged.is_stale(&design));
+        rigged.clone().apply(&mut design).unwrap();
+        design.validate().unwrap();
+        assert_eq!(design.networks.len(), 3);
+        assert!(design.keyframes.iter().all(|keyframe| keyframe.activations_mm.len() == 3));
+        assert!(rigged.is_stale(&design));
+    }
+
+    #[test]
+    fn options_are_read_from_a_file_and_what_is_missing_has_its_default() {
+        let options: Options = ron::from_str("(max_winches: 1, tendons: PerWinch([2]))").unwrap();
+        assert_eq!(options.tendons, TendonChoice::PerWinch(vec![2]));
+        assert_eq!(Options { tendons: TendonChoice::default(), max_winches: 3, ..options }, Options::default());
+    }
+}

@@ -1,0 +1,55 @@
+//! Why a file gave no outline.
+
+use super::notes::Remedy;
+use super::options::MAX_FILE_BYTES;
+use thiserror::Error;
+
+/// Why a file gave no outline.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum OutlineError {
+    #[error("{0}")]
+    Unopened(String),
+    #[error("neither an SVG, PNG, JPEG, DXF, OBJ nor drawing file")]
+    UnknownFormat,
+    #[error("not a readable {format}: {reason}")]
+    Unreadable { format: &'static str, reason: String },
+    #[error("the file is larger than {max} MB, the most that is read for an outline", max = MAX_FILE_BYTES >> 20)]
+    TooLarge,
+    #[error("the drawing {0}, too much for an outline; simplify it")]
+    TooComplex(&'static str),
+    #[error("the picture has more than {millions} million pixels, or half as many of 16 bits: too much for a texture")]
+    TextureTooLarge { millions: u64 },
+    #[error("nothing is painted: {0}")]
+    NothingPainted(&'static str),
+    #[error("there is no layer \"{name}\"; the drawing has: {layers}")]
+    NoSuchLayer { name: String, layers: String },
+    #[error("{0} have no layers to choose from; SVG and DXF drawings have")]
+    NoLayers(&'static str),
+    #[error("{0} has no colours to make a texture of; an SVG, PNG or JPEG has")]
+    NoTexture(&'static str),
+    #[error("the text \"{0}\" has characters that the bundled font lacks; convert it to paths")]
+    NoFont(String),
+    #[error("the silhouette is in {pieces} separate pieces, the largest with {largest:.0} % of the area")]
+    Pieces { pieces: usize, largest: f64 },
+    #[error("the silhouette touches itself in a single point near ({x:.1}, {y:.1}) mm; widen or open it there")]
+    Pinched { x: f64, y: f64 },
+    #[error("the silhouette is degenerate: it covers no area worth the name")]
+    Degenerate,
+    #[error("{what} must be a length of at least 0 mm, not {value}")]
+    Length { what: &'static str, value: f64 },
+    #[error("the height must be between 0.01 and 1000000 mm, not {0} mm")]
+    Height(f64),
+    #[error("the silhouette would measure {0:e} mm")]
+    Size(f64),
+}
+
+impl OutlineError {
+    /// The setting that would help; how it is called is the caller's to say.
+    pub fn remedy(&self) -> Option<Remedy> {
+        match self {
+            Self::Pieces { .. } => Some(Remedy::Pieces),
+            Self::Size(_) => Some(Remedy::Height),
+            _ => None,
+        }
+    }
+}

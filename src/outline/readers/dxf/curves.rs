@@ -1,0 +1,208 @@
+//! Lines, arcs, ellipses and splines of a drawing, and their polygons.
+
+use super::entity::Entity;
+use super::place::Place;
+use crate::outline::Point;
+use std::f64::consts::TAU;
+
+/// Most pieces of one curve.
+const MAX_PIECES: f64 = 20_000.0;
+/// Highest degree of a spline.
+const MAX_DEGREE: usize = 12;
+
+pub(super) enum Curve {
+    /// Vertices with the bulge of the side that follows: the tangent of a quarter of the arc's angle.
+    Polyline { vertices: Vec<(Point, f64)>, closed: bool },
+    /// `centre + cos(t) major + sin(t) minor` for `t` between two angles.
+    Ellipse { centre: Point, major: Point, minor: Point, from: f64, to: f64 },
+    /// A rational B-spline.
+    Spline { degree: usize, knots: Vec<f64>, points: Vec<Point>, weights: Vec<f64>, closed: bool },
+}
+
+impl Curve {
+    /// The curve of an entity, if it has one that can bound an area.
+    pub fn of(entity: &Entity) -> Option<Self> {
+        let plain = |points: Vec<Point>, closed| {
+            Some(Self::Polyline { vertices: points.into_iter().map(|p| (p, 0.0)).collect(), closed })
+        };
+        match entity.kind {
+            "LINE" => plain(vec![entity.point(10), entity.point(11)], false),
+            "LWPOLYLINE" => Some(Self::Polyline { vertices: light(entity), closed: entity.has_flag(1) }),
+            "POLYLINE" => {
+                // Flag 16 marks control points of a spline frame, which the curve does not pass.
+                let on_curve = entity.vertices.iter().filter(|v| !v.has_flag(16));
+                let vertices = on_curve.map(|v| (v.point(10), v.number(42).unwrap_or(0.0))).collect();
+                Some(Self::Polyline { vertices, closed: entity.has_flag(1) })
+            }
+            // The corners of a solid are in the order of a Z.
+            "SOLID" | "TRACE" => plain([10, 11, 13, 12].map(|code| entity.point(code)).to_vec(), true),
+            "3DFACE" => plain([10, 11, 12, 13].map(|code| entity.point(code)).to_vec(), true),
+            "CIRCLE" | "ARC" => {
+                let r = entity.number(40)?;
+                let angle = |code, default: f64| entity.number(code).unwrap_or(default).to_radians();
+                let (from, to) = if entity.kind == "CIRCLE" { (0.0, TAU) } else { (angle(50, 0.0), angle(51, 360.0)) };
+                let (major, minor) = ([r, 0.0], [0.0, r]);
+                Some(Self::Ellipse { centre: entity.point(10), major, minor, from, to: past(from, to) })
+            }
+            "ELLIPSE" => {
+                let major = entity.point(11);
+                let ratio = entity.number(40)?;
+                let (from, to) = (entity.number(41).unwrap_or(0.0), entity.number(42).unwrap_or(TAU));
+                let minor = [-ratio * major[1], ratio * major[0]];
+                Some(Self::Ellipse { centre: entity.point(10), major, minor, from, to: past(from, to) })
+            }
+            "SPLINE" => Self::spline(entity),
+            _ => None,
+        }
+    }
+
+    fn spline(entity: &Entity) -> Option<Self> {
+        let (points, knots) = (entity.points(10), entity.numbers(40));
+        let degree = entity.number(71)? as usize;
+        let closed = entity.has_flag(1);
+        if (1..=MAX_DEGREE).contains(&degree) && points.len() > degree && knots.len() == points.len() + degree + 1 {
+            let mut weights = entity.numbers(41);
+            weights.resize(points.len(), 1.0);
+            return Some(Self::Spline { degree, knots, points, weights, closed });
+        }
+        // A spline may be given by the points it passes alone.
+        let through = entity.points(11);
+        let vertices = through.into_iter().map(|p| (p, 0.0)).collect::<Vec<_>>();
+        (vertices.len() > 1).then_some(Self::Polyline { vertices, closed })
+    }
+
+    /// Whether the curve is closed by definition; its ends may meet all the same.
+    pub fn is_closed(&self) -> bool {
+        match self {
+            Self::Polyline { closed, .. } | Self::Spline { closed, .. } => *closed,
+            Self::Ellipse { from, to, .. } => to - from > TAU - 1e-9,
+        }
+    }
+
+    /// Points whose hull holds the curve, more or less.
+    pub fn hull(&self) -> Vec<Point> {
+        match self {
+            Self::Polyline { vertices, .. } => vertices.iter().map(|v| v.0).collect(),
+            Self::Spline { points, .. } => points.clone(),
+            Self::Ellipse { centre: c, major: a, minor: b, .. } => [-1.0, 1.0]
+                .into_iter()
+                .flat_map(|s| [[c[0] + s * a[0], c[1] + s * a[1]], [c[0] + s * b[0], c[1] + s * b[1]]])
+                .collect(),
+        }
+    }
+
+    /// The curve as a polygon in the drawing, within `tolerance`.
+    pub fn flat(&self, place: &Place, tolerance: f64) -> Vec<Point> {
+        let mut line: Vec<Point> = match self {
+            Self::Polyline { vertices, closed } => {
+                let mut line = Vec::new();
+                for (k, &(p, bulge)) in vertices.iter().enumerate() {
+                    line.push(p);
+                    let next = vertices.get(k + 1).or(if *closed { vertices.first() } else { None });
+                    if let Some(&(q, _)) = next.filter(|_| bulge != 0.0) {
+                        bulged(p, q, bulge, scale(place), tolerance, &mut line);
+                    }
+                }
+                line
+            }
+            Self::Ellipse { centre, major, minor, from, to } => {
+                let r = major[0].hypot(major[1]).max(minor[0].hypot(minor[1])) * scale(place);
+                let n = pieces(to - from, r, tolerance);
+                let at = |t: f64| {
+                    let (sin, cos) = t.sin_cos();
+                    [0, 1].map(|axis| centre[axis] + cos * major[axis] + sin * minor[axis])
+                };
+                (0..=n).map(|i| at(from + (to - from) * i as f64 / n as f64)).collect()
+            }
+            Self::Spline { degree, knots, points, weights, .. } => {
+                let (from, to) = (knots[*degree], knots[points.len()]);
+                let spans = points.len() - degree;
+                // Each span turns by about a right angle at most: as fine as a circle through its control points.
+                let size = extent(points) * scale(place);
+                let n = (spans * pieces(0.25 * TAU, size, tolerance).max(2)).min(MAX_PIECES as usize);
+                let at = |i: usize| de_boor(*degree, knots, points, weights, from + (to - from) * i as f64 / n as f64);
+                (0..=n).map(at).collect()
+            }
+        };
+        for p in &mut line {
+            *p = place.at(*p);
+        }
+        line.retain(|p| p.iter().all(|v| v.is_finite()));
+        line
+    }
+}
+
+/// The vertices of a light polyline: a bulge belongs to the vertex before it.
+fn light(entity: &Entity) -> Vec<(Point, f64)> {
+    let mut vertices: Vec<(Point, f64)> = Vec::new();
+    for &(code, value) in &entity.tags {
+        let Some(value) = value.parse().ok().filter(|v: &f64| v.is_finite()) else { continue };
+        match (code, vertices.last_mut()) {
+            (10, _) => vertices.push(([value, 0.0], 0.0)),
+            (20, Some(last)) => last.0[1] = value,
+            (42, Some(last)) => last.1 = value,
+            _ => {}
+        }
+    }
+    vertices
+}
+
+/// `to`, whole turns on, so that it lies up to one turn past `from`.
+fn past(from: f64, to: f64) -> f64 {
+    let turn = (to - from).rem_euclid(TAU);
+    from + if turn < 1e-9 { TAU } else { turn }
+}
+
+/// Number of chords of an arc: each leaves it by `r (1 - cos(angle / 2))`.
+fn pieces(angle: f64, r: f64, tolerance: f64) -> usize {
+    let step = 2.0 * (1.0 - (tolerance / r).min(1.0)).acos();
+    let n = (angle.abs() / step.max(1e-6)).ceil();
+    if n.is_finite() { n.clamp(1.0, MAX_PIECES) as usize } else { 1 }
+}
+
+/// The inner points of the arc from `p` to `q` with a bulge: the tangent of a quarter of its angle, positive to the left
+/// of the way.
+fn bulged(p: Point, q: Point, bulge: f64, scale: f64, tolerance: f64, line: &mut Vec<Point>) {
+    let angle = 4.0 * bulge.atan();
+    let half = [0.5 * (q[0] - p[0]), 0.5 * (q[1] - p[1])];
+    // From the middle of the chord to the centre: half the chord over the tangent of half the angle, to the left.
+    let away = 1.0 / (0.5 * angle).tan();
+    let centre = [p[0] + half[0] - away * half[1], p[1] + half[1] + away * half[0]];
+    let arm = [p[0] - centre[0], p[1] - centre[1]];
+    let n = pieces(angle, arm[0].hypot(arm[1]) * scale, tolerance);
+    for i in 1..n {
+        let (sin, cos) = (angle * i as f64 / n as f64).sin_cos();
+        line.push([centre[0] + cos * arm[0] - sin * arm[1], centre[1] + sin * arm[0] + cos * arm[1]]);
+    }
+}
+
+fn scale(place: &Place) -> f64 {
+    let Place([a, b, c, d, ..]) = place;
+    a.hypot(*b).max(c.hypot(*d))
+}
+
+fn extent(points: &[Point]) -> f64 {
+    let (low, high) = crate::outline::polygon::bounding_box(points);
+    (high[0] - low[0]).max(high[1] - low[1])
+}
+
+/// A point of a rational B-spline by de Boor's algorithm in homogeneous coordinates.
+fn de_boor(degree: usize, knots: &[f64], points: &[Point], weights: &[f64], t: f64) -> Point {
+    let last = points.len() - 1;
+    let k = (degree..=last).rev().find(|&k| knots[k] <= t && knots[k] < knots[k + 1]).unwrap_or(degree);
+    let mut d: Vec<[f64; 3]> = (0..=degree)
+        .map(|j| {
+            let (p, w) = (points[j + k - degree], weights[j + k - degree]);
+            [p[0] * w, p[1] * w, w]
+        })
+        .collect();
+    for r in 1..=degree {
+        for j in (r..=degree).rev() {
+            let (low, high) = (knots[j + k - degree], knots[j + 1 + k - r]);
+            let a = if high > low { (t - low) / (high - low) } else { 0.0 };
+            d[j] = [0, 1, 2].map(|axis| (1.0 - a) * d[j - 1][axis] + a * d[j][axis]);
+        }
+    }
+    let [x, y, w] = d[degree];
+    [x / w, y / w]
+}

@@ -1,0 +1,57 @@
+//! What a reader of outlines is.
+
+use crate::outline::regions::Shapes;
+use crate::outline::{Import, Imported, Note, OutlineError, Point};
+use image::RgbaImage;
+
+/// Reads one kind of file.
+pub trait OutlineReader: Sync {
+    /// What one file of this kind is, and several: `an OBJ mesh`, `OBJ meshes`.
+    fn names(&self) -> [&'static str; 2];
+
+    /// How they are called; what they are is told by their first bytes.
+    fn extensions(&self) -> &'static [&'static str];
+
+    /// Whether a file that begins so is of this kind.
+    fn can_read(&self, head: &[u8]) -> bool;
+
+    /// Options of [`Import`] that mean something for this kind, beside those of the clean-up.
+    fn options(&self) -> &'static [ReadingOption];
+
+    /// The clean outline of a file, see [`super::finish::finish`].
+    ///
+    /// # Errors
+    /// See [`OutlineError`]. Never panics, and ends within some seconds, whatever the bytes are.
+    fn read(&self, bytes: &[u8], import: &Import) -> Result<Imported, OutlineError>;
+
+    /// What the file shows between the corners of a box, [`Imported::drawn_box`]; its longer side has at most
+    /// [`crate::outline::MAX_TEXTURE_PX`].
+    ///
+    /// # Errors
+    /// A kind without colours; a drawing that takes too long to paint.
+    fn texture(&self, bytes: &[u8], import: &Import, drawn_box: [Point; 2]) -> Result<RgbaImage, OutlineError> {
+        let _ = (bytes, import, drawn_box);
+        Err(OutlineError::NoTexture(self.names()[0]))
+    }
+}
+
+/// An option that not every kind of file has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ReadingOption {
+    /// [`Import::layers`]; refused where there are none.
+    Layers,
+    /// [`Import::unit_mm`].
+    Unit,
+    /// [`Import::threshold`].
+    Threshold,
+    /// [`Import::background`].
+    Background,
+}
+
+/// What a reader found in a file: areas that may overlap, y up, and what it has to say about them.
+pub(in crate::outline) struct Painting {
+    pub shapes: Shapes,
+    /// Millimetres in a unit of the shapes.
+    pub unit_mm: f64,
+    pub notes: Vec<Note>,
+}

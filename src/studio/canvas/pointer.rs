@@ -1,0 +1,59 @@
+//! From the pointer to the tool, the same on every canvas; and moving about.
+
+use super::ground::Canvas;
+use crate::outline::Point;
+use crate::studio::panels::Actions;
+use crate::studio::tools::Tool;
+use eframe::egui::{Event, PointerButton, Response, Ui};
+
+/// Logical pixels of scrolling that double the scale.
+const SCROLL_TO_DOUBLE: f32 = 260.0;
+
+/// Tells the tool what the hand does.
+pub fn act(ui: &mut Ui, canvas: &Canvas<'_>, tool: &mut dyn Tool, response: &Response, actions: &mut Actions) {
+    let press = ui.input(|i| i.pointer.press_origin()).map(|p| canvas.to_body(p));
+    if let Some(press) = press.filter(|_| response.drag_started_by(PointerButton::Primary)) {
+        tool.press(canvas, press, actions);
+    }
+    let pointer = response.interact_pointer_pos().map(|p| canvas.to_body(p));
+    if let Some(at) = pointer.filter(|_| response.dragged_by(PointerButton::Primary)) {
+        // Where frames are slow a hand goes more than a step in each.
+        let mut way: Vec<Point> = ui.input(|i| {
+            let moved = i.events.iter().filter_map(|event| match event {
+                Event::PointerMoved(p) => Some(canvas.to_body(*p)),
+                _ => None,
+            });
+            moved.collect()
+        });
+        way.push(at);
+        tool.drag(canvas, &way, actions);
+    }
+    if response.drag_stopped_by(PointerButton::Primary) {
+        tool.release(canvas, pointer, actions);
+    }
+    if let Some(at) = pointer.filter(|_| response.clicked()) {
+        response.request_focus();
+        tool.click(canvas, at, response.double_clicked(), actions);
+    }
+    if let Some(at) = response.hover_pos() {
+        ui.ctx().set_cursor_icon(tool.cursor(canvas, canvas.hit(canvas.to_body(at))));
+    }
+}
+
+/// Panning with the middle button, zooming with the wheel, fingers or keys.
+pub fn navigate(ui: &Ui, canvas: &Canvas<'_>, response: &Response, actions: &mut Actions) {
+    let Canvas { session, rect, camera, .. } = *canvas;
+    if response.dragged_by(PointerButton::Middle) {
+        actions.push(canvas.look(camera.panned(response.drag_delta())));
+    }
+    if let Some(pointer) = response.hover_pos() {
+        let (scroll, pinch) = ui.input(|i| (i.smooth_scroll_delta.y, i.zoom_delta()));
+        let factor = (scroll / SCROLL_TO_DOUBLE).exp2() * pinch;
+        if factor != 1.0 {
+            actions.push(canvas.look(camera.zoomed(rect, pointer, factor)));
+        }
+    }
+    if let Some(factor) = session.look().zoom {
+        actions.push(canvas.look(camera.zoomed(rect, rect.center(), factor)));
+    }
+}

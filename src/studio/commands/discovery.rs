@@ -1,0 +1,59 @@
+//! Commands of network discovery.
+
+use super::command::{Command, Keys, Scope};
+use crate::studio::session::Session;
+use eframe::egui::Key;
+
+pub static ALL: [&Command; 6] = [&PROPOSE, &CANCEL, &ACCEPT, &REJECT, &RIG, &CANCEL_RIG];
+
+pub static PROPOSE: Command = Command {
+    keys: &[Keys::plain(Key::G)],
+    scope: Scope::Views,
+    why_not: &|session, _| session.cannot_propose(),
+    run: &|session, _| session.start_propose(),
+    ..Command::new("discovery.propose", "Propose networks", "Look for winch-tendon networks that reach this pose")
+};
+
+pub static CANCEL: Command = Command {
+    scope: Scope::Views,
+    why_not: &|session, _| session.discovery().running.is_none().then_some("No networks are being looked for"),
+    run: &|session, _| session.cancel_propose(),
+    ..Command::new("discovery.cancel", "Stop looking", "Stop looking for networks")
+};
+
+pub static ACCEPT: Command = Command {
+    keys: &[Keys::plain(Key::Enter)],
+    scope: Scope::Views,
+    why_not: &|session, _| none_shown(session),
+    run: &|session, _| session.accept(),
+    ..Command::new("discovery.accept", "Accept", "Build this network in")
+};
+
+pub static REJECT: Command = Command {
+    keys: &[Keys::plain(Key::Backspace)],
+    scope: Scope::Views,
+    why_not: &|session, _| none_shown(session),
+    run: &|session, _| session.reject(),
+    ..Command::new("discovery.reject", "Reject", "Drop this proposal")
+};
+
+pub static RIG: Command = Command {
+    scope: Scope::Views,
+    why_not: &|session, _| session.cannot_rig(),
+    run: &|session, _| session.start_rig(),
+    ..Command::new(
+        "rig.start",
+        "Rig all poses",
+        "Look for winches and tendons that serve all poses, and lay the poses on an empty timeline",
+    )
+};
+
+pub static CANCEL_RIG: Command = Command {
+    why_not: &|session, _| session.rigging().running.is_none().then_some("No rig is being looked for"),
+    run: &|session, _| session.cancel_rig(),
+    ..Command::new("rig.cancel", "Cancel rigging", "Stop looking for winches and tendons; the plushie stays as it is")
+};
+
+fn none_shown(session: &Session) -> Option<&'static str> {
+    session.shown_proposal().is_none().then_some("No proposal is shown")
+}

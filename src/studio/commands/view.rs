@@ -1,0 +1,82 @@
+//! Commands of what is shown: camera, layers, views, theme, quality.
+
+use super::command::{Command, Group, Keys, Place, Scope};
+use crate::picture::palette::Theme;
+use crate::studio::canvas::Plushie;
+use crate::studio::icons::Icon;
+use eframe::egui::Key;
+
+pub static ALL: [&Command; 7] = [&FIT, &ZOOM_IN, &ZOOM_OUT, &IDEALIZED, &REALIZABLE, &QUALITY, &THEME];
+
+/// Of a step with the keys.
+const ZOOM: f32 = 1.25;
+
+pub static FIT: Command = Command {
+    icon: Some(Icon::Fit),
+    keys: &[Keys::plain(Key::F)],
+    places: &[Place::Toolbar(Group::Shown), Place::ContextMenu],
+    run: &|session, _| session.fit(),
+    ..Command::new("view.fit", "Fit view", "Fit the body into the views. Scroll to zoom, drag beside the body to pan")
+};
+
+pub static ZOOM_IN: Command = Command {
+    keys: &[Keys::plain(Key::Plus), Keys::shift(Key::Plus), Keys::plain(Key::Equals)],
+    run: &|session, _| session.zoom(ZOOM),
+    ..Command::new("view.zoom-in", "Zoom in", "Show less, larger")
+};
+
+pub static ZOOM_OUT: Command = Command {
+    keys: &[Keys::plain(Key::Minus)],
+    run: &|session, _| session.zoom(1.0 / ZOOM),
+    ..Command::new("view.zoom-out", "Zoom out", "Show more, smaller")
+};
+
+pub static IDEALIZED: Command = Command {
+    icon: Some(Icon::LeftView),
+    keys: &[Keys::plain(Key::Num1)],
+    scope: Scope::Views,
+    places: &[Place::Toolbar(Group::Views)],
+    on: Some(&|session| session.look.views.shows(Plushie::Idealized)),
+    run: &|session, _| session.look.views = session.look.views.toggled(Plushie::Idealized),
+    ..Command::new(
+        "view.idealized",
+        "Show idealized view",
+        "Show the idealized plushie. Hidden, it is not solved and costs nothing",
+    )
+};
+
+pub static REALIZABLE: Command = Command {
+    icon: Some(Icon::RightView),
+    keys: &[Keys::plain(Key::Num2)],
+    scope: Scope::Views,
+    places: &[Place::Toolbar(Group::Views)],
+    on: Some(&|session| session.look.views.shows(Plushie::Realizable)),
+    run: &|session, _| session.look.views = session.look.views.toggled(Plushie::Realizable),
+    ..Command::new(
+        "view.realizable",
+        "Show realizable view",
+        "Show the realizable plushie. Hidden, it is not solved; only where the fibres build on winches these are still wound",
+    )
+};
+
+pub static QUALITY: Command = Command {
+    keys: &[Keys::plain(Key::Q)],
+    scope: Scope::Views,
+    run: &|session, _| session.next_quality(),
+    ..Command::new("view.quality", "Next quality", "Draft, balanced, accurate: how much work a frame may take")
+};
+
+pub static THEME: Command = Command {
+    icon: Some(Icon::Moon),
+    keys: &[Keys::plain(Key::T)],
+    places: &[Place::Toolbar(Group::Right)],
+    on: Some(&|session| session.look.theme == Theme::Dark),
+    face_on: Some((Icon::Sun, "Light theme", "Switch to the light theme")),
+    run: &|session, _| {
+        session.look.theme = match session.look.theme {
+            Theme::Light => Theme::Dark,
+            Theme::Dark => Theme::Light,
+        }
+    },
+    ..Command::new("view.theme", "Dark theme", "Switch to the dark theme")
+};

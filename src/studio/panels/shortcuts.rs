@@ -1,0 +1,40 @@
+//! The page of shortcuts: what every key does.
+
+use super::{Actions, heading};
+use crate::studio::action::Action;
+use crate::studio::commands;
+use crate::studio::session::{Overlay, Session};
+use eframe::egui::{Context, Grid, Id, Modal, RichText, ScrollArea};
+
+/// Logical pixels.
+const SIZE: [f32; 2] = [520.0, 480.0];
+
+pub fn show(ctx: &Context, session: &Session, actions: &mut Actions) {
+    if session.overlay() != Some(Overlay::Shortcuts) {
+        return;
+    }
+    let modal = Modal::new(Id::unique("shortcuts")).show(ctx, |ui| {
+        ui.set_width(SIZE[0]);
+        ui.heading("Keyboard shortcuts");
+        ScrollArea::vertical().max_height(SIZE[1]).auto_shrink([false, true]).show(ui, |ui| {
+            for (subject, list) in commands::ALL.iter() {
+                ui.add_space(6.0);
+                heading(ui, subject);
+                Grid::new(*subject).num_columns(2).min_col_width(150.0).spacing([12.0, 3.0]).show(ui, |ui| {
+                    for command in list.iter().filter(|command| !command.keys.is_empty()) {
+                        ui.label(RichText::new(command.keys_text()).monospace());
+                        ui.label(command.label.trim_end_matches('…')).on_hover_text(command.tip);
+                        ui.end_row();
+                    }
+                });
+            }
+        });
+        ui.add_space(6.0);
+        if ui.button("Close").clicked() {
+            actions.push(Action::Overlay(None));
+        }
+    });
+    if modal.should_close() {
+        actions.push(Action::Overlay(None));
+    }
+}

@@ -1,0 +1,32 @@
+//! Tools: what a press on a canvas does. A tool is a file, and a line in [`ALL`].
+
+mod capsule;
+mod circle;
+mod drag;
+mod freehand;
+mod grip;
+mod parts;
+mod pin;
+mod polygon;
+mod select;
+mod tool;
+mod toolbox;
+mod track;
+
+pub use tool::{Drawn, Entry, Tool};
+pub use toolbox::{Toolbox, taken};
+
+/// All tools; the first one of a canvas is taken at first.
+pub static ALL: [&Entry; 8] = [
+    &drag::ENTRY,
+    &pin::ENTRY,
+    &select::ENTRY,
+    &freehand::ENTRY,
+    &polygon::ENTRY,
+    &circle::ENTRY,
+    &capsule::ENTRY,
+    &track::ENTRY,
+];
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,74 @@
+//! The pointer in a view: the tool, the menu, what lies under it.
+
+use crate::mesh::BodyPoint;
+use crate::outline::Point;
+use crate::studio::action::{Action, Actions};
+use crate::studio::canvas::{Canvas, Ground, Hit, act, navigate};
+use crate::studio::commands::view::FIT;
+use crate::studio::commands::{self, Place};
+use crate::studio::panels::buttons;
+use crate::studio::session::Session;
+use crate::studio::style;
+use crate::studio::tools::Tool;
+use eframe::egui::{Response, Stroke, Ui};
+
+/// Drags, clicks and the context menu; what lies under the pointer. `menu_at`: where the menu was opened, mm.
+pub fn interact(
+    ui: &mut Ui,
+    canvas: &Canvas<'_>,
+    tool: &mut dyn Tool,
+    menu_at: &mut Option<Point>,
+    response: &Response,
+    actions: &mut Actions,
+) -> Option<Hit> {
+    act(ui, canvas, tool, response, actions);
+    navigate(ui, canvas, response, actions);
+    let pointer = response.hover_pos().map(|p| canvas.to_body(p));
+    if response.secondary_clicked() {
+        *menu_at = pointer;
+    }
+    if let Some(at) = *menu_at {
+        response.context_menu(|ui| menu(ui, canvas.session, canvas.hit(at), actions));
+    }
+    if response.double_clicked() {
+        actions.push(Action::Run(&FIT, Hit::Nothing));
+    }
+    pointer.map(|p| canvas.hit(p))
+}
+
+fn menu(ui: &mut Ui, session: &Session, hit: Hit, actions: &mut Actions) {
+    ui.set_min_width(170.0);
+    for command in commands::at(Place::ContextMenu).filter(|command| command.refused(session, hit).is_none()) {
+        buttons::entry(ui, session, command, hit, actions);
+    }
+}
+
+/// A ring around what the pointer is on, in both views.
+pub fn highlight(ui: &Ui, canvas: &Canvas<'_>, hovered: Option<Hit>) {
+    let Canvas { session, rect, .. } = *canvas;
+    let Ground::Plushie(_, Some(shape)) = canvas.ground else { return };
+    let design = session.design();
+    if session.is_dragging() || shape.nodes.len() != design.mesh.nodes.len() {
+        return;
+    }
+    let on_body = |at: &BodyPoint| design.mesh.position(at, &shape.nodes);
+    let ring = |p: Point, radius: f32| {
+        let stroke = Stroke::new(2.0, style::accent(session.look.theme));
+        ui.painter_at(rect).circle_stroke(canvas.to_screen(p), radius, stroke);
+    };
+    match hovered {
+        Some(Hit::Target(index)) => {
+            if let Some(target) = session.targets().get(index) {
+                ring(target.to, 11.0);
+                ring(on_body(&target.at), 9.0);
+            }
+        }
+        Some(Hit::Pin(index)) => {
+            if let Some(pin) = design.pins.get(index) {
+                ring(on_body(&pin.at), 10.0);
+            }
+        }
+        Some(Hit::Body(at)) if at.triangle < design.mesh.triangles.len() => ring(on_body(&at), 7.0),
+        _ => {}
+    }
+}

@@ -1,0 +1,117 @@
+//! Both views side by side.
+
+use super::picture::Picture;
+use super::{captions, pointer};
+use crate::design::Design;
+use crate::engine::Shape;
+use crate::outline::{Point, polygon};
+use crate::studio::action::Actions;
+use crate::studio::canvas::{Camera, Canvas, Ground, Hit, Plushie};
+use crate::studio::session::{Session, Views};
+use crate::studio::tools::Tool;
+use eframe::egui::{Rect, Role, Sense, Ui, Vec2, WidgetInfo, pos2};
+use std::sync::Arc;
+
+/// What the views remember from frame to frame.
+#[derive(Default)]
+pub struct State {
+    views: [View; 2],
+    /// What is under the pointer, marked in both views.
+    hovered: Option<Hit>,
+}
+
+#[derive(Default)]
+struct View {
+    picture: Picture,
+    /// Where the context menu was opened, mm.
+    menu_at: Option<Point>,
+}
+
+/// Shows both views side by side, or the one that is not hidden. `gpu`: whether there is anything to draw them with.
+pub fn show(ui: &mut Ui, session: &Session, state: &mut State, tool: &mut dyn Tool, gpu: bool, actions: &mut Actions) {
+    let area = ui.available_rect_before_wrap();
+    let views = session.look.views;
+    let mut hovered = None;
+    for (plushie, rect) in rects(ui, views, area) {
+        if !views.shows(plushie) {
+            continue;
+        }
+        let camera = session.look.camera.unwrap_or_else(|| fit(session.design(), rect.size()));
+        let shape = displayed(session, plushie);
+        let canvas = Canvas { session, rect, camera, ground: Ground::Plushie(plushie, shape.map(Arc::as_ref)) };
+        let hit = view(ui, &canvas, (plushie, shape.filter(|_| gpu)), state, tool, actions);
+        hovered = hovered.or(hit);
+    }
+    if hovered != state.hovered {
+        state.hovered = hovered;
+        // The other view was drawn before this was known.
+        ui.ctx().request_repaint();
+    }
+    ui.allocate_rect(area, Sense::hover());
+}
+
+/// Where the views are; one that is hidden leaves its place to the other.
+fn rects(ui: &Ui, views: Views, area: Rect) -> [(Plushie, Rect); 2] {
+    let (left, right) = match views {
+        Views::Only(_) => (area, area),
+        Views::Both => {
+            let middle = area.center().x.round();
+            ui.painter().vline(middle, area.y_range(), ui.visuals().widgets.noninteractive.bg_stroke);
+            let left = Rect::from_min_max(area.min, pos2(middle - 1.0, area.bottom()));
+            (left, Rect::from_min_max(pos2(middle + 1.0, area.top()), area.max))
+        }
+    };
+    [(Plushie::Idealized, left), (Plushie::Realizable, right)]
+}
+
+/// One view; what lies under the pointer, if it is there. `drawn`: what there is to draw.
+fn view(
+    ui: &mut Ui,
+    canvas: &Canvas<'_>,
+    (plushie, drawn): (Plushie, Option<&Arc<Shape>>),
+    state: &mut State,
+    tool: &mut dyn Tool,
+    actions: &mut Actions,
+) -> Option<Hit> {
+    let name = match plushie {
+        Plushie::Idealized => "Idealized view",
+        Plushie::Realizable => "Realizable view",
+    };
+    let response = ui.interact(canvas.rect, ui.scope_id().with(name), Sense::click_and_drag());
+    response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, name));
+    if canvas.rect.width() < 2.0 || canvas.rect.height() < 2.0 {
+        return None;
+    }
+    let view = &mut state.views[plushie as usize];
+    if let Some(shape) = drawn {
+        view.picture.paint(ui, canvas, plushie, shape);
+    }
+    let hit = pointer::interact(ui, canvas, tool, &mut view.menu_at, &response, actions);
+    pointer::highlight(ui, canvas, state.hovered);
+    tool.paint(canvas, &ui.painter_at(canvas.rect), response.hover_pos());
+    captions::show(ui, canvas, plushie);
+    hit
+}
+
+/// The newest shape from the solver.
+fn solved(session: &Session, plushie: Plushie) -> Option<&Arc<Shape>> {
+    match plushie {
+        Plushie::Idealized => session.shapes.idealized.as_ref(),
+        Plushie::Realizable => session.shapes.realizable.as_ref(),
+    }
+}
+
+/// The shape that a view shows now.
+fn displayed(session: &Session, plushie: Plushie) -> Option<&Arc<Shape>> {
+    let preview = session.shown_proposal().map(|proposal| &proposal.preview);
+    let preview = preview.filter(|shape| shape.nodes.len() == session.design().mesh.nodes.len());
+    match plushie {
+        Plushie::Realizable if preview.is_some() => preview,
+        _ => solved(session, plushie),
+    }
+}
+
+fn fit(design: &Design, size: Vec2) -> Camera {
+    let (low, high) = polygon::bounding_box(&design.mesh.nodes);
+    Camera::fit(low, high, size)
+}

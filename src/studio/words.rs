@@ -1,0 +1,107 @@
+//! What the core has to say, in the words of the window: its controls by name.
+
+use crate::fabrication::ExportError;
+use crate::operations::{Progress, key, new_design, remesh, reshape, rig};
+use crate::outline::{Change, Changes, Note, OutlineError, Remedy};
+use crate::rigging;
+
+/// The steps and notes of a clean-up, a line each.
+pub fn changes(changes: &Changes) -> impl Iterator<Item = String> {
+    changes.steps.iter().map(Change::line).chain(changes.notes.iter().map(note))
+}
+
+/// A note of a reader or the clean-up, and the control that would have it otherwise.
+fn note(note: &Note) -> String {
+    note.remedy().map_or_else(|| note.to_string(), |remedy| format!("{note}; {}", control(remedy)))
+}
+
+/// Why a file gave no outline, and the control that may help.
+pub fn outline(error: &OutlineError) -> String {
+    error.remedy().map_or_else(|| error.to_string(), |remedy| format!("{error}; {}", control(remedy)))
+}
+
+/// What the dialog of the import has.
+fn control(remedy: Remedy) -> &'static str {
+    match remedy {
+        Remedy::Height => "“Height” sets another height",
+        Remedy::Unit => "“Unit” sets another",
+        Remedy::Threshold => "“Ink from” sets another level",
+        Remedy::Background => "“Keep the background” keeps it",
+        Remedy::Holes => "“Fill holes” makes a solid body of it",
+        Remedy::MinWidth => "“Least width” widens them",
+        Remedy::Pieces => "choose “Largest piece only”, or join them in the drawing",
+    }
+}
+
+/// Why an outline made no design.
+pub fn unmade(error: &new_design::Error) -> String {
+    match error {
+        new_design::Error::Outline(error) => outline(error),
+        new_design::Error::Mesh(_) | new_design::Error::Cancelled(_) => error.to_string(),
+    }
+}
+
+/// Fibres besides those asked for, of an import or of a new body.
+pub fn more_fibers(asked: usize, count: usize) -> String {
+    format!("The outline needs more than {asked} fibres; it has {count}.")
+}
+
+/// Why a design was not given another body.
+pub fn unshaped(error: &reshape::Error) -> String {
+    match error {
+        reshape::Error::Outline(OutlineError::Pieces { .. }) => {
+            format!("{error}: join them, or delete what is too much")
+        }
+        reshape::Error::Outline(_)
+        | reshape::Error::Mesh(_)
+        | reshape::Error::Edit(_)
+        | reshape::Error::Cancelled(_) => error.to_string(),
+    }
+}
+
+/// Why there is no other mesh.
+pub fn unmeshed(error: &remesh::Error) -> String {
+    error.to_string()
+}
+
+/// Why there is no keyframe.
+pub fn unkeyed(error: &key::Error) -> String {
+    match error {
+        key::Error::NoNetworks => {
+            "Without networks there is nothing to animate: propose and accept one first.".to_owned()
+        }
+        error => format!("Add keyframe: {error}"),
+    }
+}
+
+/// A step of an operation.
+pub fn progress(step: &Progress) -> String {
+    match step {
+        Progress::Rig(rigging::Progress::Candidates { winch, count }) => {
+            format!("Winch {}: trying {count} networks", winch + 1)
+        }
+        Progress::Rig(rigging::Progress::Accepted { winch, errors, .. }) => {
+            let worst = errors.iter().map(|(_, error)| *error).fold(0.0, f64::max);
+            format!("Winch {}: {:.1} % off at most", winch + 1, 100.0 * worst)
+        }
+    }
+}
+
+/// Why there is no rig.
+pub fn unrigged(error: &rig::Error) -> String {
+    match error {
+        rig::Error::NoTargets => "No pose has a target yet: drag a point of the body first.".to_owned(),
+        rig::Error::NothingFound => {
+            "No network brings any pose closer to its targets. Try more winches or tendons.".to_owned()
+        }
+        error => format!("Rig: {error}"),
+    }
+}
+
+/// Why there is no blueprint.
+pub fn unexported(error: &ExportError) -> String {
+    match error {
+        ExportError::NoNetworks => format!("{error}: propose and accept one first"),
+        error => error.to_string(),
+    }
+}

@@ -1,0 +1,353 @@
+//! Every operation through the command line and through the window, by accessible names: the same design, byte for byte.
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{self, Key, Modifiers, Pos2, pos2, vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use plushwright::design::{Design, file};
+use plushwright::studio::app::Studio;
+use plushwright::studio::session::Session;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+type Window = Harness<'static, Option<Studio>>;
+
+/// 120 x 40 mm.
+const BAR: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" width="120mm" height="40mm" viewBox="0 0 120 40">
+<rect width="120" height="40"/></svg>"#;
+const BAR_MM: [f32; 2] = [120.0, 40.0];
+
+/// Runs the program in a folder.
+#[track_caller]
+fn run(folder: &Path, args: &[&str]) {
+    let output = Command::new(env!("CARGO_BIN_EXE_plushwright")).args(args).current_dir(folder).output().unwrap();
+    assert!(output.status.success(), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
+}
+
+/// The window on a design, with the real services.
+fn window(design: Design, path: Option<PathBuf>) -> Window {
+    let mut given = Some((design, path));
+    let mut window = Harness::builder().with_max_steps(32).with_size(vec2(1280.0, 800.0)).build_ui_state(
+        move |ui, studio: &mut Option<Studio>| {
+            let studio = studio.get_or_insert_with(|| {
+                let (design, path) = given.take().expect("made once");
+                Studio::new(ui.ctx(), design, path, plushwright::studio::services())
+            });
+            studio.update(ui);
+        },
+        None,
+    );
+    settle(&mut window);
+    window
+}
+
+fn session(window: &Window) -> &Session {
+    window.state().as_ref().expect("made in the first frame").session()
+}
+
+/// Runs frames until nothing is being worked at.
+fn settle(window: &mut Window) {
+    let started = Instant::now();
+    loop {
+        window.step();
+        let s = session(window);
+        if s.is_settled() && s.discovery().running.is_none() && !s.is_working() && s.meshing().running.is_none() {
+            return;
+        }
+        assert!(started.elapsed() < Duration::from_secs(300), "nothing happened");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+}
+
+fn click(window: &mut Window, name: &str) {
+    window.get_by_label(name).click();
+    settle(window);
+}
+
+fn press(window: &mut Window, modifiers: Modifiers, key: Key) {
+    window.key_press_modifiers(modifiers, key);
+    settle(window);
+}
+
+/// Types a value in place of what stands in a field.
+fn enter(window: &mut Window, role: Role, name: &str, text: &str) {
+    window.get_by_role_and_label(role, name).focus();
+    window.step();
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.step();
+    window.event(egui::Event::Text(text.to_owned()));
+    window.step();
+    press(window, Modifiers::NONE, Key::Tab);
+}
+
+/// Types a path into the dialog.
+fn enter_path(window: &mut Window, path: &Path) {
+    window.get_by_label("Path").focus();
+    window.step();
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.step();
+    window.get_by_label("Path").type_text(&path.to_string_lossy());
+    settle(window);
+}
+
+fn drag(window: &mut Window, from: Pos2, to: Pos2) {
+    window.hover_at(from);
+    window.step();
+    window.drag_at(from);
+    window.step();
+    for i in 1..=4 {
+        window.hover_at(from.lerp(to, i as f32 / 4.0));
+        window.step();
+    }
+    window.drop_at(to);
+    settle(window);
+}
+
+/// Where a point of the bar is on the screen.
+fn on_screen(window: &Window, p: [f32; 2]) -> Pos2 {
+    let rect = window.get_by_label("Idealized view").rect();
+    let scale = (rect.width() / (BAR_MM[0] * 1.32)).min(rect.height() / (BAR_MM[1] * 1.32));
+    let center = rect.center();
+    pos2(center.x + (p[0] - 0.5 * BAR_MM[0]) * scale, center.y - (p[1] - 0.5 * BAR_MM[1]) * scale)
+}
+
+/// Both ways came to the same design.
+#[track_caller]
+fn same(window: &Window, path: &Path) {
+    let text = file::to_text(session(window).design()).unwrap();
+    let told: Vec<&str> = session(window).messages().list().iter().map(|m| m.text.as_str()).collect();
+    assert!(text == fs::read_to_string(path).unwrap(), "{}: another design; {told:?}", path.display());
+}
+
+/// A folder with the design of a bar, and the window on it.
+fn bar() -> (tempfile::TempDir, Window) {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("bar.svg"), BAR).unwrap();
+    run(folder.path(), &["new", "bar.svg", "-o", "bar.plush", "--fibers", "60"]);
+    let path = folder.path().join("bar.plush");
+    let window = window(file::read(&path).unwrap(), Some(path));
+    (folder, window)
+}
+
+/// A bar with a pin at its left end and a pose, made in the window and saved.
+fn posed() -> (tempfile::TempDir, Window) {
+    let (folder, mut window) = bar();
+    click(&mut window, "Pin tool");
+    for p in [[5.0, 10.0], [5.0, 30.0]] {
+        let p = on_screen(&window, p);
+        window.hover_at(p);
+        window.drag_at(p);
+        window.drop_at(p);
+        settle(&mut window);
+    }
+    click(&mut window, "Drag tool");
+    let [from, to] = [[112.0, 20.0], [106.3, 37.7]].map(|p| on_screen(&window, p));
+    drag(&mut window, from, to);
+    assert_eq!((session(&window).design().pins.len(), session(&window).design().poses.len()), (2, 1));
+    press(&mut window, Modifiers::COMMAND, Key::S);
+    (folder, window)
+}
+
+/// The same bar, rigged by the program, and the window on it.
+fn rigged() -> (tempfile::TempDir, Window) {
+    let (folder, _) = posed();
+    let path = folder.path().join("bar.plush");
+    let mut design = file::read(&path).unwrap();
+    let mut routing: Vec<usize> = (0..design.mesh.nodes.len()).filter(|&n| design.mesh.nodes[n][1] > 39.9).collect();
+    routing.sort_by(|&a, &b| design.mesh.nodes[a][0].total_cmp(&design.mesh.nodes[b][0]));
+    let tendon = plushwright::design::Tendon { routing, ratio: 1.0, slack_mm: 0.0 };
+    design.networks.push(plushwright::design::Network { name: "winch 1".into(), tendons: vec![tendon] });
+    file::write(&path, &design).unwrap();
+    let window = window(design, Some(path));
+    (folder, window)
+}
+
+/// Imports a file with options on both ways.
+#[track_caller]
+fn imported(name: &str, bytes: &[u8], args: &[&str], choose: impl Fn(&mut Window)) -> Design {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(name);
+    fs::write(&path, bytes).unwrap();
+    let design = path.with_extension("plush");
+    run(folder.path(), &[&["new", name, "-o", design.to_str().unwrap()], args].concat());
+    let mut window = window(plushwright::design::bundled::ALL[0].design().unwrap(), None);
+    press(&mut window, Modifiers::COMMAND, Key::N);
+    enter_path(&mut window, &path);
+    choose(&mut window);
+    click(&mut window, "Create");
+    same(&window, &design);
+    file::read(&design).unwrap()
+}
+
+fn height(design: &Design) -> f64 {
+    design.outline.bounding_box().1[1]
+}
+
+const NUMBERS: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" width="600" height="400" viewBox="0 0 600 400">
+<path d="M50 50h500v300h-500zM200 150v60h60v-60z" fill-rule="evenodd"/></svg>"#;
+
+#[test]
+fn a_drawing_with_and_without_units_has_its_own_size_both_ways() {
+    let with = imported("unit.svg", BAR.as_bytes(), &[], |_| ());
+    assert!((height(&with) - 40.0).abs() < 1e-3);
+    let without = imported("plain.svg", NUMBERS.as_bytes(), &[], |_| ());
+    assert!((height(&without) - 300.0 * 25.4 / 96.0).abs() < 0.1);
+}
+
+#[test]
+fn what_is_asked_for_is_the_same_both_ways() {
+    let args = ["--height", "150", "--fibers", "200", "--holes", "fill", "--smooth", "0.5"];
+    let design = imported("plain.svg", NUMBERS.as_bytes(), &args, |window| {
+        enter(window, Role::SpinButton, "Height", "150");
+        enter(window, Role::SpinButton, "Muscle fibres", "200");
+        click(window, "Fill holes");
+        click(window, "Reading and clean-up");
+        enter(window, Role::SpinButton, "Smooth", "0.5");
+    });
+    assert!((height(&design) - 150.0).abs() < 1e-6 && design.outline.holes.is_empty());
+}
+
+#[test]
+fn a_flat_mesh_stays_that_mesh_both_ways() {
+    let obj = b"v 0 0 0\nv 100 0 0\nv 100 80 0\nv 0 80 0\nv 50 40 0\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n";
+    let own = imported("flat.obj", obj, &[], |_| ());
+    assert_eq!((own.fiber_routings().len(), height(&own)), (8, 80.0));
+    let inches = imported("flat.obj", obj, &["--unit", "in", "--fibers", "150"], |window| {
+        enter(window, Role::SpinButton, "Muscle fibres", "150");
+        click(window, "Reading and clean-up");
+        enter(window, Role::SpinButton, "Unit", "25.4");
+    });
+    assert!((height(&inches) - 80.0 * 25.4).abs() < 1e-6);
+}
+
+#[test]
+fn a_picture_and_a_drawing_of_parts_are_read_the_same_both_ways() {
+    let mut png = std::io::Cursor::new(Vec::new());
+    let ink = |x: u32, y: u32| (f64::from(x) / 150.0 - 1.0).powi(2) + (f64::from(y) / 110.0 - 1.0).powi(2) < 0.7;
+    let picture = image::RgbImage::from_fn(300, 220, |x, y| image::Rgb(if ink(x, y) { [30; 3] } else { [250; 3] }));
+    picture.write_to(&mut png, image::ImageFormat::Png).unwrap();
+    imported("oval.png", png.get_ref(), &["--fibers", "200"], |window| {
+        enter(window, Role::SpinButton, "Muscle fibres", "200");
+    });
+    let parts = b"(parts: [(primitive: Capsule(ends: ((40, 40), (120, 90)), radii: (30, 20))), \
+                  (primitive: Circle(center: (40, 40), radius: 8), cut: true)], tracks: [[(50, 60), (120, 90)]])";
+    let drawn = imported("limb.ron", parts, &[], |_| ());
+    assert!(drawn.drawing.is_some() && drawn.tracks().len() == 1 && drawn.outline.holes.len() == 1);
+}
+
+#[test]
+fn a_picture_becomes_the_same_texture_both_ways() {
+    let folder = tempfile::tempdir().unwrap();
+    let [cli, by_hand] = ["cli", "window"].map(|name| folder.path().join(name));
+    for path in [&cli, &by_hand] {
+        fs::create_dir(path).unwrap();
+    }
+    let svg = NUMBERS.replace("<path", r##"<path fill="#c81e1e""##);
+    fs::write(folder.path().join("skin.svg"), svg).unwrap();
+    run(folder.path(), &["new", "skin.svg", "-o", "cli/skin.plush", "--texture"]);
+    let mut window = window(plushwright::design::bundled::ALL[0].design().unwrap(), None);
+    press(&mut window, Modifiers::COMMAND, Key::N);
+    enter_path(&mut window, &folder.path().join("skin.svg"));
+    click(&mut window, "Keep the picture as texture");
+    click(&mut window, "Create");
+    press(&mut window, Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
+    enter_path(&mut window, &by_hand.join("skin.plush"));
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    for name in ["skin.plush", "skin.texture.png"] {
+        assert!(fs::read(cli.join(name)).unwrap() == fs::read(by_hand.join(name)).unwrap(), "{name}");
+    }
+}
+
+#[test]
+fn another_resolution_is_the_same_both_ways() {
+    let (folder, mut window) = posed();
+    run(folder.path(), &["remesh", "bar.plush", "-o", "fine.plush", "--fibers", "150", "--finer", "2"]);
+    click(&mut window, "Mesh");
+    enter(&mut window, Role::SpinButton, "Muscle fibres", "150");
+    enter(&mut window, Role::SpinButton, "Finer body", "2");
+    click(&mut window, "Remesh");
+    same(&window, &folder.path().join("fine.plush"));
+}
+
+#[test]
+fn another_silhouette_is_the_same_both_ways() {
+    let (folder, mut window) = posed();
+    press(&mut window, Modifiers::NONE, Key::O);
+    click(&mut window, "Circle");
+    // A circle that reaches out of the body.
+    let middle = window.get_by_label("Drawing sheet").rect().center();
+    drag(&mut window, middle, middle + vec2(130.0, 0.0));
+    let drawing = session(&window).drawing();
+    assert_eq!(drawing.parts.len(), 2);
+    fs::write(folder.path().join("bar.ron"), drawing.to_text().unwrap()).unwrap();
+    run(folder.path(), &["reshape", "bar.plush", "bar.ron", "-o", "round.plush"]);
+    click(&mut window, "Make the body");
+    same(&window, &folder.path().join("round.plush"));
+}
+
+#[test]
+fn what_is_dragged_can_be_read_off_and_typed() {
+    let (folder, window) = posed();
+    let design = session(&window).design();
+    let place = |at| design.mesh.position(at, &design.mesh.nodes).map(|v| format!("{v:.3}")).join(",");
+    let pins: Vec<String> = design.pins.iter().map(|pin| place(&pin.at)).collect();
+    let target = &design.poses[0].targets[0];
+    let target = format!("{}={:.3},{:.3}", place(&target.at), target.to[0], target.to[1]);
+    run(folder.path(), &["new", "bar.svg", "-o", "bar.plush", "--fibers", "60", "--force"]);
+    let pose = ["pose", "bar.plush", "-o", "bar.plush", "--name", "Pose 1", "--target", &target];
+    run(folder.path(), &[&pose[..], &["--pin", &pins[0], "--pin", &pins[1]]].concat());
+    same(&window, &folder.path().join("bar.plush"));
+}
+
+#[test]
+fn a_pose_and_rest_are_keyed_the_same_both_ways() {
+    let (folder, mut window) = rigged();
+    let key = ["key", "bar.plush", "-o", "bar.plush", "--pose"];
+    run(folder.path(), &[&key[..], &["Pose 1", "--time", "0"]].concat());
+    run(folder.path(), &[&key[..], &["rest", "--time", "1"]].concat());
+    click(&mut window, "Add keyframe");
+    click(&mut window, "Rest");
+    click(&mut window, "Add keyframe");
+    assert_eq!(session(&window).design().keyframes.len(), 2);
+    same(&window, &folder.path().join("bar.plush"));
+}
+
+#[test]
+fn a_rig_with_fixed_options_is_the_same_both_ways() {
+    let (folder, mut window) = posed();
+    let fixed = ["--max-winches", "1", "--tendons", "1", "--seed-num", "12", "--join-depth", "2", "--join-len", "2"];
+    run(folder.path(), &[&["rig", "bar.plush", "-o", "rigged.plush", "--phi", "0.5"][..], &fixed].concat());
+    click(&mut window, "Parameters");
+    for (name, value) in [("Seeds", "12"), ("Join rounds", "2"), ("Join length", "2"), ("Phi", "0.5")] {
+        enter(&mut window, Role::SpinButton, name, value);
+    }
+    click(&mut window, "All poses");
+    enter(&mut window, Role::SpinButton, "Most winches", "1");
+    enter(&mut window, Role::TextInput, "Tendons of each winch", "1");
+    click(&mut window, "Hold the parameters");
+    click(&mut window, "Rig all poses");
+    assert_eq!(session(&window).design().keyframes.len(), 3);
+    same(&window, &folder.path().join("rigged.plush"));
+}
+
+#[test]
+fn a_blueprint_is_the_same_both_ways() {
+    let (folder, mut window) = rigged();
+    run(folder.path(), &["export", "bar.plush", "-o", "cli"]);
+    press(&mut window, Modifiers::COMMAND, Key::E);
+    enter_path(&mut window, &folder.path().join("window"));
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    let files = |name: &str| {
+        let mut files: Vec<_> = fs::read_dir(folder.path().join(name)).unwrap().map(|e| e.unwrap().path()).collect();
+        files.sort();
+        files
+    };
+    let [cli, by_hand] = [files("cli"), files("window")];
+    assert!(cli.len() > 4 && cli.len() == by_hand.len(), "{cli:?} {by_hand:?}");
+    for (a, b) in cli.iter().zip(&by_hand) {
+        assert_eq!(a.file_name(), b.file_name());
+        assert!(fs::read(a).unwrap() == fs::read(b).unwrap(), "{}", a.display());
+    }
+}
