@@ -10,9 +10,9 @@ use std::f64::consts::PI;
 use std::fs;
 use std::path::Path;
 
-/// A file of a blueprint as text.
+/// A file of a blueprint as text; motions that no motor can follow are stretched.
 fn text(design: &Design, name: &str) -> String {
-    let (files, _) = blueprint(design, &Options::default()).expect("a blueprint");
+    let (files, _) = blueprint(design, &Options { too_fast: TooFast::Stretch }).expect("a blueprint");
     let file = files.into_iter().find(|f| f.name == name).expect(name);
     String::from_utf8(file.bytes).expect("text")
 }
