@@ -82,7 +82,7 @@ pub fn places_on(design: &Design, shape: &str, count: usize, random: &mut Random
     }
 }
 
-/// The same places on the mesh of `subject`.
+/// The places as points of the mesh of `subject`.
 pub fn points(subject: &Subject, places: &[Point]) -> Vec<BodyPoint> {
     let mesh = &subject.design.mesh;
     places.iter().filter_map(|p| mesh.locate_nearest(*p, &mesh.nodes)).map(|(at, _)| at).collect()

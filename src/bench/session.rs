@@ -10,7 +10,7 @@ pub struct Session<'a> {
     pub seed: u64,
     /// Asked between steps of work; `true` ends the study.
     pub stop: &'a dyn Fn() -> bool,
-    /// The same for work that asks a flag.
+    /// `stop` for work that asks a flag.
     pub cancel: &'a AtomicBool,
     /// Told what is being worked on, in a few words.
     pub progress: &'a dyn Fn(&str),

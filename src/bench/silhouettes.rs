@@ -166,7 +166,7 @@ fn ribbon(line: &[Point], half: impl Fn(f64) -> f64) -> Silhouette {
     Silhouette { outer, base: line[0], across: [dy, -dx] }
 }
 
-/// The same with this longer side, counter-clockwise.
+/// A silhouette scaled to this longer side, counter-clockwise.
 fn scaled(mut drawn: Silhouette, size: f64) -> Silhouette {
     let (low, high) = bounding_box(&drawn.outer);
     let factor = size / (high[0] - low[0]).max(high[1] - low[1]);

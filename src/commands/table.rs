@@ -9,6 +9,9 @@ use std::io::Write;
 use std::sync::atomic::AtomicBool;
 
 /// The figures of all poses.
+///
+/// # Errors
+/// It was cancelled.
 pub fn figures(design: &Design, cancel: &AtomicBool) -> Result<Figures, CommandError> {
     check::run(design, &check::Options::default(), &Context::new(cancel)).map_err(|error| match error {
         Error::Cancelled(_) => CommandError::Cancelled,

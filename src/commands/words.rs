@@ -39,7 +39,10 @@ pub fn unexported(design: &Path, error: ExportError) -> CommandError {
     }
 }
 
-/// Fails where a plushie did not come to equilibrium; for the end of a command, when what was found is written.
+/// For the end of a command, when what was found is written.
+///
+/// # Errors
+/// A plushie did not come to equilibrium.
 pub fn balanced<'a>(unbalanced: impl IntoIterator<Item = &'a Unbalanced>) -> Result<(), CommandError> {
     let told: Vec<String> = unbalanced.into_iter().map(Unbalanced::to_string).collect();
     if told.is_empty() { Ok(()) } else { Err(CommandError::NotConverged(told.join("; "))) }

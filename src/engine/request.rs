@@ -5,7 +5,7 @@ use crate::design::{Design, Target};
 use crate::soft_ik::Quality;
 use std::sync::Arc;
 
-/// What the worker is asked for. The newest request wins.
+/// A request to the worker. The newest one wins.
 #[derive(Clone, Debug)]
 pub struct Request {
     /// Chosen by the caller and returned in the outcome.

@@ -243,7 +243,7 @@ fn exchange(fresh: &Path, place: &Path) -> io::Result<()> {
     exchange_in_steps(fresh, place)
 }
 
-/// The same in three steps, each taken back where the next fails. Between the first two the old folder stands beside its place under a
+/// The exchange in three steps, each taken back where the next fails. Between the first two the old folder stands beside its place under a
 /// name that anybody understands: `NAME.old-...`.
 fn exchange_in_steps(fresh: &Path, place: &Path) -> io::Result<()> {
     let name = place.file_name().unwrap_or_default();

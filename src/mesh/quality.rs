@@ -110,7 +110,7 @@ pub struct Fit {
     pub area_error: f64,
     /// Farthest distance between the boundary of the mesh and the outline, from either side, mm.
     pub boundary_mm: f64,
-    /// The same as a fraction of the outline's height.
+    /// That distance as a fraction of the outline's height.
     pub boundary_fraction: f64,
 }
 

@@ -43,7 +43,7 @@ pub(super) struct Fill {
     /// Preference for triangles between boundary nodes alone, as a factor on the ratio of circumradius to wanted edge length:
     /// a limb is to be two across before the trunk is filled evenly.
     pub limbs: f64,
-    /// The same for triangles with an angle below [`NARROW_DEG`].
+    /// Preference for triangles with an angle below [`NARROW_DEG`].
     pub narrow: f64,
     /// Triangles with a smaller angle are split, degrees: the refinement ends well for a little more than 20, smoothing then
     /// adds some ten. Less spares nodes.

@@ -20,6 +20,23 @@
 //! An operation that takes long has two halves, for a window in which the design goes on changing: `prepare` works out what is to be
 //! put in, and that is put into the design, as it is by then, by `apply`. [`run`](remesh::run) does both.
 
+//!
+//! ```
+//! use plushwright::operations::{Context, FiberCount, new_design, remesh};
+//! use plushwright::mesh::Size;
+//! use std::sync::atomic::AtomicBool;
+//!
+//! let svg = br#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 12 4" width="120mm"><rect width="12" height="4"/></svg>"#;
+//! let cancel = AtomicBool::new(false);
+//! let context = Context::new(&cancel);
+//! let options = new_design::Options { name: "bar".into(), fibers: FiberCount::AtLeast(60), ..Default::default() };
+//! let mut design = new_design::run(svg, &options, &context)?.design;
+//! assert!((design.body_length_mm() - 120.0).abs() < 0.01);
+//! let report = remesh::run(&mut design, &remesh::Options { size: Size::EdgeMm(10.0), ..Default::default() }, &context)?;
+//! assert!(report.fibers[1] > report.fibers[0]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
 pub mod check;
 mod context;
 pub mod export;

@@ -26,7 +26,7 @@ pub struct Body {
     /// Rest area times stiffness factor.
     weights: Vec<f64>,
     areas: Vec<f64>,
-    /// The same for loops over many triangles.
+    /// Triangles for loops over many of them.
     wide: Triangles,
 }
 

@@ -48,7 +48,7 @@ impl Parameter {
     };
 }
 
-/// What a parameter is measured in, as powers of a 2-D modulus (force per length) and a length: in a frame in which these are
+/// The dimension of a parameter, as powers of a 2-D modulus (force per length) and a length: in a frame in which these are
 /// `m` and `s`, it is `value / (m^modulus s^length)`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Dimension {

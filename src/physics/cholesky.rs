@@ -85,7 +85,7 @@ impl Cholesky {
         Some((pattern, cholesky))
     }
 
-    /// The same for a pattern as it is; `None` only if the factor would not fit into memory.
+    /// The symbolic analysis of a pattern as it is; `None` only if the factor would not fit into memory.
     pub fn new(pattern: &Pattern) -> Option<Self> {
         Self::with(pattern, &Variant { ordering: Ordering::NodeMinimumDegree, kernel: Kernel::Supernodal(&[]) })
     }

@@ -24,7 +24,7 @@ fn two_sum(a: f64, b: f64) -> (f64, f64) {
     (sum, (a - (sum - from_b)) + (b - from_b))
 }
 
-/// The same where `|a| >= |b|`.
+/// `a + b` and its rounding error where `|a| >= |b|`.
 fn quick_sum(a: f64, b: f64) -> DoubleDouble {
     let high = a + b;
     DoubleDouble { high, low: if high.is_finite() { b - (high - a) } else { 0.0 } }

@@ -49,7 +49,7 @@ pub trait Energy: Send + Sync {
     }
 }
 
-/// What a residual is small against, entry by entry.
+/// Magnitudes that a residual is small against, entry by entry.
 pub struct Scales<'a> {
     at_work: &'a mut [f64],
     rounding: Option<&'a mut [f64]>,

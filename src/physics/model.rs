@@ -114,7 +114,7 @@ impl Model {
         self.loose.len()
     }
 
-    /// The same pieces, by their smallest nodes.
+    /// The pieces that [`Self::free_pieces`] counts, by their smallest nodes.
     pub fn loose(&self) -> &[Loose] {
         &self.loose
     }
@@ -158,7 +158,7 @@ impl Model {
         self.force_scale_into(x, &mut vec![0.0; x.len()])
     }
 
-    /// The same, with the sums left in `scale`.
+    /// [`Self::force_scale`], with the sums left in `scale`.
     pub fn force_scale_into(&self, x: &[f64], scale: &mut [f64]) -> f64 {
         let mut scales = Scales::together(scale);
         self.all().for_each(|term| term.add_scales(x, &mut scales));
@@ -203,7 +203,7 @@ impl Model {
         self.cholesky.factorize(&self.pattern, &self.values)
     }
 
-    /// The same with `shift` on the whole diagonal.
+    /// Assembles `H(x)` with `shift` on the whole diagonal and factorises it.
     pub(super) fn factorize_shifted(
         &mut self,
         x: &[f64],
@@ -276,12 +276,12 @@ impl Model {
         self.cholesky.solve(rhs);
     }
 
-    /// The same for several right-hand sides stored one after the other.
+    /// [`Self::solve`] for several right-hand sides stored one after the other.
     pub fn solve_many(&mut self, rhs: &mut [f64], columns: usize) {
         self.cholesky.solve_many(rhs, columns);
     }
 
-    /// The same for the right-hand sides `solved` of `columns`, stored row after row: of each degree of freedom all columns.
+    /// [`Self::solve`] for the right-hand sides `solved` of `columns`, stored row after row: of each degree of freedom all columns.
     pub fn solve_rows(&mut self, rhs: &mut [f64], columns: usize, solved: Range<usize>) {
         self.cholesky.solve_rows(rhs, columns, solved);
     }

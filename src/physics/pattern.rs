@@ -56,7 +56,7 @@ impl Pattern {
         Self::of((0..nodes as u32).collect(), pairs)
     }
 
-    /// The same pattern with its nodes in another order: `order[k]` is the `k`-th. Every node occurs once.
+    /// This pattern with its nodes in another order: `order[k]` is the `k`-th. Every node occurs once.
     pub fn reordered(&self, order: &[usize]) -> Self {
         let order: Vec<u32> = order.iter().map(|&n| n as u32).collect();
         let rank = inverse(&order);

@@ -345,7 +345,7 @@ mod tests {
     use super::*;
     use nalgebra::{Matrix2, Matrix4};
 
-    /// The same material, which does not say what it is: its triangles are worked on one by one.
+    /// A neo-Hookean material that does not say what it is: its triangles are worked on one by one.
     struct Disguised(NeoHookean);
 
     impl Hyperelastic for Disguised {

@@ -114,7 +114,7 @@ impl<'de> Visitor<'de> for Keys {
     }
 }
 
-/// The same by way of a tree of values: names what is wrong with the file and where, or reads it where a key stands twice (the last
+/// [`read`] by way of a tree of values: names what is wrong with the file and where, or reads it where a key stands twice (the last
 /// one counts).
 fn diagnose(text: &str) -> Result<(Problem, Vec<String>), ProblemError> {
     let value: Value = serde_json::from_str(text).map_err(|e| ProblemError::Json(e.to_string()))?;

@@ -11,7 +11,7 @@ pub trait Generator: Sync {
     fn generate(&self, given: &Given) -> Vec<Candidate>;
 }
 
-/// What a generator may draw on.
+/// Everything that a generator may draw on.
 pub struct Given<'a> {
     pub design: &'a Design,
     /// What the fibres of the idealized plushie do in the pose at hand.

@@ -26,7 +26,7 @@ impl Actuation {
         out
     }
 
-    /// The same, into `out`.
+    /// [`Self::contractions`] into `out`.
     pub fn contractions_into(&self, beta: &[f64], out: &mut [f64]) {
         out.copy_from_slice(&self.fixed);
         for (winch, b) in self.winches.iter().zip(beta) {

@@ -45,7 +45,7 @@ impl Method for GaussNewton {
 }
 
 impl GaussNewton {
-    /// The same in parts: `damping` is kept from one part to the next, [`FIRST_DAMPING`] for the first.
+    /// [`Method::solve`] in parts: `damping` is kept from one part to the next, [`FIRST_DAMPING`] for the first.
     pub fn resume(&self, question: &mut Question, start: &Posture, budget: &Budget, damping: &mut f64) -> Answer {
         let mut best = start.clone();
         let mut answer = Answer::at(&best);

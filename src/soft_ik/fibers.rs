@@ -150,7 +150,7 @@ fn posture(
     posture.in_equilibrium().then_some(posture)
 }
 
-/// The same posture with every slack element contracted as little as its winch allows while it stays slack.
+/// A posture with every slack element contracted as little as its winch allows while it stays slack.
 fn relaxed(question: &mut Question, mut posture: Posture) -> Posture {
     let elements = &question.model.contractile.elements;
     for (winch, beta) in question.actuation.winches.iter().zip(&mut posture.beta) {

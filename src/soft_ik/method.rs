@@ -2,7 +2,7 @@
 
 use super::question::{Posture, Question};
 
-/// What a method did.
+/// The outcome of a method, and the work that it took.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
     pub posture: Posture,

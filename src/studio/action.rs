@@ -1,19 +1,15 @@
-//! What panels and viewports ask for. They borrow the session, read only, and return these; the session alone acts.
+//! What panels, tools and keys ask for. They borrow the session, read only, and return these; [`acts`](super::acts) does them.
 
 use super::canvas::{Camera, Hit};
 use super::change::Change;
-use super::commands::Command;
-use super::files::PathDialog;
-use super::importing::ImportChoice;
-use super::meshing::Resolution;
-use super::rigging::RigChoice;
-use super::session::{Overlay, Renamed, Selection};
-use super::sketching::Sketch;
+use super::commands::command::Command;
+pub use super::session::FileAction;
+use super::session::{Overlay, Renamed, Resolution, RigChoice, Selection, Task};
 use crate::discovery::Parameters;
 use crate::engine::Quality;
 use crate::outline::Point;
+use crate::outline::drawing::Item;
 use crate::picture::Stage;
-use std::path::PathBuf;
 
 /// Wanted, in the order in which it was asked for.
 pub type Actions = Vec<Action>;
@@ -45,45 +41,20 @@ pub enum Action {
     /// Of the outline.
     Sketch(Sketch),
     File(FileAction),
+    /// A job of a panel.
+    Start(Task),
     DismissMessage(u64),
 }
 
+/// What is asked for while the outline is drawn.
 #[derive(Clone, Debug, PartialEq)]
-pub enum FileAction {
-    /// Asks where.
-    Open,
-    Import,
-    /// An empty sheet.
-    NewDrawing,
-    SaveAs,
-    Export,
-    /// To where it came from, or asks.
-    Save,
-    OpenPath(PathBuf),
-    OpenExample(usize),
-    ImportPath {
-        path: PathBuf,
-        choice: ImportChoice,
-    },
-    SavePath(PathBuf),
-    ExportPath(PathBuf),
-    CloseDialog,
-    /// Something was typed.
-    EditDialog(PathDialog),
-    /// Answers about unsaved changes.
-    SaveAndGoOn,
-    DiscardAndGoOn,
-    /// A file was dropped on the window.
-    Dropped(PathBuf),
-    /// What was imported, where the document has been changed in the meantime.
-    OpenImported,
-    /// Saves there, whatever is there.
-    ReplacePath(PathBuf),
-    /// Answers about work that another window left behind.
-    Recover,
-    DiscardWork,
-    RecoverLater,
-    /// Opens the desktop's own dialog for the dialog that is shown.
-    Browse,
-    Quit,
+pub enum Sketch {
+    Open(bool),
+    /// Whether new parts are cut out.
+    Cut(bool),
+    /// A part or a track, and a point of it.
+    Select(Option<Item>, Option<usize>),
+    Camera(Option<Camera>),
+    /// Makes the body of what is drawn; one undo step when it is there.
+    MakeBody,
 }

@@ -1,13 +1,12 @@
 //! The window: state, and one update a frame.
 
 use super::action::{Action, FileAction};
-use super::files::desktop_has_dialogs;
 use super::pacing::Pacing;
-use super::panels::{self, Tab};
-use super::session::{Services, Session};
+use super::panels;
+use super::session::{Services, Session, desktop_has_dialogs};
 use super::store::Store;
 use super::tools::Toolbox;
-use super::{canvas, keys, safety, style, viewport};
+use super::{acts, canvas, keys, style, viewport};
 use crate::design::Design;
 use crate::picture::palette::{Palette, Theme};
 use eframe::egui::{self, CentralPanel, Frame, Margin, Panel, ViewportCommand};
@@ -17,7 +16,9 @@ use std::time::Duration;
 
 pub struct Studio {
     session: Session,
-    panels: panels::State,
+    timeline: panels::timeline::State,
+    palette: panels::palette::State,
+    inspector: panels::inspector::State,
     views: viewport::State,
     sheet: canvas::State,
     tools: Toolbox,
@@ -35,7 +36,9 @@ impl Studio {
         let tools = Toolbox::new(&session);
         Self {
             session,
-            panels: panels::State::default(),
+            timeline: Default::default(),
+            palette: Default::default(),
+            inspector: Default::default(),
             views: viewport::State::default(),
             sheet: canvas::State::default(),
             tools,
@@ -50,7 +53,7 @@ impl Studio {
         const SAMPLES: u32 = 1;
         if let Some(state) = state {
             viewport::renderer::install(state, SAMPLES);
-            self.panels.gpu = true;
+            self.session.gpu = true;
         }
         self.session.files.native_dialogs = desktop_has_dialogs();
         self.session.look.theme = theme;
@@ -59,7 +62,7 @@ impl Studio {
 
     /// Keeps work, settings and recent files in a folder, and offers what was left there.
     pub fn with_store(mut self, ctx: &egui::Context, store: Store) -> Self {
-        self.session.keep_in(store);
+        acts::keep::keep_in(&mut self.session, store);
         style::set_theme(ctx, self.session.look.theme);
         self
     }
@@ -74,7 +77,7 @@ impl Studio {
         let (now_s, passed_s, hands_off) = ctx
             .input(|i| (i.time, f64::from(i.stable_dt), !i.pointer.any_down() && i.pointer.press_origin().is_none()));
         let typing = ctx.text_edit_focused();
-        self.session.tick(now_s, passed_s, hands_off && !typing);
+        acts::tick::tick(&mut self.session, now_s, passed_s, hands_off && !typing);
 
         let mut actions = Vec::new();
         self.tools.follow(&self.session);
@@ -88,13 +91,13 @@ impl Studio {
         let changed = !actions.is_empty();
         let theme = self.session.look.theme;
         for action in actions {
-            self.session.apply(action);
+            acts::apply::apply(&mut self.session, action);
         }
         if self.session.look.theme != theme {
             style::set_theme(&ctx, self.session.look.theme);
         }
         if changed && hands_off {
-            self.session.remember();
+            acts::keep::remember(&mut self.session);
         }
         if changed {
             // So that the solver is asked, and the outcome of the actions seen, without waiting for the pointer.
@@ -133,15 +136,15 @@ impl Studio {
         let timeline =
             Panel::bottom("timeline").frame(bar).default_size(132.0).size_range(96.0..=320.0).resizable(true);
         let timeline = timeline.show(ui, |ui| {
-            panels::timeline::show(ui, session, &mut self.panels.timeline, actions);
+            panels::timeline::show(ui, session, &mut self.timeline, actions);
         });
         let poses = Panel::left("poses").frame(panels::frame()).default_size(204.0).size_range(160.0..=360.0);
         poses.show(ui, |ui| panels::poses::show(ui, session, actions));
         let inspector = Panel::right("inspector").frame(panels::frame()).default_size(288.0).size_range(288.0..=420.0);
-        inspector.show(ui, |ui| inspect(ui, session, &mut self.panels, actions));
+        inspector.show(ui, |ui| panels::inspector::show(ui, session, &mut self.inspector, actions));
         CentralPanel::no_frame().show(ui, |ui| {
             let (tool, _) = self.tools.tool(session);
-            viewport::show(ui, session, &mut self.views, tool, self.panels.gpu, actions);
+            viewport::show(ui, session, &mut self.views, tool, actions);
         });
         let above = status.response.rect.height() + timeline.response.rect.height();
         panels::messages::show(ui.ctx(), session, above, actions);
@@ -149,7 +152,7 @@ impl Studio {
     }
 
     fn overlays(&mut self, ctx: &egui::Context, actions: &mut Vec<Action>) {
-        panels::palette::show(ctx, &self.session, &mut self.panels.palette, actions);
+        panels::palette::show(ctx, &self.session, &mut self.palette, actions);
         panels::shortcuts::show(ctx, &self.session, actions);
     }
 
@@ -167,7 +170,7 @@ impl Studio {
     }
 
     fn set_title(&mut self, ctx: &egui::Context) {
-        let mark = if self.session.history.is_modified() { "*" } else { "" };
+        let mark = if self.session.document.history.is_modified() { "*" } else { "" };
         let title = format!("Plushwright - {}{mark}", self.session.design().name);
         if title != self.title {
             ctx.send_viewport_cmd(ViewportCommand::Title(title.clone()));
@@ -178,13 +181,13 @@ impl Studio {
     /// Keeps what is not saved; where the system ends the program, at once.
     fn keep(&mut self, ctx: &egui::Context) {
         if let Some(size) = ctx.input(|i| i.viewport().inner_rect) {
-            self.session.sized([size.width(), size.height()]);
+            acts::keep::sized(&mut self.session, [size.width(), size.height()]);
         }
         let drawing = self.tools.unfinished(&self.session);
-        if safety::is_ending() && !self.session.files.quit {
-            self.session.end(drawing);
+        if acts::keep::is_ending() && !self.session.files.quit {
+            acts::keep::end(&mut self.session, drawing);
         } else if !self.session.files.quit {
-            self.session.keep(drawing);
+            acts::keep::keep(&mut self.session, drawing);
         }
     }
 
@@ -196,28 +199,6 @@ impl Studio {
             ctx.send_viewport_cmd(ViewportCommand::CancelClose);
             ctx.request_repaint();
         }
-    }
-}
-
-fn inspect(ui: &mut egui::Ui, session: &Session, state: &mut panels::State, actions: &mut Vec<Action>) {
-    ui.horizontal(|ui| {
-        for (tab, name) in [(Tab::Networks, "Networks"), (Tab::Mesh, "Mesh"), (Tab::Settings, "Settings")] {
-            if ui.selectable_label(state.tab == tab, name).clicked() {
-                state.tab = tab;
-            }
-        }
-    });
-    ui.separator();
-    match state.tab {
-        Tab::Networks => {
-            egui::ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
-                panels::networks::show(ui, session, actions);
-                ui.add_space(12.0);
-                panels::discovery::show(ui, session, state, actions);
-            });
-        }
-        Tab::Mesh => panels::mesh::show(ui, session, &mut state.mesh, actions),
-        Tab::Settings => panels::settings::show(ui, session, actions),
     }
 }
 

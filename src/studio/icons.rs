@@ -68,25 +68,15 @@ pub fn draw_button(ui: &mut Ui, icon: Icon, name: &str, on: Option<bool>, side: 
 
 /// The strokes of an icon in `rect`.
 pub fn draw(icon: Icon, rect: Rect, color: Color32) -> Vec<Shape> {
-    let stroke = Stroke::new((rect.width() / 11.0).max(1.2), color);
-    let at = |x: f32, y: f32| pos2(rect.left() + x * rect.width(), rect.top() + y * rect.height());
-    let line = |points: &[(f32, f32)]| -> Shape { Shape::line(points.iter().map(|p| at(p.0, p.1)).collect(), stroke) };
-    let solid = |points: &[(f32, f32)]| -> Shape {
-        Shape::Path(PathShape::convex_polygon(points.iter().map(|p| at(p.0, p.1)).collect(), color, Stroke::NONE))
-    };
-    let arc = |center: (f32, f32), radius: f32, from: f32, to: f32| -> Shape {
-        let points = (0..=20).map(|i| {
-            let angle = (from + (to - from) * i as f32 / 20.0).to_radians();
-            at(center.0 + radius * angle.cos(), center.1 + radius * angle.sin())
-        });
-        Shape::line(points.collect(), stroke)
-    };
-    let dot = |x: f32, y: f32, r: f32| Shape::circle_filled(at(x, y), r * rect.width(), color);
-    let ring = |x: f32, y: f32, r: f32| Shape::circle_stroke(at(x, y), r * rect.width(), stroke);
+    let pen = Pen { rect, color, stroke: Stroke::new((rect.width() / 11.0).max(1.2), color) };
     match icon {
-        Icon::Undo => vec![arc((0.52, 0.6), 0.34, -150.0, 60.0), line(&[(0.16, 0.12), (0.2, 0.46), (0.52, 0.36)])],
-        Icon::Redo => vec![arc((0.48, 0.6), 0.34, -30.0, -240.0), line(&[(0.84, 0.12), (0.8, 0.46), (0.48, 0.36)])],
-        Icon::Hand => vec![line(&[
+        Icon::Undo => {
+            vec![pen.arc((0.52, 0.6), 0.34, -150.0, 60.0), pen.line(&[(0.16, 0.12), (0.2, 0.46), (0.52, 0.36)])]
+        }
+        Icon::Redo => {
+            vec![pen.arc((0.48, 0.6), 0.34, -30.0, -240.0), pen.line(&[(0.84, 0.12), (0.8, 0.46), (0.48, 0.36)])]
+        }
+        Icon::Hand => vec![pen.line(&[
             (0.2, 0.08),
             (0.2, 0.78),
             (0.38, 0.62),
@@ -96,62 +86,101 @@ pub fn draw(icon: Icon, rect: Rect, color: Color32) -> Vec<Shape> {
             (0.76, 0.58),
             (0.2, 0.08),
         ])],
-        Icon::Pin => vec![ring(0.5, 0.3, 0.2), line(&[(0.5, 0.5), (0.5, 0.94)]), dot(0.5, 0.3, 0.07)],
+        Icon::Pin => vec![pen.ring(0.5, 0.3, 0.2), pen.line(&[(0.5, 0.5), (0.5, 0.94)]), pen.dot(0.5, 0.3, 0.07)],
         Icon::Fit => vec![
-            line(&[(0.06, 0.32), (0.06, 0.06), (0.32, 0.06)]),
-            line(&[(0.68, 0.06), (0.94, 0.06), (0.94, 0.32)]),
-            line(&[(0.94, 0.68), (0.94, 0.94), (0.68, 0.94)]),
-            line(&[(0.32, 0.94), (0.06, 0.94), (0.06, 0.68)]),
-            dot(0.5, 0.5, 0.1),
+            pen.line(&[(0.06, 0.32), (0.06, 0.06), (0.32, 0.06)]),
+            pen.line(&[(0.68, 0.06), (0.94, 0.06), (0.94, 0.32)]),
+            pen.line(&[(0.94, 0.68), (0.94, 0.94), (0.68, 0.94)]),
+            pen.line(&[(0.32, 0.94), (0.06, 0.94), (0.06, 0.68)]),
+            pen.dot(0.5, 0.5, 0.1),
         ],
         Icon::Layer(strokes) => {
             let shape = |stroke: &layers::Stroke| match *stroke {
-                layers::Stroke::Line(points) => line(points),
-                layers::Stroke::Dot(x, y, radius) => dot(x, y, radius),
-                layers::Stroke::Ring(x, y, radius) => ring(x, y, radius),
+                layers::Stroke::Line(points) => pen.line(points),
+                layers::Stroke::Dot(x, y, radius) => pen.dot(x, y, radius),
+                layers::Stroke::Ring(x, y, radius) => pen.ring(x, y, radius),
             };
             strokes.iter().map(shape).collect()
         }
         Icon::LeftView | Icon::RightView => {
-            let frame = line(&[(0.04, 0.14), (0.96, 0.14), (0.96, 0.86), (0.04, 0.86), (0.04, 0.14)]);
+            let frame = pen.line(&[(0.04, 0.14), (0.96, 0.14), (0.96, 0.86), (0.04, 0.86), (0.04, 0.14)]);
             let (from, to) = if icon == Icon::LeftView { (0.04, 0.46) } else { (0.54, 0.96) };
-            vec![frame, solid(&[(from, 0.14), (to, 0.14), (to, 0.86), (from, 0.86)])]
+            vec![frame, pen.solid(&[(from, 0.14), (to, 0.14), (to, 0.86), (from, 0.86)])]
         }
         Icon::Sun => {
-            let mut shapes = vec![ring(0.5, 0.5, 0.2)];
+            let mut shapes = vec![pen.ring(0.5, 0.5, 0.2)];
             shapes.extend((0..8).map(|i| {
                 let (s, c) = (i as f32 * std::f32::consts::FRAC_PI_4).sin_cos();
-                line(&[(0.5 + 0.34 * c, 0.5 + 0.34 * s), (0.5 + 0.48 * c, 0.5 + 0.48 * s)])
+                pen.line(&[(0.5 + 0.34 * c, 0.5 + 0.34 * s), (0.5 + 0.48 * c, 0.5 + 0.48 * s)])
             }));
             shapes
         }
-        Icon::Moon => vec![arc((0.46, 0.54), 0.4, 0.0, 250.0), arc((0.72, 0.3), 0.3, 58.0, 212.0)],
-        Icon::Plus => vec![line(&[(0.5, 0.12), (0.5, 0.88)]), line(&[(0.12, 0.5), (0.88, 0.5)])],
+        Icon::Moon => vec![pen.arc((0.46, 0.54), 0.4, 0.0, 250.0), pen.arc((0.72, 0.3), 0.3, 58.0, 212.0)],
+        Icon::Plus => vec![pen.line(&[(0.5, 0.12), (0.5, 0.88)]), pen.line(&[(0.12, 0.5), (0.88, 0.5)])],
         Icon::Copy => vec![
-            line(&[(0.3, 0.3), (0.92, 0.3), (0.92, 0.92), (0.3, 0.92), (0.3, 0.3)]),
-            line(&[(0.3, 0.7), (0.08, 0.7), (0.08, 0.08), (0.7, 0.08), (0.7, 0.3)]),
+            pen.line(&[(0.3, 0.3), (0.92, 0.3), (0.92, 0.92), (0.3, 0.92), (0.3, 0.3)]),
+            pen.line(&[(0.3, 0.7), (0.08, 0.7), (0.08, 0.08), (0.7, 0.08), (0.7, 0.3)]),
         ],
-        Icon::Pen => vec![line(&[(0.1, 0.9), (0.16, 0.66), (0.72, 0.1), (0.9, 0.28), (0.34, 0.84), (0.1, 0.9)])],
+        Icon::Pen => vec![pen.line(&[(0.1, 0.9), (0.16, 0.66), (0.72, 0.1), (0.9, 0.28), (0.34, 0.84), (0.1, 0.9)])],
         Icon::Trash => vec![
-            line(&[(0.08, 0.22), (0.92, 0.22)]),
-            line(&[(0.36, 0.2), (0.36, 0.06), (0.64, 0.06), (0.64, 0.2)]),
-            line(&[(0.2, 0.24), (0.26, 0.94), (0.74, 0.94), (0.8, 0.24)]),
-            line(&[(0.5, 0.4), (0.5, 0.78)]),
+            pen.line(&[(0.08, 0.22), (0.92, 0.22)]),
+            pen.line(&[(0.36, 0.2), (0.36, 0.06), (0.64, 0.06), (0.64, 0.2)]),
+            pen.line(&[(0.2, 0.24), (0.26, 0.94), (0.74, 0.94), (0.8, 0.24)]),
+            pen.line(&[(0.5, 0.4), (0.5, 0.78)]),
         ],
-        Icon::Play => vec![solid(&[(0.2, 0.06), (0.92, 0.5), (0.2, 0.94)])],
+        Icon::Play => vec![pen.solid(&[(0.2, 0.06), (0.92, 0.5), (0.2, 0.94)])],
         Icon::Pause => vec![
-            solid(&[(0.16, 0.08), (0.4, 0.08), (0.4, 0.92), (0.16, 0.92)]),
-            solid(&[(0.6, 0.08), (0.84, 0.08), (0.84, 0.92), (0.6, 0.92)]),
+            pen.solid(&[(0.16, 0.08), (0.4, 0.08), (0.4, 0.92), (0.16, 0.92)]),
+            pen.solid(&[(0.6, 0.08), (0.84, 0.08), (0.84, 0.92), (0.6, 0.92)]),
         ],
         Icon::Loop => vec![
-            line(&[(0.1, 0.56), (0.1, 0.26), (0.86, 0.26)]),
-            line(&[(0.68, 0.06), (0.9, 0.26), (0.68, 0.46)]),
-            line(&[(0.9, 0.44), (0.9, 0.74), (0.14, 0.74)]),
-            line(&[(0.32, 0.54), (0.1, 0.74), (0.32, 0.94)]),
+            pen.line(&[(0.1, 0.56), (0.1, 0.26), (0.86, 0.26)]),
+            pen.line(&[(0.68, 0.06), (0.9, 0.26), (0.68, 0.46)]),
+            pen.line(&[(0.9, 0.44), (0.9, 0.74), (0.14, 0.74)]),
+            pen.line(&[(0.32, 0.54), (0.1, 0.74), (0.32, 0.94)]),
         ],
-        Icon::Key => vec![solid(&[(0.5, 0.06), (0.94, 0.5), (0.5, 0.94), (0.06, 0.5)])],
-        Icon::Close => vec![line(&[(0.14, 0.14), (0.86, 0.86)]), line(&[(0.86, 0.14), (0.14, 0.86)])],
-        Icon::Check => vec![line(&[(0.08, 0.54), (0.38, 0.84), (0.92, 0.16)])],
+        Icon::Key => vec![pen.solid(&[(0.5, 0.06), (0.94, 0.5), (0.5, 0.94), (0.06, 0.5)])],
+        Icon::Close => vec![pen.line(&[(0.14, 0.14), (0.86, 0.86)]), pen.line(&[(0.86, 0.14), (0.14, 0.86)])],
+        Icon::Check => vec![pen.line(&[(0.08, 0.54), (0.38, 0.84), (0.92, 0.16)])],
+    }
+}
+
+/// Draws in a rectangle, from 0 to 1 in both directions (y down).
+struct Pen {
+    rect: Rect,
+    color: Color32,
+    stroke: Stroke,
+}
+
+impl Pen {
+    fn at(&self, x: f32, y: f32) -> Pos2 {
+        pos2(self.rect.left() + x * self.rect.width(), self.rect.top() + y * self.rect.height())
+    }
+
+    fn line(&self, points: &[(f32, f32)]) -> Shape {
+        Shape::line(points.iter().map(|p| self.at(p.0, p.1)).collect(), self.stroke)
+    }
+
+    fn solid(&self, points: &[(f32, f32)]) -> Shape {
+        let points = points.iter().map(|p| self.at(p.0, p.1)).collect();
+        Shape::Path(PathShape::convex_polygon(points, self.color, Stroke::NONE))
+    }
+
+    /// From one angle to another, degrees.
+    fn arc(&self, center: (f32, f32), radius: f32, from: f32, to: f32) -> Shape {
+        let points = (0..=20).map(|i| {
+            let angle = (from + (to - from) * i as f32 / 20.0).to_radians();
+            self.at(center.0 + radius * angle.cos(), center.1 + radius * angle.sin())
+        });
+        Shape::line(points.collect(), self.stroke)
+    }
+
+    fn dot(&self, x: f32, y: f32, radius: f32) -> Shape {
+        Shape::circle_filled(self.at(x, y), radius * self.rect.width(), self.color)
+    }
+
+    fn ring(&self, x: f32, y: f32, radius: f32) -> Shape {
+        Shape::circle_stroke(self.at(x, y), radius * self.rect.width(), self.stroke)
     }
 }
 

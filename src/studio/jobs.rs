@@ -1,7 +1,7 @@
 //! Work that takes too long for a frame, each on a thread that reports back once.
 
-use super::importing::ImportChoice;
 use super::keeping::Kept;
+use super::session::ImportChoice;
 use crate::design::Design;
 use crate::operations::key::{self, Keyed};
 use crate::operations::new_design::Note;
@@ -11,6 +11,7 @@ use crate::operations::rig::{self, Rigged};
 use crate::outline::Changes;
 use crate::picture::Texture;
 use crate::rigging::Proposal;
+use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -24,6 +25,9 @@ pub struct Finished {
     pub serial: u64,
     pub outcome: Outcome,
 }
+
+/// What a job of a panel came to; the panel alone knows what it is.
+pub type Told = Arc<dyn Any + Send + Sync>;
 
 /// What a job came to.
 pub enum Outcome {
@@ -45,6 +49,11 @@ pub enum Outcome {
     Picked {
         path: Option<PathBuf>,
         at_once: bool,
+    },
+    /// A job of a panel.
+    Told {
+        owner: &'static str,
+        told: Told,
     },
     /// The job itself broke.
     Broken {
@@ -85,6 +94,13 @@ impl Running {
     /// Whether a report is that of this job.
     pub fn is(running: Option<&Self>, serial: u64) -> bool {
         running.is_some_and(|running| running.serial == serial)
+    }
+}
+
+/// Stops a job, and waits for it no more.
+pub fn cancel(running: &mut Option<Running>) {
+    if let Some(running) = running.take() {
+        running.cancel();
     }
 }
 

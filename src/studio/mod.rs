@@ -2,7 +2,7 @@
 //!
 //! - [`app`] holds the state and updates it once a frame;
 //! - [`panels`] and [`viewport`] borrow the [`session`], read only, and return [`action`]s;
-//! - the session alone acts on them; it changes the document only by a [`change`], through the undo history;
+//! - [`acts`] do what they say; they change the document only by a [`change`], through the undo history;
 //! - [`commands`] is the one table of what can be asked for by name; [`tools`] are what a press does on a [`canvas`], which is a view
 //!   or the sheet of the outline;
 //! - [`viewport::renderer`] draws a neutral scene and knows nothing of the rest.
@@ -10,33 +10,23 @@
 //! Whatever takes long runs on a thread: the solver on its worker, the rest as [`jobs`].
 
 pub mod action;
+pub mod acts;
 pub mod app;
-mod asking;
 mod blank;
 pub mod canvas;
 pub mod change;
 pub mod commands;
-mod discovering;
-pub mod files;
 pub mod icons;
-pub mod importing;
 pub mod jobs;
 pub mod keeper;
 pub mod keeping;
 mod keys;
-pub mod meshing;
 pub mod messages;
 mod pacing;
 pub mod panels;
-mod playing;
-mod reading;
-pub mod rigging;
-pub mod safety;
 pub mod session;
-pub mod sketching;
 pub mod store;
 pub mod style;
-mod texturing;
 pub mod tools;
 pub mod viewport;
 mod words;
@@ -148,7 +138,7 @@ pub fn services() -> Services {
 /// An interrupt, a request to end or the end of the terminal lets the window keep its work and close.
 fn end_when_asked(ctx: egui::Context) {
     let asked = move || {
-        safety::ENDING.store(true, Ordering::SeqCst);
+        acts::keep::ENDING.store(true, Ordering::SeqCst);
         ctx.request_repaint();
         std::thread::sleep(PATIENCE);
         crate::files::before_exit();

@@ -22,7 +22,7 @@ pub(super) const FILLS: [Fill; 3] = [
     Fill { coarsest: 1.25, limbs: 1.35, narrow: 1.5, poor_deg: 23.0 },
     Fill { coarsest: 1.6, limbs: 1.8, narrow: 1.25, poor_deg: 23.0 },
 ];
-/// The same where the boundary takes so many that none are left for better angles than must be.
+/// How they are shared out where the boundary takes so many that none are left for better angles than must be.
 const SPARING: Fill = Fill { poor_deg: 20.3, ..FILLS[0] };
 /// Number of spacings tried with it, from the even one to coarser ones.
 const SPARING_TRIES: i32 = 5;

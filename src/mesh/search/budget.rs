@@ -5,13 +5,13 @@ use std::cell::Cell;
 /// Most work for one mesh, in vertices, nodes and edges handled: some tenths of a second. Then the best mesh so far is
 /// taken, good or not.
 pub(super) const EFFORT: usize = 300_000;
-/// The same in samplings of large meshes, of which one alone may take as much.
+/// Most work in samplings of large meshes, of which one alone may take as much.
 const LEAST_SAMPLINGS: usize = 12;
 /// Most work for all that is tried of an outline, the search for a possible count included, in units of about 0.1 us: some
 /// seconds, which only outlines with hundreds of holes need. Then what was found is taken, or the outline is refused.
 /// [`EFFORT`] weighs neither how finely the boundary is sampled nor how often a count is tried; this does.
 const WORK: usize = 100_000_000;
-/// The same for each fibre asked for.
+/// Such units for each fibre asked for.
 const WORK_PER_FIBER: usize = 1000;
 /// Units for a vertex of the outline when bends are looked for, for an edge that is refined, and one that is smoothed.
 pub(super) const VERTEX_WORK: usize = 4;

@@ -48,7 +48,7 @@ pub enum ReadingOption {
     Background,
 }
 
-/// What a reader found in a file: areas that may overlap, y up, and what it has to say about them.
+/// Painted areas of a file, which may overlap, y up, and what there is to say about them.
 pub(in crate::outline) struct Painting {
     pub shapes: Shapes,
     /// Millimetres in a unit of the shapes.

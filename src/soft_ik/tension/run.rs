@@ -25,7 +25,7 @@ const LONGEST_STEP: f64 = 0.2;
 /// First limit on the pull of a single target, as a part of the body; it doubles until it limits nothing.
 const FIRST_PULL: f64 = 0.7;
 
-/// What an iteration did.
+/// The outcome of an iteration.
 pub(in crate::soft_ik) struct Progress {
     pub factorizations: usize,
     /// Longest displacement of a node, as a part of the body.

@@ -16,7 +16,7 @@ const POLISHING: f64 = 0.8;
 /// A run that is done sooner counts as this many factorisations: a start next to a valley leaves something for a look at the
 /// others.
 const SHORT_RUN: usize = 16;
-/// The same for a start that no step leads away from: there the walks are all that may lead to a valley.
+/// What a run from a start that no step leads away from counts as, in factorisations: there the walks are all that may lead to a valley.
 const STALLED_RUN: [usize; LATTICE] = [24, 40, 48];
 /// Iterations of the first run, before it waits for what the walks find: it may be slow towards a valley that is not the best.
 const FIRST_ITERATIONS: usize = 12;

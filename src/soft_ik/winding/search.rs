@@ -50,7 +50,7 @@ enum Stage {
         iterations: usize,
         damping: f64,
     },
-    /// The same to the end, from the best end that is not done.
+    /// Gauss-Newton to the end, from the best end that is not done.
     Finishing {
         end: usize,
         iterations: usize,

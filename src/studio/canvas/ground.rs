@@ -8,8 +8,8 @@ use crate::engine::Shape;
 use crate::outline::Point;
 use crate::outline::drawing::Item;
 use crate::studio::action::Action;
+use crate::studio::action::Sketch;
 use crate::studio::session::Session;
-use crate::studio::sketching::Sketch;
 use eframe::egui::{Pos2, Rect};
 
 /// What a tool is given: what there is, where it is shown, and how.

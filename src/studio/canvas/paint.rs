@@ -34,7 +34,7 @@ pub fn show(ui: &Ui, canvas: &Canvas<'_>) {
             painter.extend(Shape::dashed_line(&points, Stroke::new(1.0, weak.gamma_multiply(0.7)), 5.0, 4.0));
         }
     }
-    let paper = ui.visuals().extreme_bg_color;
+    let background = ui.visuals().extreme_bg_color;
     let picked = session.sketching().item;
     for (k, part) in session.drawing().parts.iter().enumerate() {
         let item = Item::Part(k);
@@ -43,7 +43,7 @@ pub fn show(ui: &Ui, canvas: &Canvas<'_>) {
         let stroke = if is { Stroke::new(2.0, color) } else { Stroke::new(0.8, color.gamma_multiply(0.55)) };
         closed(&painter, canvas, &part.primitive.polygon(), stroke);
         if is {
-            handles(&painter, canvas, item, color, paper);
+            handles(&painter, canvas, item, color, background);
         }
     }
     let thread = style::color32(palette.track);
@@ -52,7 +52,7 @@ pub fn show(ui: &Ui, canvas: &Canvas<'_>) {
         let is = picked == Some(item);
         track(&painter, canvas, k, thread, if is { 3.0 } else { 2.0 });
         if is {
-            handles(&painter, canvas, item, thread, paper);
+            handles(&painter, canvas, item, thread, background);
         }
     }
 }
@@ -98,11 +98,11 @@ fn filled(painter: &Painter, canvas: &Canvas<'_>, surface: &Surface, color: Colo
 }
 
 /// Points of a path or track are round, corners of a path square; between them are the places where one can be put in.
-fn handles(painter: &Painter, canvas: &Canvas<'_>, item: Item, color: Color32, paper: Color32) {
+fn handles(painter: &Painter, canvas: &Canvas<'_>, item: Item, color: Color32, background: Color32) {
     let screen = |p: Point| canvas.to_screen(p);
     let drawing = canvas.session.drawing();
     for p in drawing.middles(item) {
-        painter.circle(screen(p), 2.5, paper, Stroke::new(1.0, color.gamma_multiply(0.7)));
+        painter.circle(screen(p), 2.5, background, Stroke::new(1.0, color.gamma_multiply(0.7)));
     }
     let primitive = match item {
         Item::Part(k) => drawing.parts.get(k).map(|part| &part.primitive),
@@ -110,7 +110,7 @@ fn handles(painter: &Painter, canvas: &Canvas<'_>, item: Item, color: Color32, p
     };
     let is_corner = |k: usize| matches!(primitive, Some(Primitive::Path { points }) if points[k].corner);
     for (k, p) in drawing.handles(item).into_iter().enumerate() {
-        let fill = if canvas.session.sketching().point == Some(k) { color } else { paper };
+        let fill = if canvas.session.sketching().point == Some(k) { color } else { background };
         let stroke = Stroke::new(1.5, color);
         if is_corner(k) {
             let square = Rect::from_center_size(screen(p), vec2(2.0, 2.0) * (HANDLE - 0.5));

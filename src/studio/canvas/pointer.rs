@@ -2,7 +2,7 @@
 
 use super::ground::Canvas;
 use crate::outline::Point;
-use crate::studio::panels::Actions;
+use crate::studio::action::Actions;
 use crate::studio::tools::Tool;
 use eframe::egui::{Event, PointerButton, Response, Ui};
 

@@ -5,9 +5,9 @@ use super::surface::Surface;
 use super::{camera::Camera, paint, pointer};
 use crate::outline::{Drawing, Point, polygon};
 use crate::studio::action::Action;
-use crate::studio::panels::Actions;
+use crate::studio::action::Actions;
+use crate::studio::action::Sketch;
 use crate::studio::session::Session;
-use crate::studio::sketching::Sketch;
 use crate::studio::tools::Tool;
 use eframe::egui::{Rect, Role, Sense, Ui, WidgetInfo};
 

@@ -1,6 +1,7 @@
 //! Commands of the timeline.
 
 use super::command::{Command, Keys, Scope};
+use crate::studio::acts;
 use crate::studio::icons::Icon;
 use eframe::egui::Key;
 
@@ -16,7 +17,7 @@ pub static PLAY: Command = Command {
         if session.playback.playing {
             session.playback.playing = false;
         } else {
-            session.play();
+            acts::animate::play(session);
         }
     },
     ..Command::new("animation.play", "Play", "Play the animation")
@@ -35,6 +36,6 @@ pub static ADD_KEYFRAME: Command = Command {
     icon: Some(Icon::Key),
     keys: &[Keys::plain(Key::K)],
     scope: Scope::Views,
-    run: &|session, _| session.add_keyframe(),
+    run: &|session, _| acts::animate::add_keyframe(session),
     ..Command::new("animation.key", "Add keyframe", "Put what the realizable plushie shows on the timeline")
 };

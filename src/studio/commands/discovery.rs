@@ -1,6 +1,7 @@
 //! Commands of network discovery.
 
 use super::command::{Command, Keys, Scope};
+use crate::studio::acts;
 use crate::studio::session::Session;
 use eframe::egui::Key;
 
@@ -10,14 +11,14 @@ pub static PROPOSE: Command = Command {
     keys: &[Keys::plain(Key::G)],
     scope: Scope::Views,
     why_not: &|session, _| session.cannot_propose(),
-    run: &|session, _| session.start_propose(),
+    run: &|session, _| acts::discover::start_propose(session),
     ..Command::new("discovery.propose", "Propose networks", "Look for winch-tendon networks that reach this pose")
 };
 
 pub static CANCEL: Command = Command {
     scope: Scope::Views,
     why_not: &|session, _| session.discovery().running.is_none().then_some("No networks are being looked for"),
-    run: &|session, _| session.cancel_propose(),
+    run: &|session, _| session.discovery.cancel(),
     ..Command::new("discovery.cancel", "Stop looking", "Stop looking for networks")
 };
 
@@ -25,7 +26,7 @@ pub static ACCEPT: Command = Command {
     keys: &[Keys::plain(Key::Enter)],
     scope: Scope::Views,
     why_not: &|session, _| none_shown(session),
-    run: &|session, _| session.accept(),
+    run: &|session, _| acts::discover::accept(session),
     ..Command::new("discovery.accept", "Accept", "Build this network in")
 };
 
@@ -33,14 +34,14 @@ pub static REJECT: Command = Command {
     keys: &[Keys::plain(Key::Backspace)],
     scope: Scope::Views,
     why_not: &|session, _| none_shown(session),
-    run: &|session, _| session.reject(),
+    run: &|session, _| acts::discover::reject(session),
     ..Command::new("discovery.reject", "Reject", "Drop this proposal")
 };
 
 pub static RIG: Command = Command {
     scope: Scope::Views,
     why_not: &|session, _| session.cannot_rig(),
-    run: &|session, _| session.start_rig(),
+    run: &|session, _| acts::rig::start_rig(session),
     ..Command::new(
         "rig.start",
         "Rig all poses",
@@ -50,7 +51,7 @@ pub static RIG: Command = Command {
 
 pub static CANCEL_RIG: Command = Command {
     why_not: &|session, _| session.rigging().running.is_none().then_some("No rig is being looked for"),
-    run: &|session, _| session.cancel_rig(),
+    run: &|session, _| session.rigging.cancel(),
     ..Command::new("rig.cancel", "Cancel rigging", "Stop looking for winches and tendons; the plushie stays as it is")
 };
 

@@ -2,6 +2,7 @@
 
 use super::command::{Command, Group, Keys, Place, Scope};
 use crate::mesh::BodyPoint;
+use crate::studio::acts;
 use crate::studio::canvas::Hit;
 use crate::studio::change::Change;
 use crate::studio::icons::Icon;
@@ -33,7 +34,7 @@ pub static UNDO: Command = Command {
     places: &[Place::Toolbar(Group::History)],
     detail: &|session| session.history().undo_label().map(|label| format!("Undo “{label}”")),
     why_not: &|session, _| session.history().undo_label().is_none().then_some("Nothing to undo"),
-    run: &|session, _| session.undo(),
+    run: &|session, _| acts::edit::undo(session),
     ..Command::new("edit.undo", "Undo", "Take back the last change")
 };
 
@@ -43,7 +44,7 @@ pub static REDO: Command = Command {
     places: &[Place::Toolbar(Group::History)],
     detail: &|session| session.history().redo_label().map(|label| format!("Redo “{label}”")),
     why_not: &|session, _| session.history().redo_label().is_none().then_some("Nothing to redo"),
-    run: &|session, _| session.redo(),
+    run: &|session, _| acts::edit::redo(session),
     ..Command::new("edit.redo", "Redo", "Do again what was undone")
 };
 
@@ -54,13 +55,13 @@ pub static DELETE: Command = Command {
     why_not: &|session, _| {
         (session.selection() == Selection::Nothing).then_some("Select a target, pin, keyframe or network first")
     },
-    run: &|session, _| session.delete_selected(),
+    run: &|session, _| acts::edit::delete_selected(session),
     ..Command::new("edit.delete", "Delete selected", "Delete the target, pin, keyframe or network that is selected")
 };
 
 pub static ESCAPE: Command = Command {
     keys: &[Keys::plain(Key::Escape)],
-    run: &|session, _| session.escape(),
+    run: &|session, _| acts::escape::escape(session),
     ..Command::new(
         "edit.cancel",
         "Let go",
@@ -71,7 +72,7 @@ pub static ESCAPE: Command = Command {
 pub static ADD_POSE: Command = Command {
     icon: Some(Icon::Plus),
     keys: &[Keys::ctrl_shift(Key::N)],
-    run: &|session, _| session.change(Change::AddPose),
+    run: &|session, _| acts::edit::change(session, Change::AddPose),
     ..Command::new("pose.add", "Add pose", "Add a pose")
 };
 
@@ -88,7 +89,7 @@ pub static RENAME_POSE: Command = Command {
     keys: &[Keys::plain(Key::F2)],
     scope: Scope::Views,
     why_not: &|session, _| session.pose().is_none().then_some(NO_POSE),
-    run: &|session, _| session.rename_pose(),
+    run: &|session, _| acts::edit::rename_pose(session),
     ..Command::new("pose.rename", "Rename pose", "Rename this pose")
 };
 
@@ -105,7 +106,7 @@ pub static REMOVE_TARGET: Command = Command {
     why_not: &|_, at| (!matches!(at, Hit::Target(_))).then_some("Select a target first"),
     run: &|session, at| {
         if let (Hit::Target(index), Some(pose)) = (at, session.pose()) {
-            session.change(Change::RemoveTarget { pose, index });
+            acts::edit::change(session, Change::RemoveTarget { pose, index });
         }
     },
     ..Command::new("target.remove", "Remove target", "Remove the target that is selected or pointed at")
@@ -118,7 +119,7 @@ pub static PIN_POINT: Command = Command {
     why_not: &|session, at| point(session, at).is_none().then_some("Select a target first, or point at the body"),
     run: &|session, at| {
         if let Some(at) = point(session, at) {
-            session.change(Change::AddPin(at));
+            acts::edit::change(session, Change::AddPin(at));
         }
     },
     ..Command::new("pin.add", "Pin this point", "Pin the body where the target or the pointer is")
@@ -130,7 +131,7 @@ pub static UNPIN: Command = Command {
     why_not: &|_, at| (!matches!(at, Hit::Pin(_))).then_some("Select a pin first"),
     run: &|session, at| {
         if let Hit::Pin(index) = at {
-            session.change(Change::RemovePin(index));
+            acts::edit::change(session, Change::RemovePin(index));
         }
     },
     ..Command::new("pin.remove", "Unpin", "Remove the pin that is selected or pointed at")
@@ -148,19 +149,19 @@ pub static CLEAR_TARGETS: Command = Command {
 pub static REMESH: Command = Command {
     scope: Scope::Views,
     why_not: &|session, _| session.meshing().running.is_some().then_some("A mesh is being made"),
-    run: &|session, _| session.start_remesh(),
+    run: &|session, _| acts::mesh::start_remesh(session),
     ..Command::new("mesh.remesh", "Remesh", "Make a new mesh of the outline; pins, poses, networks and keyframes stay")
 };
 
 pub static CANCEL_MESHING: Command = Command {
     why_not: &|session, _| session.meshing().running.is_none().then_some("No mesh is being made"),
-    run: &|session, _| session.cancel_remesh(),
+    run: &|session, _| session.meshing.cancel(),
     ..Command::new("mesh.cancel", "Cancel meshing", "Keep the body as it is")
 };
 
 fn with_pose(session: &mut Session, change: fn(usize) -> Change) {
     if let Some(pose) = session.pose() {
-        session.change(change(pose));
+        acts::edit::change(session, change(pose));
     }
 }
 

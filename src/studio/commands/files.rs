@@ -2,6 +2,7 @@
 
 use super::command::{Command, Group, Keys, Place};
 use crate::studio::action::FileAction;
+use crate::studio::acts;
 use crate::studio::session::Overlay;
 use eframe::egui::Key;
 
@@ -11,7 +12,7 @@ pub static NEW: Command = Command {
     keys: &[Keys::ctrl(Key::N)],
     places: &[Place::FileMenu],
     ends_drawing: true,
-    run: &|session, _| session.file(FileAction::Import),
+    run: &|session, _| acts::filing::ask(session, FileAction::Import),
     ..Command::new("file.new", "New from outline…", "Make a plushie of an SVG, picture, DXF, OBJ or drawing")
 };
 
@@ -20,7 +21,7 @@ pub static NEW_DRAWING: Command = Command {
     while_typing: true,
     places: &[Place::FileMenu],
     ends_drawing: true,
-    run: &|session, _| session.file(FileAction::NewDrawing),
+    run: &|session, _| acts::filing::ask(session, FileAction::NewDrawing),
     ..Command::new("file.new-drawing", "New drawing", "Draw a plushie on an empty sheet")
 };
 
@@ -29,7 +30,7 @@ pub static OPEN: Command = Command {
     while_typing: true,
     places: &[Place::FileMenu],
     ends_drawing: true,
-    run: &|session, _| session.file(FileAction::Open),
+    run: &|session, _| acts::filing::ask(session, FileAction::Open),
     ..Command::new("file.open", "Open…", "Open a plushie")
 };
 
@@ -38,7 +39,7 @@ pub static SAVE: Command = Command {
     while_typing: true,
     places: &[Place::FileMenu, Place::Toolbar(Group::File)],
     ends_drawing: true,
-    run: &|session, _| session.file(FileAction::Save),
+    run: &|session, _| acts::filing::ask(session, FileAction::Save),
     ..Command::new("file.save", "Save", "Save the plushie")
 };
 
@@ -47,7 +48,7 @@ pub static SAVE_AS: Command = Command {
     while_typing: true,
     places: &[Place::FileMenu],
     ends_drawing: true,
-    run: &|session, _| session.file(FileAction::SaveAs),
+    run: &|session, _| acts::filing::ask(session, FileAction::SaveAs),
     ..Command::new("file.save-as", "Save as…", "Save the plushie under another name")
 };
 
@@ -56,7 +57,7 @@ pub static EXPORT: Command = Command {
     while_typing: true,
     places: &[Place::FileMenu, Place::Toolbar(Group::Right)],
     ends_drawing: true,
-    run: &|session, _| session.file(FileAction::Export),
+    run: &|session, _| acts::filing::ask(session, FileAction::Export),
     ..Command::new("file.export", "Export…", "Write patterns, routings and winch tracks")
 };
 
@@ -81,6 +82,6 @@ pub static QUIT: Command = Command {
     while_typing: true,
     places: &[Place::FileMenu],
     ends_drawing: true,
-    run: &|session, _| session.file(FileAction::Quit),
+    run: &|session, _| acts::filing::ask(session, FileAction::Quit),
     ..Command::new("window.quit", "Quit", "Close the window; unsaved changes are asked about")
 };

@@ -9,6 +9,7 @@ pub mod document;
 pub mod files;
 pub mod layers;
 pub mod outline;
+pub mod panels;
 pub mod tools;
 pub mod view;
 
@@ -26,6 +27,7 @@ pub static ALL: LazyLock<Vec<(&str, Vec<&Command>)>> = LazyLock::new(|| {
         ("Layers", layers::ALL.iter().collect()),
         ("Networks", discovery::ALL.to_vec()),
         ("Animation", animation::ALL.to_vec()),
+        ("Panels", panels::ALL.iter().collect()),
         ("Outline", outline::ALL.to_vec()),
     ]
 });

@@ -3,10 +3,11 @@
 use super::command::{Command, Group, Keys, Place, Scope};
 use crate::outline::Drawing;
 use crate::outline::drawing::{Item, Primitive};
+use crate::studio::action::Sketch;
+use crate::studio::acts;
 use crate::studio::change::Change;
 use crate::studio::icons::Icon;
 use crate::studio::session::Session;
-use crate::studio::sketching::Sketch;
 use eframe::egui::Key;
 
 pub static ALL: [&Command; 7] = [&EDIT, &CUT, &CORNER, &DELETE, &TRACE, &MAKE_BODY, &CLOSE];
@@ -17,7 +18,7 @@ pub static EDIT: Command = Command {
     places: &[Place::Toolbar(Group::Tools)],
     ends_drawing: true,
     on: Some(&|session| session.sketching().open),
-    run: &|session, _| session.sketch(Sketch::Open(!session.sketching().open)),
+    run: &|session, _| acts::sheet::sketch(session, Sketch::Open(!session.sketching().open)),
     ..Command::new("outline.edit", "Edit outline", "Draw the outline, change its points, build it from parts")
 };
 
@@ -25,7 +26,7 @@ pub static CUT: Command = Command {
     keys: &[Keys::plain(Key::X)],
     scope: Scope::Outline,
     on: Some(&|session| session.sketching().cut),
-    run: &|session, _| session.sketch(Sketch::Cut(!session.sketching().cut)),
+    run: &|session, _| acts::sheet::sketch(session, Sketch::Cut(!session.sketching().cut)),
     ..Command::new(
         "outline.cut",
         "Cut out what is drawn",
@@ -39,7 +40,7 @@ pub static CORNER: Command = Command {
     why_not: &|session, _| sharpened(session).is_none().then_some("Pick out a point of a path first"),
     run: &|session, _| {
         if let Some(change) = sharpened(session) {
-            session.change(change);
+            acts::edit::change(session, change);
         }
     },
     ..Command::new("outline.corner", "Corner or curve", "Make the point a corner, or round again")
@@ -50,7 +51,7 @@ pub static DELETE: Command = Command {
     keys: &[Keys::plain(Key::Delete), Keys::plain(Key::Backspace)],
     scope: Scope::Outline,
     why_not: &|session, _| session.sketching().item.is_none().then_some("Pick out a part, a track or a point first"),
-    run: &|session, _| session.delete_drawn(),
+    run: &|session, _| acts::sheet::delete_drawn(session),
     ..Command::new(
         "outline.delete",
         "Delete part or point",
@@ -64,7 +65,7 @@ pub static TRACE: Command = Command {
     run: &|session, _| {
         let tracks = session.drawing().tracks.clone();
         let drawing = Drawing { tracks, ..Drawing::of(&session.design().outline) };
-        session.change(Change::Draw { what: "Trace the body", drawing });
+        acts::edit::change(session, Change::Draw { what: "Trace the body", drawing });
     },
     ..Command::new(
         "outline.trace",
@@ -77,7 +78,7 @@ pub static MAKE_BODY: Command = Command {
     scope: Scope::Outline,
     ends_drawing: true,
     why_not: &|session, _| session.meshing().running.is_some().then_some("A body is being made"),
-    run: &|session, _| session.sketch(Sketch::MakeBody),
+    run: &|session, _| acts::sheet::sketch(session, Sketch::MakeBody),
     ..Command::new(
         "outline.body",
         "Make the body",
@@ -88,7 +89,7 @@ pub static MAKE_BODY: Command = Command {
 pub static CLOSE: Command = Command {
     scope: Scope::Outline,
     ends_drawing: true,
-    run: &|session, _| session.sketch(Sketch::Open(false)),
+    run: &|session, _| acts::sheet::sketch(session, Sketch::Open(false)),
     ..Command::new("outline.close", "Close the drawing", "Back to the plushies; the drawing stays in the document")
 };
 

@@ -15,19 +15,22 @@ pub static FIT: Command = Command {
     icon: Some(Icon::Fit),
     keys: &[Keys::plain(Key::F)],
     places: &[Place::Toolbar(Group::Shown), Place::ContextMenu],
-    run: &|session, _| session.fit(),
+    run: &|session, _| {
+        let camera = if session.sketching.open { &mut session.sketching.camera } else { &mut session.look.camera };
+        *camera = None;
+    },
     ..Command::new("view.fit", "Fit view", "Fit the body into the views. Scroll to zoom, drag beside the body to pan")
 };
 
 pub static ZOOM_IN: Command = Command {
     keys: &[Keys::plain(Key::Plus), Keys::shift(Key::Plus), Keys::plain(Key::Equals)],
-    run: &|session, _| session.zoom(ZOOM),
+    run: &|session, _| session.look.zoom(ZOOM),
     ..Command::new("view.zoom-in", "Zoom in", "Show less, larger")
 };
 
 pub static ZOOM_OUT: Command = Command {
     keys: &[Keys::plain(Key::Minus)],
-    run: &|session, _| session.zoom(1.0 / ZOOM),
+    run: &|session, _| session.look.zoom(1.0 / ZOOM),
     ..Command::new("view.zoom-out", "Zoom out", "Show more, smaller")
 };
 
@@ -62,7 +65,7 @@ pub static REALIZABLE: Command = Command {
 pub static QUALITY: Command = Command {
     keys: &[Keys::plain(Key::Q)],
     scope: Scope::Views,
-    run: &|session, _| session.next_quality(),
+    run: &|session, _| session.solver.next_quality(),
     ..Command::new("view.quality", "Next quality", "Draft, balanced, accurate: how much work a frame may take")
 };
 

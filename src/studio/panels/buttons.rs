@@ -1,13 +1,14 @@
 //! Buttons of commands: what they are called, what they say and whether they can be pressed comes from the table.
 
-use super::Actions;
-use crate::studio::action::Action;
+use super::widgets::WIDE;
+use crate::studio::action::{Action, Actions};
 use crate::studio::canvas::Hit;
-use crate::studio::commands::Command;
+use crate::studio::commands::command::Command;
+use crate::studio::commands::document::CANCEL_MESHING;
 use crate::studio::icons;
 use crate::studio::session::Session;
 use crate::studio::style;
-use eframe::egui::{Button, Response, RichText, Ui};
+use eframe::egui::{Button, Response, RichText, Spinner, Ui};
 
 /// Side of an icon in lists and headings, logical pixels.
 const SMALL: f32 = 22.0;
@@ -51,13 +52,13 @@ pub fn primary(
     let theme = style::theme_of(ui.visuals());
     let label = RichText::new(command.label(session)).strong().color(style::on_accent(theme));
     let button = Button::new(label).fill(style::accent(theme));
-    ui.add_enabled_ui(ready, |ui| show(ui, session, command, actions, |ui| ui.add_sized([width, super::WIDE], button)));
+    ui.add_enabled_ui(ready, |ui| show(ui, session, command, actions, |ui| ui.add_sized([width, WIDE], button)));
 }
 
 /// A button of a given width, its text in the middle.
 pub fn wide(ui: &mut Ui, session: &Session, command: &'static Command, width: f32, actions: &mut Actions) {
     let button = Button::new(command.label(session));
-    show(ui, session, command, actions, |ui| ui.add_sized([width, super::WIDE], button));
+    show(ui, session, command, actions, |ui| ui.add_sized([width, WIDE], button));
 }
 
 /// A line of a menu; `at` is what the menu is about.
@@ -76,6 +77,15 @@ fn square(ui: &mut Ui, session: &Session, command: &'static Command, side: f32, 
     // One that changes its face says what a press does, not what is.
     let on = command.on.filter(|_| command.face_on.is_none()).map(|on| on(session));
     show(ui, session, command, actions, |ui| icons::draw_button(ui, icon, command.label(session), on, side));
+}
+
+/// What stands in the place of a button while it is at work.
+pub fn meshing(ui: &mut Ui, session: &Session, actions: &mut Actions) {
+    ui.horizontal(|ui| {
+        ui.add(Spinner::new());
+        ui.label("Meshing");
+        text(ui, session, &CANCEL_MESHING, actions);
+    });
 }
 
 /// Whatever button it is: runs its command, and says what that does or why it cannot be done.

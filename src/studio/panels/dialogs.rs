@@ -1,13 +1,14 @@
 //! Dialogs over the window: unsaved changes, and paths where the desktop has no dialogs of its own.
 
-use super::{Actions, primary};
+use super::widgets::primary;
 use crate::files::shown;
+use crate::mesh::MAX_FIBERS;
 use crate::operations::FiberCount;
 use crate::outline::{Background, Holes, Import, Pieces};
-use crate::studio::action::{Action, FileAction};
-use crate::studio::files::{Dialog, PathDialog, Purpose, Why};
-use crate::studio::importing::ImportChoice;
+use crate::studio::action::{Action, Actions, FileAction};
+use crate::studio::session::ImportChoice;
 use crate::studio::session::Session;
+use crate::studio::session::{Dialog, PathDialog, Purpose, Why};
 use eframe::egui::{
     Align, CollapsingHeader, Context, DragValue, Grid, Id, Key, Layout, Modal, RichText, TextEdit, Ui, emath,
 };
@@ -16,7 +17,7 @@ use std::path::Path;
 
 /// What can be typed for the silhouette's height, mm, and for the number of fibres; 0 for what is usual.
 const HEIGHTS_MM: RangeInclusive<f64> = 0.0..=5000.0;
-const FIBERS: RangeInclusive<f64> = 0.0..=20_000.0;
+const FIBERS: RangeInclusive<f64> = 0.0..=MAX_FIBERS as f64;
 /// The largest length of the clean-up, mm.
 const LARGEST_MM: f64 = 1000.0;
 
@@ -150,7 +151,7 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, actions: &mut Actio
         Purpose::Export => {
             "Pattern, routings, winch tracks and controller program. The folder appears whole or not at all."
         }
-        Purpose::SaveAs if path.is_file() && session.path.as_deref() != Some(path) => "This file exists.",
+        Purpose::SaveAs if path.is_file() && session.document.path.as_deref() != Some(path) => "This file exists.",
         Purpose::Open | Purpose::Import if is_wrong => "There is no such file.",
         Purpose::Import => "The filled shapes of the drawing are joined to one silhouette.",
         _ => "",
@@ -194,7 +195,8 @@ fn import_settings(ui: &mut Ui, edited: &mut PathDialog) {
             FiberCount::AtLeast(fibers) | FiberCount::Exactly(fibers) => fibers as f64,
         };
         or_usual(ui, ("Muscle fibres", tip), &mut fibers, ("as usual", ""), FIBERS);
-        options.fibers = FiberCount::asked((fibers > 0.0).then_some(fibers as usize));
+        let fibers = fibers.round() as usize;
+        options.fibers = FiberCount::asked((fibers > 0).then_some(fibers));
     });
     ui.horizontal(|ui| {
         let mut largest = options.import.pieces == Pieces::Largest;

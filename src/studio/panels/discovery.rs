@@ -1,21 +1,23 @@
 //! Proposing networks: parameters, progress, the proposals and their stages (fig. 6).
 
-use super::{Actions, State, buttons, heading};
+use super::buttons;
+use super::widgets::heading;
 use crate::picture::Stage;
 use crate::rigging::Proposal;
-use crate::studio::action::Action;
+use crate::studio::action::{Action, Actions};
 use crate::studio::canvas::Hit;
 use crate::studio::commands::discovery::{ACCEPT, CANCEL, CANCEL_RIG, PROPOSE, REJECT, RIG};
 use crate::studio::commands::document::ESCAPE;
 use crate::studio::session::Session;
 use crate::studio::style;
+use crate::studio::viewport::thumbnail::Thumbnails;
 use eframe::egui::{
     Align2, Button, CollapsingHeader, DragValue, FontId, Grid, ProgressBar, Rect, Response, RichText, Role, ScrollArea,
     Sense, Spinner, Stroke, StrokeKind, TextEdit, Ui, WidgetInfo, vec2,
 };
 use std::time::Duration;
 
-pub fn show(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actions) {
+pub fn show(ui: &mut Ui, session: &Session, thumbnails: &mut Thumbnails, actions: &mut Actions) {
     heading(ui, "Network discovery");
     match &session.discovery.running {
         Some(running) => progress(ui, running.started.elapsed(), actions),
@@ -42,7 +44,7 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Act
     if session.shown_proposal().is_some() {
         verdict(ui, session, actions);
         ui.add_space(2.0);
-        stages(ui, session, state, actions);
+        stages(ui, session, thumbnails, actions);
     }
 }
 
@@ -143,7 +145,7 @@ fn row(ui: &mut Ui, session: &Session, index: usize, proposal: &Proposal, action
 }
 
 /// Four pictures, like the paper's fig. 6; the one chosen is shown large in the left view.
-fn stages(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actions) {
+fn stages(ui: &mut Ui, session: &Session, thumbnails: &mut Thumbnails, actions: &mut Actions) {
     const GAP: f32 = 6.0;
     let stages = [
         (Stage::Activation, "Activity", "Activation graph: every fibre by its contraction"),
@@ -156,7 +158,7 @@ fn stages(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actio
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = GAP;
             for &(stage, name, tip) in row {
-                if thumbnail(ui, session, state, stage, name, width).on_hover_text(tip).clicked() {
+                if thumbnail(ui, session, thumbnails, stage, name, width).on_hover_text(tip).clicked() {
                     actions.push(Action::ShowStage(stage));
                 }
             }
@@ -164,7 +166,14 @@ fn stages(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actio
     }
 }
 
-fn thumbnail(ui: &mut Ui, session: &Session, state: &mut State, stage: Stage, name: &str, width: f32) -> Response {
+fn thumbnail(
+    ui: &mut Ui,
+    session: &Session,
+    thumbnails: &mut Thumbnails,
+    stage: Stage,
+    name: &str,
+    width: f32,
+) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(width, 0.72 * width), Sense::click());
     let chosen = session.discovery.stage == stage;
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, name));
@@ -183,9 +192,9 @@ fn thumbnail(ui: &mut Ui, session: &Session, state: &mut State, stage: Stage, na
     let color = if chosen { visuals.strong_text_color() } else { visuals.weak_text_color() };
     let below = rect.center_bottom() - vec2(0.0, 5.0);
     ui.painter().text(below, Align2::CENTER_BOTTOM, name, FontId::proportional(11.0), color);
-    if state.gpu {
+    if session.gpu {
         let picture = Rect::from_min_max(rect.min + vec2(3.0, 3.0), rect.max - vec2(3.0, 19.0));
-        state.thumbnails.paint(ui, session, stage, picture);
+        thumbnails.paint(ui, session, stage, picture);
     }
     response
 }

@@ -1,12 +1,14 @@
 //! The mesh: how good it is, and another resolution for it.
 
-use super::{Actions, buttons, heading, meshing};
+use super::buttons;
+use super::panel::{Entry, Panel};
+use super::widgets::heading;
 use crate::design::MeshFigures;
 use crate::mesh::quality::{HISTOGRAM_BARS, HISTOGRAM_STEP_DEG, MeshQuality};
 use crate::mesh::{MAX_FIBERS, Mesh};
-use crate::studio::action::Action;
+use crate::studio::action::{Action, Actions};
 use crate::studio::commands::document::REMESH;
-use crate::studio::meshing::FINEST;
+use crate::studio::session::FINEST;
 use crate::studio::session::Session;
 use crate::studio::style;
 use eframe::egui::{
@@ -21,13 +23,26 @@ const NAME_WIDTH: f32 = 116.0;
 const HISTOGRAM_HEIGHT: f32 = 84.0;
 const LEGEND_HEIGHT: f32 = 16.0;
 
+pub static ENTRY: Entry = Entry {
+    id: "panel.mesh",
+    label: "Mesh",
+    tip: "How good the mesh is, and another resolution for it",
+    make: || Box::new(State::default()),
+};
+
 /// The figures, worked out once a mesh.
 #[derive(Default)]
-pub struct State {
+struct State {
     figures: Option<(Mesh, MeshFigures)>,
 }
 
-pub fn show(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actions) {
+impl Panel for State {
+    fn show(&mut self, ui: &mut Ui, session: &Session, actions: &mut Actions) {
+        show(ui, session, self, actions);
+    }
+}
+
+fn show(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actions) {
     let design = session.design();
     let known = state.figures.as_ref().is_some_and(|(mesh, _)| *mesh == design.mesh);
     if !known {
@@ -80,7 +95,7 @@ fn resolution(ui: &mut Ui, session: &Session, actions: &mut Actions) {
             let width = ui.available_width();
             buttons::primary(ui, session, &REMESH, true, width, actions);
         }
-        Some(_) => meshing(ui, session, actions),
+        Some(_) => buttons::meshing(ui, session, actions),
     }
 }
 

@@ -1,7 +1,6 @@
 //! Messages in a corner, over the views; nothing waits for them.
 
-use super::Actions;
-use crate::studio::action::Action;
+use crate::studio::action::{Action, Actions};
 use crate::studio::icons::{self, Icon};
 use crate::studio::messages::Level;
 use crate::studio::session::Session;

@@ -1,17 +1,42 @@
 //! The winch-tendon networks that are built in.
 
-use super::{Actions, heading, name_field};
+use super::discovery;
+use super::panel::{Entry, Panel};
+use super::widgets::{heading, name_field};
 use crate::picture::palette::Palette;
-use crate::studio::action::Action;
+use crate::studio::action::{Action, Actions};
 use crate::studio::canvas::Plushie;
 use crate::studio::change::Change;
 use crate::studio::commands::document::DELETE;
 use crate::studio::icons::{self, Icon};
 use crate::studio::session::{Renamed, Selection, Session};
 use crate::studio::style;
-use eframe::egui::{Align, Button, Layout, RichText, Sense, Ui, vec2};
+use crate::studio::viewport::thumbnail::Thumbnails;
+use eframe::egui::{Align, Button, Layout, RichText, ScrollArea, Sense, Ui, vec2};
 
-pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
+pub static ENTRY: Entry = Entry {
+    id: "panel.networks",
+    label: "Networks",
+    tip: "Winches and tendons: those that are built in, and proposals of more",
+    make: || Box::new(Networks::default()),
+};
+
+#[derive(Default)]
+struct Networks {
+    thumbnails: Thumbnails,
+}
+
+impl Panel for Networks {
+    fn show(&mut self, ui: &mut Ui, session: &Session, actions: &mut Actions) {
+        ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
+            show(ui, session, actions);
+            ui.add_space(12.0);
+            discovery::show(ui, session, &mut self.thumbnails, actions);
+        });
+    }
+}
+
+fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     heading(ui, "Winch-tendon networks");
     let design = session.design();
     if design.networks.is_empty() {
@@ -43,7 +68,7 @@ fn rows(ui: &mut Ui, session: &Session, actions: &mut Actions) {
                 }
                 // Both plushies have the same; a hidden one is not kept up to date.
                 let views = session.look.views;
-                let shapes = &session.shapes;
+                let shapes = &session.solver.shapes;
                 let newest = if views.shows(Plushie::Realizable) { &shapes.realizable } else { &shapes.idealized };
                 let wound = newest.as_ref().and_then(|s| s.activations_mm.get(index));
                 let detail = format!(
@@ -52,7 +77,7 @@ fn rows(ui: &mut Ui, session: &Session, actions: &mut Actions) {
                     if network.tendons.len() == 1 { "" } else { "s" },
                     wound.copied().unwrap_or(0.0)
                 );
-                let button = Button::selectable(session.selection == Selection::Network(index), &network.name)
+                let button = Button::selectable(session.picked.selection == Selection::Network(index), &network.name)
                     .right_text(RichText::new(detail).small().weak())
                     .truncate()
                     .min_size(vec2(ui.available_width(), 24.0));

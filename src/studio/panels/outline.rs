@@ -1,19 +1,20 @@
 //! Drawing the outline: pencils, parts, the numbers of the part that is picked out, and the body that comes of it.
 
-use super::{Actions, buttons, heading, meshing};
+use super::buttons;
+use super::widgets::heading;
 use crate::mesh::MAX_FIBERS;
 use crate::outline::Point;
 use crate::outline::drawing::{Item, Part, Primitive, track};
-use crate::studio::action::Action;
+use crate::studio::action::Sketch;
+use crate::studio::action::{Action, Actions};
 use crate::studio::canvas;
 use crate::studio::change::Change;
 use crate::studio::commands;
 use crate::studio::commands::command::Scope;
 use crate::studio::commands::outline::{CLOSE, CORNER, CUT, DELETE, MAKE_BODY, TRACE};
 use crate::studio::icons::{self, Icon};
-use crate::studio::meshing::Resolution;
+use crate::studio::session::Resolution;
 use crate::studio::session::Session;
-use crate::studio::sketching::Sketch;
 use eframe::egui::{Align, DragValue, Grid, Layout, RichText, ScrollArea, Ui};
 
 /// Least radius, mm.
@@ -199,7 +200,7 @@ fn body(ui: &mut Ui, session: &Session, state: &mut canvas::State, actions: &mut
             let width = ui.available_width();
             buttons::primary(ui, session, &MAKE_BODY, trouble.is_none(), width, actions);
         }
-        Some(_) => meshing(ui, session, actions),
+        Some(_) => buttons::meshing(ui, session, actions),
     }
     let width = ui.available_width();
     buttons::wide(ui, session, &CLOSE, width, actions);

@@ -1,7 +1,6 @@
 //! The palette: every command by name, by keyboard alone.
 
-use super::Actions;
-use crate::studio::action::Action;
+use crate::studio::action::{Action, Actions};
 use crate::studio::commands::{self, Command};
 use crate::studio::session::{Overlay, Session};
 use eframe::egui::{
@@ -83,9 +82,7 @@ fn list(ui: &mut Ui, session: &Session, found: &[&'static Command], chosen: usiz
             if k == chosen && moved {
                 response.scroll_to_me(None);
             }
-            let response =
-                response.on_hover_text(command.tip(session)).on_disabled_hover_text(refused.unwrap_or_default());
-            if response.clicked() {
+            if response.on_disabled_hover_text(refused.unwrap_or_default()).clicked() {
                 run(session, command, actions);
             }
         }

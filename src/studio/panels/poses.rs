@@ -1,7 +1,8 @@
 //! Poses of the plushie, and the targets of the current one.
 
-use super::{Actions, buttons, heading, name_field};
-use crate::studio::action::Action;
+use super::buttons;
+use super::widgets::{heading, name_field};
+use crate::studio::action::{Action, Actions};
 use crate::studio::change::Change;
 use crate::studio::commands::document::{ADD_POSE, CLEAR_TARGETS, DELETE, DELETE_POSE, DUPLICATE_POSE, RENAME_POSE};
 use crate::studio::icons::{self, Icon};
@@ -45,7 +46,7 @@ fn pose_buttons(ui: &mut Ui, session: &Session, actions: &mut Actions) {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.spacing_mut().item_spacing.x = 2.0;
             buttons::small_icon(ui, session, &ADD_POSE, actions);
-            if session.pose.is_some() {
+            if session.picked.pose.is_some() {
                 for command in [&DELETE_POSE, &DUPLICATE_POSE, &RENAME_POSE] {
                     buttons::small_icon(ui, session, command, actions);
                 }
@@ -56,7 +57,7 @@ fn pose_buttons(ui: &mut Ui, session: &Session, actions: &mut Actions) {
 
 fn list(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     ui.spacing_mut().item_spacing.y = 2.0;
-    let in_pose = session.mode == Mode::Pose;
+    let in_pose = session.picked.mode == Mode::Pose;
     let row = |ui: &mut Ui, name: &str, detail: &str, selected: bool| {
         let button = Button::selectable(selected, name)
             .right_text(RichText::new(detail).small().weak())
@@ -65,7 +66,7 @@ fn list(ui: &mut Ui, session: &Session, actions: &mut Actions) {
         // Without the detail, which is for the eye.
         ui.add(button).accessible_name(name)
     };
-    let rest = row(ui, "Rest", "", in_pose && session.pose.is_none());
+    let rest = row(ui, "Rest", "", in_pose && session.picked.pose.is_none());
     if rest.on_hover_text("The body as it was cut").clicked() {
         actions.push(Action::SelectPose(None));
     }
@@ -81,7 +82,7 @@ fn list(ui: &mut Ui, session: &Session, actions: &mut Actions) {
             1 => "1 target".to_owned(),
             n => format!("{n} targets"),
         };
-        let response = row(ui, &pose.name, &detail, in_pose && session.pose == Some(index));
+        let response = row(ui, &pose.name, &detail, in_pose && session.picked.pose == Some(index));
         if response.double_clicked() {
             actions.push(Action::Typed(Some((Renamed::Pose(index), pose.name.clone()))));
         } else if response.clicked() {
@@ -91,11 +92,11 @@ fn list(ui: &mut Ui, session: &Session, actions: &mut Actions) {
 }
 
 fn targets(ui: &mut Ui, session: &Session, actions: &mut Actions) {
-    if session.mode == Mode::Animation {
+    if session.picked.mode == Mode::Animation {
         hint(ui, "The views show the animation. Choose a pose, or drag the body, to go on posing.");
         return;
     }
-    let Some(pose) = session.pose else {
+    let Some(pose) = session.picked.pose else {
         hint(ui, "Drag any point of the body, in either view, to begin a pose.");
         return;
     };
@@ -116,7 +117,7 @@ fn targets(ui: &mut Ui, session: &Session, actions: &mut Actions) {
         ui.spacing_mut().item_spacing.y = 2.0;
         for (index, target) in session.targets().iter().enumerate() {
             ui.horizontal(|ui| {
-                let selected = session.selection == Selection::Target(index);
+                let selected = session.picked.selection == Selection::Target(index);
                 let name = format!("Target {}", index + 1);
                 // Text on the right, even none, moves the name to the left, in line with the poses above.
                 let button = Button::selectable(selected, name).right_text("").min_size(vec2(78.0, 24.0));

@@ -1,8 +1,7 @@
 //! The choice between speed and accuracy, and what each choice means.
 
-use super::Actions;
 use crate::engine::Quality;
-use crate::studio::action::Action;
+use crate::studio::action::{Action, Actions};
 use crate::studio::commands::view::QUALITY;
 use crate::studio::session::Session;
 use eframe::egui::{Button, ComboBox, RichText, Ui, vec2};
@@ -32,7 +31,7 @@ const WIDTH: f32 = 400.0;
 
 /// The selector, for the toolbar.
 pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
-    let mut quality = session.quality;
+    let mut quality = session.solver.quality;
     let label = ui.label(RichText::new("Quality").weak());
     ui.add_space(3.0);
     let combo = ComboBox::from_id_salt("quality").selected_text(name(quality)).width(84.0).show_ui(ui, |ui| {
@@ -52,7 +51,7 @@ pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
         choices.join("\n")
     );
     combo.response.labelled_by(label.id).on_hover_text(tip);
-    if quality != session.quality {
+    if quality != session.solver.quality {
         actions.push(Action::SetQuality(quality));
     }
 }

@@ -1,9 +1,10 @@
 //! Settings of the document: body, fibres, tendons, fabrication, motors.
 
-use super::{Actions, heading};
+use super::panel::{Entry, Panel};
+use super::widgets::heading;
 use crate::design::Term;
 use crate::physics::{Kind, MaterialKind, Setting, TermKind};
-use crate::studio::action::Action;
+use crate::studio::action::{Action, Actions};
 use crate::studio::change::Change;
 use crate::studio::session::Session;
 use eframe::egui::{ComboBox, DragValue, Grid, ScrollArea, Ui};
@@ -14,7 +15,22 @@ const NAME_WIDTH: f32 = 116.0;
 /// Every value has this size, whatever it shows, logical pixels.
 const VALUE: [f32; 2] = [130.0, 24.0];
 
-pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
+pub static ENTRY: Entry = Entry {
+    id: "panel.settings",
+    label: "Settings",
+    tip: "Body, fibres, tendons, fabrication and motors of this plushie",
+    make: || Box::new(Settings),
+};
+
+struct Settings;
+
+impl Panel for Settings {
+    fn show(&mut self, ui: &mut Ui, session: &Session, actions: &mut Actions) {
+        show(ui, session, actions);
+    }
+}
+
+fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
         section(ui, "Body", |ui| body(ui, session, actions));
         section(ui, "Forces", |ui| terms(ui, session, actions));

@@ -1,7 +1,7 @@
 //! The page of shortcuts: what every key does.
 
-use super::{Actions, heading};
-use crate::studio::action::Action;
+use super::widgets::heading;
+use crate::studio::action::{Action, Actions};
 use crate::studio::commands;
 use crate::studio::session::{Overlay, Session};
 use eframe::egui::{Context, Grid, Id, Modal, RichText, ScrollArea};

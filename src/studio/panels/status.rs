@@ -58,7 +58,7 @@ fn hint(session: &Session) -> &'static str {
     if session.sketching().open {
         return "Scroll to zoom, drag beside the drawing or with the middle button to move the sheet";
     }
-    match session.mode {
+    match session.picked.mode {
         Mode::Animation => "Showing the animation. Escape, or choosing a pose, returns to posing",
         Mode::Pose => taken(session, Scope::Views).hint,
     }
@@ -77,14 +77,14 @@ fn state(session: &Session) -> String {
     } else {
         "settled"
     };
-    format!("{} quality, {what}", quality::name(session.quality))
+    format!("{} quality, {what}", quality::name(session.solver.quality))
 }
 
 /// Time, target error and balance of a view, in columns of fixed width; whether forces balance as far as can be seen.
 fn figures(session: &Session, plushie: Plushie) -> (String, bool) {
     let (name, shape) = match plushie {
-        Plushie::Idealized => ("Idealized", &session.shapes.idealized),
-        Plushie::Realizable => ("Realizable", &session.shapes.realizable),
+        Plushie::Idealized => ("Idealized", &session.solver.shapes.idealized),
+        Plushie::Realizable => ("Realizable", &session.solver.shapes.realizable),
     };
     let solved = session.request().is_none_or(|request| request.solves()[plushie as usize]);
     let text = match shape {

@@ -1,9 +1,9 @@
 //! Keyframes in time: play, scrub, drag, ease. The curves are the winches' activations.
 
-use super::{Actions, buttons};
+use super::buttons;
 use crate::design::{Easing, animation};
 use crate::picture::palette::Palette;
-use crate::studio::action::Action;
+use crate::studio::action::{Action, Actions};
 use crate::studio::change::Change;
 use crate::studio::commands::animation::{ADD_KEYFRAME, LOOP, PLAY};
 use crate::studio::commands::document::DELETE;
@@ -53,7 +53,7 @@ fn controls(ui: &mut Ui, session: &Session, actions: &mut Actions) {
 }
 
 fn selected_keyframe(ui: &mut Ui, session: &Session, actions: &mut Actions) {
-    let Selection::Keyframe(index) = session.selection else { return };
+    let Selection::Keyframe(index) = session.picked.selection else { return };
     let Some(keyframe) = session.design().keyframes.get(index) else { return };
     if icons::button(ui, Icon::Trash, "Delete keyframe", &DELETE.hint("Delete this keyframe")).clicked() {
         actions.push(Action::Change(Change::RemoveKeyframe(index)));
@@ -198,7 +198,7 @@ fn keyframes(ui: &mut Ui, session: &Session, axis: &Axis, state: &mut State, act
     state.held &= down;
     for (index, keyframe) in session.design().keyframes.iter().enumerate() {
         let center = pos2(axis.x(keyframe.time_s), y);
-        let selected = session.selection == Selection::Keyframe(index);
+        let selected = session.picked.selection == Selection::Keyframe(index);
         let hit = Rect::from_center_size(center, vec2(18.0, 18.0));
         let id = ui.scope_id().with("keyframe").with(index);
         let response = ui.interact(hit, id, Sense::click_and_drag()).on_hover_cursor(CursorIcon::ResizeHorizontal);
@@ -231,7 +231,7 @@ fn keyframes(ui: &mut Ui, session: &Session, axis: &Axis, state: &mut State, act
 
 /// Moves the keyframe in hand, which is the selected one: on its way past others it may change its number.
 fn drag_keyframe(ui: &Ui, session: &Session, wanted_s: f64, actions: &mut Actions) {
-    let Selection::Keyframe(index) = session.selection else { return };
+    let Selection::Keyframe(index) = session.picked.selection else { return };
     let Some(keyframe) = session.design().keyframes.get(index) else { return };
     let (dragging, free) = ui.input(|i| (i.pointer.is_decidedly_dragging(), i.modifiers.shift));
     let wanted_s = wanted_s.max(0.0);
@@ -244,7 +244,7 @@ fn drag_keyframe(ui: &Ui, session: &Session, wanted_s: f64, actions: &mut Action
 fn paint_playhead(ui: &Ui, session: &Session, axis: &Axis) {
     let x = axis.x(session.playback.time_s);
     let color = style::accent(session.look.theme);
-    let width = if session.mode == Mode::Animation { 2.0 } else { 1.0 };
+    let width = if session.picked.mode == Mode::Animation { 2.0 } else { 1.0 };
     let top = axis.rect.top() + RULER + 2.0;
     let painter = ui.painter_at(axis.rect);
     painter.vline(x, top..=axis.rect.bottom(), Stroke::new(width, color));

@@ -1,9 +1,9 @@
 //! The row on top: files, undo, tools, what is shown, discovery, export.
 
-use super::{Actions, buttons, quality};
+use super::{buttons, quality};
 use crate::design::bundled;
 use crate::files;
-use crate::studio::action::{Action, FileAction};
+use crate::studio::action::{Action, Actions, FileAction};
 use crate::studio::canvas::Hit;
 use crate::studio::commands::{self, Group, Place};
 use crate::studio::session::Session;

@@ -7,8 +7,8 @@ use crate::outline::{Point, polygon};
 use crate::studio::action::Actions;
 use crate::studio::canvas::{Canvas, Hit, open};
 use crate::studio::commands::command::{Keys, Scope};
+use crate::studio::session::FREEHAND;
 use crate::studio::session::Session;
-use crate::studio::sketching::FREEHAND;
 use eframe::egui::{CursorIcon, Key, Painter, Pos2, Shape};
 
 /// Distance between the points of the line, and how far its path may stray from it, logical pixels.

@@ -4,12 +4,12 @@ use super::parts::{self, LEAST, REACH};
 use super::tool::{Entry, Tool};
 use crate::outline::drawing::Item;
 use crate::outline::{Drawing, Point, polygon};
+use crate::studio::action::Sketch;
 use crate::studio::action::{Action, Actions};
 use crate::studio::canvas::{Canvas, Hit, closed, track};
 use crate::studio::change::Change;
 use crate::studio::commands::command::{Keys, Scope};
 use crate::studio::session::Session;
-use crate::studio::sketching::Sketch;
 use crate::studio::style;
 use eframe::egui::{CursorIcon, Key, Painter, Pos2, Stroke};
 

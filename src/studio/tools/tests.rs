@@ -1,13 +1,13 @@
 use super::*;
 use crate::outline::Point;
 use crate::outline::drawing::Primitive;
+use crate::studio::action::Sketch;
 use crate::studio::action::{Action, Actions};
 use crate::studio::blank;
 use crate::studio::canvas::{Camera, Canvas, Ground, Hit, Plushie, Surface};
 use crate::studio::change::Change;
 use crate::studio::commands::command::Scope;
 use crate::studio::session::{Selection, Session};
-use crate::studio::sketching::Sketch;
 use eframe::egui::{CursorIcon, Key, Rect, pos2};
 use std::sync::Arc;
 

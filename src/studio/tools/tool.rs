@@ -2,13 +2,13 @@
 
 use crate::outline::drawing::Item;
 use crate::outline::{Drawing, Point};
+use crate::studio::action::Sketch;
 use crate::studio::action::{Action, Actions};
 use crate::studio::canvas::{Canvas, Hit};
 use crate::studio::change::Change;
 use crate::studio::commands::command::{Keys, Scope};
 use crate::studio::icons::Icon;
 use crate::studio::session::Session;
-use crate::studio::sketching::Sketch;
 use eframe::egui::{CursorIcon, Key, Painter, Pos2};
 
 /// A tool in the table: what its command says, and how it is made.

@@ -3,10 +3,10 @@
 use super::ALL;
 use super::tool::{Drawn, Entry, Tool};
 use crate::outline::Drawing;
+use crate::studio::action::Sketch;
 use crate::studio::action::{Action, Actions, FileAction};
 use crate::studio::commands::command::Scope;
 use crate::studio::session::Session;
-use crate::studio::sketching::Sketch;
 use eframe::egui::{Context, Event, Modifiers, Popup};
 
 /// The tool that is taken for a canvas.

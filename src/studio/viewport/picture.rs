@@ -34,7 +34,7 @@ impl Picture {
 
 /// What the view of a plushie is a picture of.
 fn subject<'a>(session: &'a Session, plushie: Plushie, shape: &'a Arc<Shape>) -> Subject<'a> {
-    let selected_target = match session.selection {
+    let selected_target = match session.picked.selection {
         Selection::Target(index) => Some(index),
         _ => None,
     };

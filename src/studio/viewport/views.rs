@@ -27,8 +27,8 @@ struct View {
     menu_at: Option<Point>,
 }
 
-/// Shows both views side by side, or the one that is not hidden. `gpu`: whether there is anything to draw them with.
-pub fn show(ui: &mut Ui, session: &Session, state: &mut State, tool: &mut dyn Tool, gpu: bool, actions: &mut Actions) {
+/// Shows both views side by side, or the one that is not hidden.
+pub fn show(ui: &mut Ui, session: &Session, state: &mut State, tool: &mut dyn Tool, actions: &mut Actions) {
     let area = ui.available_rect_before_wrap();
     let views = session.look.views;
     let mut hovered = None;
@@ -39,7 +39,7 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut State, tool: &mut dyn To
         let camera = session.look.camera.unwrap_or_else(|| fit(session.design(), rect.size()));
         let shape = displayed(session, plushie);
         let canvas = Canvas { session, rect, camera, ground: Ground::Plushie(plushie, shape.map(Arc::as_ref)) };
-        let hit = view(ui, &canvas, (plushie, shape.filter(|_| gpu)), state, tool, actions);
+        let hit = view(ui, &canvas, (plushie, shape.filter(|_| session.gpu)), state, tool, actions);
         hovered = hovered.or(hit);
     }
     if hovered != state.hovered {
@@ -96,8 +96,8 @@ fn view(
 /// The newest shape from the solver.
 fn solved(session: &Session, plushie: Plushie) -> Option<&Arc<Shape>> {
     match plushie {
-        Plushie::Idealized => session.shapes.idealized.as_ref(),
-        Plushie::Realizable => session.shapes.realizable.as_ref(),
+        Plushie::Idealized => session.solver.shapes.idealized.as_ref(),
+        Plushie::Realizable => session.solver.shapes.realizable.as_ref(),
     }
 }
 

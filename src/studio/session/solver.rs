@@ -1,18 +1,83 @@
 //! What is asked of the solver, and what it answers. The newest question wins; the last good shapes stay.
 
-use super::canvas::Plushie;
-use super::session::{Mode, Session};
-use crate::design::animation;
-use crate::engine::{NEAR_EQUILIBRIUM, Question, Request, Shape};
+use crate::design::Design;
+use crate::engine::worker::Worker;
+use crate::engine::{NEAR_EQUILIBRIUM, Quality, Question, Request, Shape};
+use crate::studio::jobs::Wake;
 use std::sync::Arc;
 
-impl Session {
-    pub(super) fn take_outcome(&mut self) {
-        let Some(outcome) = self.worker.take() else { return };
-        if outcome.id < self.first_id {
-            return;
+/// The newest good shapes.
+#[derive(Default)]
+pub struct Shapes {
+    pub idealized: Option<Arc<Shape>>,
+    pub realizable: Option<Arc<Shape>>,
+}
+
+/// The worker, what it was asked and what is known.
+pub struct Solver {
+    pub worker: Worker,
+    pub shapes: Shapes,
+    /// Of the user's, not of the document.
+    pub quality: Quality,
+    /// About the newest shapes.
+    pub warning: Option<String>,
+    /// The last request.
+    pub asked: Option<Request>,
+    /// The design whose mesh the shapes belong to.
+    meshed: Arc<Design>,
+    /// Outcomes before this one belong to another document.
+    first_id: u64,
+    answered_id: Option<u64>,
+}
+
+impl Solver {
+    pub fn new(design: &Arc<Design>, wake: Wake) -> Self {
+        Self {
+            worker: Worker::spawn(Box::new(move || wake())),
+            shapes: Shapes::default(),
+            quality: Quality::Balanced,
+            warning: None,
+            asked: None,
+            meshed: design.clone(),
+            first_id: 0,
+            answered_id: None,
         }
-        let nodes = self.design().mesh.nodes.len();
+    }
+
+    /// Another document or mesh: what is known or still to come is not wanted.
+    pub fn forget(&mut self) {
+        self.shapes = Shapes::default();
+        self.warning = None;
+        self.first_id = self.asked.as_ref().map_or(0, |asked| asked.id + 1);
+        self.answered_id = None;
+    }
+
+    /// Whether the mesh is another one than that of the shapes, by whatever way. From now on it is that of the shapes.
+    pub fn is_remeshed(&mut self, design: &Arc<Design>) -> bool {
+        if Arc::ptr_eq(design, &self.meshed) {
+            return false;
+        }
+        let before = std::mem::replace(&mut self.meshed, design.clone());
+        before.mesh != design.mesh
+    }
+
+    /// Whether the shapes answer the newest question.
+    pub fn is_settled(&self) -> bool {
+        let resting = !self.worker.is_busy();
+        resting && self.asked.as_ref().is_some_and(|asked| self.answered_id == Some(asked.id))
+    }
+
+    pub fn next_quality(&mut self) {
+        self.quality = match self.quality {
+            Quality::Draft => Quality::Balanced,
+            Quality::Balanced => Quality::Accurate,
+            Quality::Accurate => Quality::Draft,
+        };
+    }
+
+    /// Takes what the worker has found for a body of so many nodes.
+    pub fn take(&mut self, nodes: usize) {
+        let Some(outcome) = self.worker.take().filter(|outcome| outcome.id >= self.first_id) else { return };
         let fits = |shape: &Shape| {
             shape.nodes.len() == nodes && shape.nodes.iter().flatten().all(|coordinate| coordinate.is_finite())
         };
@@ -38,20 +103,9 @@ impl Session {
     }
 
     /// Submits what should be seen, if that is not what was asked last.
-    pub(super) fn ask(&mut self) {
-        let design = self.design().clone();
-        let question = match self.mode {
-            Mode::Pose => Question::Targets(self.targets().to_vec()),
-            Mode::Animation => Question::Activations(animation::activations_at(&design, self.playback.time_s)),
-        };
-        let request = Request {
-            id: self.asked.as_ref().map_or(0, |asked| asked.id + 1),
-            design,
-            question,
-            quality: self.quality,
-            show_idealized: self.look.views.shows(Plushie::Idealized),
-            show_realizable: self.look.views.shows(Plushie::Realizable),
-        };
+    pub fn ask(&mut self, design: Arc<Design>, question: Question, [show_idealized, show_realizable]: [bool; 2]) {
+        let id = self.asked.as_ref().map_or(0, |asked| asked.id + 1);
+        let request = Request { id, design, question, quality: self.quality, show_idealized, show_realizable };
         if self.asked.as_ref().is_some_and(|asked| asked.id >= self.first_id && same(asked, &request)) {
             return;
         }

@@ -1,0 +1,96 @@
+//! The animation: playing, scrubbing, setting keyframes.
+
+use super::edit;
+use crate::defaults;
+use crate::design::{Easing, Keyframe, animation, edit as edits};
+use crate::operations::Context;
+use crate::operations::key::{self, Error, Keyed, Note, Options};
+use crate::studio::change::{Change, Made};
+use crate::studio::jobs::{Outcome, Running};
+use crate::studio::session::{Mode, Session};
+use crate::studio::words;
+
+/// Plays from the playhead, or from the beginning where it is at the end.
+pub fn play(session: &mut Session) {
+    let end = animation::duration_s(session.design());
+    if end <= 0.0 {
+        session.messages.info("Put at least two keyframes on the timeline to play an animation.");
+        return;
+    }
+    if session.playback.time_s >= end {
+        session.playback.time_s = 0.0;
+    }
+    session.picked.mode = Mode::Animation;
+    session.discovery.shown = None;
+    session.playback.playing = true;
+}
+
+/// Moves the playhead.
+pub fn scrub(session: &mut Session, time_s: f64) {
+    session.playback.playing = false;
+    session.playback.time_s = time_s.max(0.0);
+    session.discovery.shown = None;
+    session.picked.mode = if session.design().keyframes.is_empty() { Mode::Pose } else { Mode::Animation };
+}
+
+/// What is seen becomes a keyframe: the animation at the playhead at once, a pose as soon as its activations are worked out.
+pub fn add_keyframe(session: &mut Session) {
+    if session.design().networks.is_empty() {
+        return session.messages.warning(words::unkeyed(&Error::NoNetworks));
+    }
+    let time_s = free_time(session);
+    match session.picked.mode {
+        Mode::Pose => start_keying(session, time_s),
+        Mode::Animation => {
+            session.playback.playing = false;
+            let activations_mm = animation::activations_at(session.design(), session.playback.time_s);
+            let keyframe = Keyframe { time_s, activations_mm, pose: None, easing: Easing::default() };
+            edit::change(session, Change::SetKeyframe(keyframe));
+            session.playback.time_s = time_s;
+        }
+    }
+}
+
+/// The playhead, or a step after the last keyframe where the playhead has one already.
+fn free_time(session: &Session) -> f64 {
+    match edits::keyframe_at(session.design(), session.playback.time_s) {
+        Some(_) => animation::duration_s(session.design()) + defaults::KEYFRAME_SPACING_S,
+        None => session.playback.time_s,
+    }
+}
+
+fn start_keying(session: &mut Session, time_s: f64) {
+    if session.keying.is_some() {
+        return;
+    }
+    let design = session.design().clone();
+    let pose = session.picked.pose.and_then(|pose| design.poses.get(pose)).map(|pose| pose.name.clone());
+    let options = Options { pose, time_s, ..Options::default() };
+    session.keying =
+        Some(session.jobs.start("The keyframe", move |cancel| {
+            Outcome::Keyed(key::prepare(&design, &options, &Context::new(cancel)))
+        }));
+}
+
+/// The keyframe is worked out.
+pub fn take_key(session: &mut Session, serial: u64, keyed: Result<Keyed, Error>) {
+    if !Running::is(session.keying.as_ref(), serial) {
+        return;
+    }
+    session.keying = None;
+    let keyed = match keyed {
+        Ok(keyed) => keyed,
+        Err(error) => return session.messages.error(words::unkeyed(&error)),
+    };
+    let time_s = keyed.keyframe.time_s;
+    for Note::Unbalanced(unbalanced) in &keyed.notes {
+        session.messages.warning(format!("The keyframe at {time_s:.2} s: {unbalanced}"));
+    }
+    match session.document.history.edit("Set keyframe", |design| keyed.apply(design)) {
+        Ok(index) => {
+            edit::pick_out(session, Made::Keyframe(index));
+            session.playback.time_s = time_s;
+        }
+        Err(error) => session.messages.error(words::unkeyed(&error.into())),
+    }
+}

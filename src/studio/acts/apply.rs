@@ -1,0 +1,43 @@
+//! What panels and tools ask for, done.
+
+use super::{animate, edit, filing, sheet};
+use crate::studio::action::Action;
+use crate::studio::jobs::Outcome;
+use crate::studio::session::{Session, Task};
+
+/// Does what is asked for. A command that cannot be done says why.
+pub fn apply(session: &mut Session, action: Action) {
+    match action {
+        Action::Change(change) => edit::change(session, change),
+        Action::Live(change) => edit::live(session, change),
+        Action::Run(command, at) => match command.refused(session, at) {
+            None => (command.run)(session, at),
+            Some(why) => session.messages.info(why),
+        },
+        Action::Overlay(overlay) => session.overlay = overlay,
+        Action::Typed(renaming) => session.renaming = renaming,
+        Action::DragTarget(to) => edit::drag_target(session, to),
+        Action::SelectPose(pose) => edit::select_pose(session, pose),
+        Action::Select(selection) => session.picked.selection = selection,
+        Action::SetQuality(quality) => session.solver.quality = quality,
+        Action::SetCamera(camera) => {
+            session.look.camera = Some(camera);
+            session.look.zoom = None;
+        }
+        Action::Scrub(time_s) => animate::scrub(session, time_s),
+        Action::SetParameters(parameters) => session.discovery.parameters = parameters,
+        Action::SetResolution(resolution) => session.meshing.wanted = Some(resolution),
+        Action::SetRig(choice) => session.rigging.choice = choice,
+        Action::ShowProposal(index) => session.discovery.shown = index,
+        Action::ShowStage(stage) => session.discovery.stage = stage,
+        Action::Sketch(sketch) => sheet::sketch(session, sketch),
+        Action::File(action) => filing::ask(session, action),
+        Action::Start(task) => start(session, task),
+        Action::DismissMessage(id) => session.messages.dismiss(id),
+    }
+}
+
+fn start(session: &mut Session, Task { owner, name, work }: Task) {
+    let running = session.jobs.start(name, move |cancel| Outcome::Told { owner, told: work(cancel) });
+    session.tasks.begin(owner, running);
+}

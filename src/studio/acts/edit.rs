@@ -1,0 +1,120 @@
+//! Changes of the document, and what follows of them.
+
+use crate::design::edit::EditError;
+use crate::design::history::History;
+use crate::outline::Point;
+use crate::studio::change::{Change, Made};
+use crate::studio::session::{Mode, Renamed, Selection, Session};
+
+/// One step of undo.
+pub fn change(session: &mut Session, change: Change) {
+    let label = change.label();
+    match session.document.history.edit(label, |design| change.apply(design)) {
+        Ok(made) => pick_out(session, made),
+        Err(error) => session.messages.error(format!("{label}: {error}")),
+    }
+}
+
+/// Part of a gesture, which is one step of undo.
+pub fn live(session: &mut Session, change: Change) {
+    let label = change.label();
+    if session.document.history.undo_label() != Some(label) || !session.document.history.in_gesture() {
+        session.document.history.begin(label);
+    }
+    match session.document.history.preview(|design| change.apply(design)) {
+        Ok(made) => pick_out(session, made),
+        // On the way through a refused value: the last good one stays, and the control shows it.
+        Err(EditError::TimeTaken(_)) => {}
+        Err(error) => session.messages.error(format!("{label}: {error}")),
+    }
+}
+
+/// Goes on with the gesture that made the target, or begins one that moves it.
+pub fn drag_target(session: &mut Session, to: Point) {
+    let (Selection::Target(index), Some(pose)) = (session.picked.selection, session.picked.pose) else { return };
+    let change = Change::MoveTarget { pose, index, to };
+    if !session.document.history.in_gesture() {
+        return live(session, change);
+    }
+    if let Err(error) = session.document.history.preview(|design| change.apply(design)) {
+        session.messages.error(error.to_string());
+    }
+}
+
+/// Selects what a change brought about.
+pub fn pick_out(session: &mut Session, made: Made) {
+    match made {
+        Made::Nothing => {}
+        Made::Pose(pose) => select_pose(session, Some(pose)),
+        Made::Target { pose, index } => {
+            session.picked.pose = Some(pose);
+            session.picked.selection = Selection::Target(index);
+        }
+        Made::Keyframe(index) => session.picked.selection = Selection::Keyframe(index),
+        Made::Network(index) => session.picked.selection = Selection::Network(index),
+    }
+    clamp(session);
+}
+
+pub fn undo(session: &mut Session) {
+    travel(session, "Undone", History::undo);
+}
+
+pub fn redo(session: &mut Session) {
+    travel(session, "Redone", History::redo);
+}
+
+fn travel(session: &mut Session, done: &str, step: impl FnOnce(&mut History) -> Option<String>) {
+    if let Some(label) = step(&mut session.document.history) {
+        session.messages.info(format!("{done}: {label}"));
+    }
+    session.discovery.shown = None;
+    clamp(session);
+}
+
+/// After any change of the document: nothing may point beyond it.
+pub fn clamp(session: &mut Session) {
+    follow_mesh(session);
+    let design = session.document.design();
+    session.sketching.clamp(design);
+    session.picked.clamp(design);
+}
+
+/// Shows a pose, or the rest shape.
+pub fn select_pose(session: &mut Session, pose: Option<usize>) {
+    session.picked.pose = pose;
+    session.picked.mode = Mode::Pose;
+    session.playback.playing = false;
+    session.picked.selection = Selection::Nothing;
+    session.discovery.shown = None;
+    clamp(session);
+}
+
+/// Deletes whatever is selected.
+pub fn delete_selected(session: &mut Session) {
+    match (session.picked.selection, session.picked.pose) {
+        (Selection::Target(index), Some(pose)) => change(session, Change::RemoveTarget { pose, index }),
+        (Selection::Pin(index), _) => change(session, Change::RemovePin(index)),
+        (Selection::Keyframe(index), _) => change(session, Change::RemoveKeyframe(index)),
+        (Selection::Network(index), _) => change(session, Change::RemoveNetwork(index)),
+        _ => return,
+    }
+    session.picked.selection = Selection::Nothing;
+}
+
+/// Starts to edit the name of the current pose.
+pub fn rename_pose(session: &mut Session) {
+    if let Some((index, pose)) = session.picked.pose.and_then(|index| Some((index, session.design().poses.get(index)?)))
+    {
+        session.renaming = Some((Renamed::Pose(index), pose.name.clone()));
+    }
+}
+
+/// Shapes and proposals belong to one mesh. Where the document has another one, by whatever way, they are let go.
+fn follow_mesh(session: &mut Session) {
+    if session.solver.is_remeshed(session.document.design()) {
+        session.solver.forget();
+        session.discovery.clear();
+        session.discovery.cancel();
+    }
+}

@@ -1,0 +1,67 @@
+//! A new plushie from an outline: the work on its thread, and what comes of it.
+
+use super::replace;
+use crate::files;
+use crate::operations::Context;
+use crate::operations::new_design::{self, Made, Note, Options};
+use crate::outline;
+use crate::studio::jobs::{New, Outcome, Refused};
+use crate::studio::keeping::Kept;
+use crate::studio::session::{Dialog, ImportChoice, PathDialog, Purpose, Session};
+use crate::studio::words;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
+
+/// Begins to read and mesh an outline.
+pub fn import(session: &mut Session, path: PathBuf, choice: ImportChoice) {
+    session.files.dialog = None;
+    session.files.working = Some("Meshing the outline");
+    let within = session.safety.folder().map(Path::to_path_buf);
+    session.files.running = Some(session.jobs.start("Import", move |cancel| {
+        let made = made(&path, &choice.options(&path), within.as_deref(), cancel);
+        Outcome::Imported(made.map(Box::new).map_err(|why| Box::new(Refused { path, choice, why })))
+    }));
+}
+
+/// Makes what was imported the document.
+pub fn open_imported(session: &mut Session) {
+    let Some(imported) = session.files.imported.take() else { return };
+    let New { design, changes, notes, texture } = *imported;
+    session.files.dialog = None;
+    replace::open(session, design, None);
+    session.document.origin = texture.as_ref().map(Kept::origin);
+    session.document.kept = texture;
+    for line in words::changes(&changes) {
+        session.messages.info(line);
+    }
+    for Note::MoreFibers { asked, count } in notes {
+        session.messages.info(words::more_fibers(asked, count));
+    }
+    // It is nowhere but here.
+    session.document.history.mark_unsaved();
+}
+
+/// The dialog with what was chosen, so that another choice is at hand.
+pub fn ask_again(session: &mut Session, refused: Refused) {
+    let Refused { path, choice, why } = refused;
+    if session.files.dialog.is_some() {
+        session.messages.error(format!("{}: {why}", files::shown(&path)));
+        return;
+    }
+    session.files.dialog = Some(Dialog::Path(PathDialog {
+        purpose: Purpose::Import,
+        path: path.to_string_lossy().into_owned(),
+        import: choice,
+        trouble: Some(why),
+    }));
+}
+
+fn made(path: &Path, options: &Options, within: Option<&Path>, cancel: &AtomicBool) -> Result<New, String> {
+    // A pipe would keep the thread waiting for ever.
+    let bytes = files::read(path, outline::MAX_FILE_BYTES as u64).map_err(|e| format!("it cannot be opened: {e}"))?;
+    let made = new_design::run(&bytes, options, &Context::new(cancel)).map_err(|error| words::unmade(&error))?;
+    let Made { mut design, changes, texture, notes } = made;
+    let texture = texture.map(|png| Kept::new(&mut design, &png, within)).transpose();
+    let texture = texture.map_err(|e| format!("the texture cannot be kept: {e}"))?;
+    Ok(New { design, changes, notes, texture })
+}

@@ -1,0 +1,177 @@
+//! That nothing is lost: work that is kept until it is saved, files that others change, what a window remembers.
+
+use super::replace;
+use crate::files::shown;
+use crate::outline::Drawing;
+use crate::picture::palette::Theme;
+use crate::studio::canvas::Plushie;
+use crate::studio::keeper::{Abandoned, Facts, Keeper, Kept, Work};
+use crate::studio::session::{Dialog, Session};
+use crate::studio::store::{Settings, Store};
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Raised when the system asks the program to end: at the end of a session, by a signal.
+pub static ENDING: AtomicBool = AtomicBool::new(false);
+
+/// From now on work is kept in a state folder; what was left there is offered.
+pub fn keep_in(session: &mut Session, store: Store) {
+    let (abandoned, unreadable) = Abandoned::find(&store);
+    for path in unreadable {
+        session.messages.warning(format!("Work that was not saved cannot be read; it stays in {}", shown(&path)));
+    }
+    session.safety.keeper = Keeper::new(&store)
+        .inspect_err(|error| session.messages.warning(format!("Work that is not saved cannot be kept: {error}")))
+        .ok();
+    session.safety.settings = store.settings();
+    session.safety.store = Some(store);
+    session.safety.abandoned = abandoned;
+    take_settings(session);
+    if let Some(path) = session.document.path.clone() {
+        opened(session, &path);
+    }
+    if !session.safety.abandoned.is_empty() {
+        session.files.dialog = Some(Dialog::Recover);
+    }
+}
+
+/// The document has that file now.
+pub fn opened(session: &mut Session, path: &Path) {
+    session.safety.claim = None;
+    let Some(store) = &session.safety.store else { return };
+    match store.claim(path) {
+        Ok(Some(claim)) => session.safety.claim = Some(claim),
+        Ok(None) => session.messages.warning(format!(
+            "{} is open in another window too. Whoever saves second is asked before the other’s work is replaced.",
+            shown(path)
+        )),
+        // It is a help; without it the file is watched all the same.
+        Err(_) => {}
+    }
+    session.safety.settings.opened(path);
+    remember(session);
+}
+
+/// Once a frame: keeps what is not saved. `drawing`: with what is only being drawn.
+pub fn keep(session: &mut Session, drawing: Option<Drawing>) {
+    let work = work(session, drawing);
+    let Some(keeper) = &mut session.safety.keeper else { return };
+    let wake = session.jobs.wake();
+    session.safety.due = None;
+    match keeper.follow(work, move || wake()) {
+        Kept::All => {}
+        Kept::Due(after) => session.safety.due = Some(after),
+        Kept::Failed(why) => {
+            session.messages.warning(format!("Work that is not saved cannot be kept: {why}. Save it soon."))
+        }
+    }
+}
+
+/// The system ends the program: what is not saved is kept for the next start.
+pub fn end(session: &mut Session, drawing: Option<Drawing>) {
+    if let (Some(work), Some(keeper)) = (work(session, drawing), &mut session.safety.keeper) {
+        // There is nobody left to be told.
+        let _ = keeper.keep_now(&work);
+        session.safety.keeper = None;
+    }
+    session.files.quit = true;
+}
+
+/// The window closes, and nothing is left to be kept.
+pub fn quit(session: &mut Session) {
+    remember(session);
+    if let Some(keeper) = session.safety.keeper.take() {
+        keeper.end();
+    }
+    session.files.quit = true;
+}
+
+fn work(session: &Session, drawing: Option<Drawing>) -> Option<Work> {
+    if !session.document.history.is_modified() && drawing.is_none() {
+        return None;
+    }
+    let facts = Facts {
+        path: session.document.path.clone().and_then(|path| std::path::absolute(path).ok()),
+        origin: session.document.origin.clone().and_then(|path| std::path::absolute(path).ok()),
+        texture: session.design().texture.clone(),
+        seen: session.safety.seen,
+    };
+    Some(Work { design: session.design().clone(), drawing, facts })
+}
+
+/// Opens the work that is offered; it counts as not saved.
+pub fn recover(session: &mut Session) {
+    session.files.dialog = None;
+    let (Some(abandoned), Some(keeper)) = (session.safety.abandoned.pop(), session.safety.keeper.take()) else {
+        return;
+    };
+    let folder = abandoned.folder().to_owned();
+    let (keeper, design, facts) = keeper.adopt(abandoned);
+    let (design, origin) = Abandoned::homed(design, &facts, &folder);
+    replace::open(session, design, None);
+    session.safety.keeper = Some(keeper);
+    session.document.origin = Some(origin);
+    session.document.path = facts.path;
+    session.safety.seen = facts.seen;
+    if let Some(path) = session.document.path.clone() {
+        opened(session, &path);
+    }
+    session.document.history.mark_unsaved();
+    if !session.safety.abandoned.is_empty() {
+        let others = session.safety.abandoned.len();
+        session.messages.info(format!("{others} more that were not saved are offered at the next start."));
+    }
+    // Nobody holds them any more, so that the next window finds them.
+    session.safety.abandoned.clear();
+}
+
+/// Drops the work that is offered, and offers the next.
+pub fn discard_work(session: &mut Session) {
+    if let Some(abandoned) = session.safety.abandoned.pop() {
+        abandoned.discard();
+    }
+    if session.safety.abandoned.is_empty() {
+        session.files.dialog = None;
+    }
+}
+
+/// Leaves the work where it is.
+pub fn recover_later(session: &mut Session) {
+    session.safety.abandoned.clear();
+    session.files.dialog = None;
+}
+
+/// The size of the window, for the next one.
+pub fn sized(session: &mut Session, size: [f32; 2]) {
+    session.safety.settings.window = Some(size);
+}
+
+/// Writes down how the window is set, where that has changed.
+pub fn remember(session: &mut Session) {
+    let Some(store) = &session.safety.store else { return };
+    let look = &session.look;
+    let settings = Settings {
+        dark: Some(look.theme == Theme::Dark),
+        quality: Some(format!("{:?}", session.solver.quality)),
+        idealized: Some(look.views.shows(Plushie::Idealized)),
+        realizable: Some(look.views.shows(Plushie::Realizable)),
+        layers: look.shown.clone(),
+        ..session.safety.settings.clone()
+    };
+    if settings != store.settings() && store.remember(&settings).is_ok() {
+        session.safety.settings = settings;
+    }
+}
+
+fn take_settings(session: &mut Session) {
+    let settings = &session.safety.settings;
+    session.look.theme = settings.theme().unwrap_or(session.look.theme);
+    session.look.shown = settings.layers.clone();
+    session.look.views = settings.views();
+    session.solver.quality = settings.quality().unwrap_or(session.solver.quality);
+}
+
+/// Whether the system has asked the program to end.
+pub fn is_ending() -> bool {
+    ENDING.load(Ordering::SeqCst)
+}

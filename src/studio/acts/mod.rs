@@ -1,0 +1,21 @@
+//! What the window does: functions that change the [`session`](super::session), a subject a file.
+//!
+//! What concerns one part alone is a method of that part; here is what several have to do with.
+
+pub mod animate;
+pub mod apply;
+pub mod discover;
+pub mod edit;
+pub mod escape;
+pub mod filing;
+pub mod import;
+pub mod keep;
+pub mod mesh;
+pub mod open;
+pub mod paths;
+pub mod replace;
+pub mod rig;
+pub mod save;
+pub mod sheet;
+pub mod texture;
+pub mod tick;

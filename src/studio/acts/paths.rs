@@ -1,0 +1,48 @@
+//! Asking for a path.
+
+use crate::outline;
+use crate::studio::jobs::Outcome;
+use crate::studio::session::{Dialog, ImportChoice, PathDialog, Purpose, Session};
+use std::time::{Duration, Instant};
+
+/// Asks with the desktop's dialog, or in the window where there is none.
+pub fn ask_path(session: &mut Session, purpose: Purpose) {
+    if session.files.native_dialogs { pick(session, purpose) } else { show_path_dialog(session, purpose) }
+}
+
+/// Asks in the window.
+pub fn show_path_dialog(session: &mut Session, purpose: Purpose) {
+    let (folder, document) = (session.document.folder(), &session.document);
+    let path = match purpose {
+        Purpose::Open | Purpose::Import => folder.join(""),
+        Purpose::SaveAs => document.path.clone().unwrap_or_else(|| folder.join(document.file_name())),
+        Purpose::Export => folder.join(document.folder_name()),
+    };
+    session.files.dialog = Some(Dialog::Path(PathDialog {
+        purpose,
+        path: path.to_string_lossy().into_owned(),
+        import: ImportChoice::default(),
+        trouble: None,
+    }));
+}
+
+/// Opens the desktop's dialog.
+pub fn pick(session: &mut Session, purpose: Purpose) {
+    /// Faster than any human.
+    const AT_ONCE: Duration = Duration::from_millis(400);
+    if session.files.picking.replace(purpose).is_some() {
+        return;
+    }
+    let (folder, name) = (session.document.folder(), session.document.file_name());
+    session.jobs.start("The file dialog", move |_| {
+        let started = Instant::now();
+        let dialog = rfd::FileDialog::new().set_title(purpose.title()).set_directory(folder);
+        let path = match purpose {
+            Purpose::Open => dialog.add_filter("Plushies", &["plush"]).pick_file(),
+            Purpose::Import => dialog.add_filter("Outlines", &outline::extensions()).pick_file(),
+            Purpose::SaveAs => dialog.add_filter("Plushies", &["plush"]).set_file_name(name).save_file(),
+            Purpose::Export => dialog.pick_folder(),
+        };
+        Outcome::Picked { path, at_once: started.elapsed() < AT_ONCE }
+    });
+}

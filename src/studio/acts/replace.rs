@@ -1,0 +1,27 @@
+//! Another document in the place of the one before.
+
+use crate::design::Design;
+use crate::studio::jobs;
+use crate::studio::session::{Document, Picked, Session, Sketching, Texturing};
+use std::path::PathBuf;
+
+/// Replaces the document; undo starts anew.
+pub fn open(session: &mut Session, design: Design, path: Option<PathBuf>) {
+    session.discovery.cancel();
+    session.meshing.cancel();
+    session.rigging.cancel();
+    session.tasks.cancel();
+    jobs::cancel(&mut session.keying);
+    session.meshing.wanted = None;
+    session.sketching = Sketching::default();
+    session.picked = Picked::first(&design);
+    session.document = Document::new(design, path);
+    session.texturing = Texturing::default();
+    session.files.granted = None;
+    session.safety.unclaim();
+    session.playback.time_s = 0.0;
+    session.playback.playing = false;
+    session.look.camera = None;
+    session.discovery.clear();
+    session.solver.forget();
+}

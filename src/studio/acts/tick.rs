@@ -1,0 +1,81 @@
+//! Once a frame: what the threads report, the playhead, what should be seen next.
+
+use super::{animate, discover, edit, filing, mesh, rig, sheet, texture};
+use crate::design::animation;
+use crate::engine::Question;
+use crate::studio::canvas::Plushie;
+use crate::studio::jobs::{Finished, Outcome, Running};
+use crate::studio::session::{Mode, Session};
+
+/// Takes what the threads have to report, moves the playhead, asks for what should be seen next.
+/// `hands_off`: nobody holds a button or types, so gestures are over.
+pub fn tick(session: &mut Session, now_s: f64, passed_s: f64, hands_off: bool) {
+    session.messages.tick(now_s);
+    while let Some(finished) = session.jobs.next() {
+        take(session, finished);
+    }
+    session.solver.take(session.design().mesh.nodes.len());
+    if hands_off {
+        session.document.history.commit();
+    }
+    if session.playback.playing {
+        session.playback.advance(passed_s, animation::duration_s(session.document.design()));
+    }
+    edit::clamp(session);
+    texture::follow_texture(session);
+    // Nobody sees the plushies while the outline is drawn.
+    if !session.sketching.open {
+        ask(session);
+    }
+}
+
+/// Asks the solver for what the views show.
+fn ask(session: &mut Session) {
+    let design = session.design().clone();
+    let question = match session.picked.mode {
+        Mode::Pose => Question::Targets(session.targets().to_vec()),
+        Mode::Animation => Question::Activations(animation::activations_at(&design, session.playback.time_s)),
+    };
+    let shows = [Plushie::Idealized, Plushie::Realizable].map(|plushie| session.look.views.shows(plushie));
+    session.solver.ask(design, question, shows);
+}
+
+/// A job is over.
+fn take(session: &mut Session, Finished { serial, outcome }: Finished) {
+    if Running::is(session.files.running.as_ref(), serial) {
+        session.files.running = None;
+        session.files.working = None;
+    }
+    match outcome {
+        Outcome::Proposed(proposals) => discover::take_proposals(session, serial, proposals),
+        Outcome::Remeshed(made) => mesh::take_mesh(session, serial, made),
+        Outcome::Reshaped(made) => sheet::take_body(session, serial, made),
+        Outcome::Rigged(rigged) => rig::take_rig(session, serial, rigged),
+        Outcome::Keyed(keyed) => animate::take_key(session, serial, keyed),
+        Outcome::Imported(result) => filing::take_import(session, result),
+        Outcome::Exported { folder, result } => filing::take_export(session, &folder, result),
+        Outcome::Textured { path, texture } => texture::take_texture(session, path, texture),
+        Outcome::Picked { path, at_once } => filing::take_path(session, path, at_once),
+        Outcome::Told { owner, told } => session.tasks.finish(owner, serial, told),
+        Outcome::Broken { job, why } => {
+            break_off(session, serial);
+            session.messages.error(format!("{job} failed: {why}"));
+        }
+    }
+}
+
+/// Nobody waits for a job any more that broke.
+fn break_off(session: &mut Session, serial: u64) {
+    let jobs = [
+        &mut session.discovery.running,
+        &mut session.meshing.running,
+        &mut session.rigging.running,
+        &mut session.keying,
+    ];
+    for running in jobs {
+        if Running::is(running.as_ref(), serial) {
+            *running = None;
+        }
+    }
+    session.tasks.break_off(serial);
+}

@@ -1,0 +1,50 @@
+//! What panels are made of.
+
+use crate::studio::action::{Action, Actions};
+use crate::studio::session::Session;
+use crate::studio::style;
+use eframe::egui::{Button, Frame, Key, Margin, Response, RichText, TextEdit, Ui};
+
+/// Height of a button that takes the width of its panel, logical pixels.
+pub const WIDE: f32 = 30.0;
+
+/// Of side panels: no fill, see [`style`].
+pub fn frame() -> Frame {
+    Frame::new().inner_margin(Margin::symmetric(12, 10))
+}
+
+/// A heading of a panel.
+pub fn heading(ui: &mut Ui, text: &str) {
+    ui.label(RichText::new(text).strong().size(13.5));
+}
+
+/// The one button of a panel that matters most.
+pub fn primary(ui: &mut Ui, enabled: bool, text: &str, width: f32) -> Response {
+    let theme = style::theme_of(ui.visuals());
+    let label = RichText::new(text).strong().color(style::on_accent(theme));
+    wide(ui, enabled, Button::new(label).fill(style::accent(theme)), width)
+}
+
+/// A button of a given width, its text in the middle.
+pub fn wide(ui: &mut Ui, enabled: bool, button: Button<'_>, width: f32) -> Response {
+    ui.add_enabled_ui(enabled, |ui| ui.add_sized([width, WIDE], button)).inner
+}
+
+/// A text field that is taken with Enter or a click elsewhere and dropped with Escape. The name, once it is taken.
+pub fn name_field(ui: &mut Ui, session: &Session, label: &str, actions: &mut Actions) -> Option<String> {
+    let (what, text) = session.renaming()?;
+    let mut typed = text.clone();
+    let field = TextEdit::singleline(&mut typed).desired_width(f32::INFINITY);
+    let response = ui.add(field).accessible_name(label);
+    if !response.has_focus() && !response.lost_focus() {
+        response.request_focus();
+    }
+    if response.lost_focus() {
+        actions.push(Action::Typed(None));
+        return (!ui.input(|i| i.key_pressed(Key::Escape))).then_some(typed);
+    }
+    if typed != *text {
+        actions.push(Action::Typed(Some((*what, typed))));
+    }
+    None
+}

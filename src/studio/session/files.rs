@@ -1,0 +1,152 @@
+//! Dialogs about files, and what is asked for by them.
+
+use super::import_choice::ImportChoice;
+use crate::design::Design;
+use crate::studio::jobs::{New, Running};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+#[derive(Clone, Debug, PartialEq)]
+pub enum FileAction {
+    /// Asks where.
+    Open,
+    Import,
+    /// An empty sheet.
+    NewDrawing,
+    SaveAs,
+    Export,
+    /// To where it came from, or asks.
+    Save,
+    OpenPath(PathBuf),
+    OpenExample(usize),
+    ImportPath {
+        path: PathBuf,
+        choice: ImportChoice,
+    },
+    SavePath(PathBuf),
+    ExportPath(PathBuf),
+    CloseDialog,
+    /// Something was typed.
+    EditDialog(PathDialog),
+    /// Answers about unsaved changes.
+    SaveAndGoOn,
+    DiscardAndGoOn,
+    /// A file was dropped on the window.
+    Dropped(PathBuf),
+    /// What was imported, where the document has been changed in the meantime.
+    OpenImported,
+    /// Saves there, whatever is there.
+    ReplacePath(PathBuf),
+    /// Answers about work that another window left behind.
+    Recover,
+    DiscardWork,
+    RecoverLater,
+    /// Opens the desktop's own dialog for the dialog that is shown.
+    Browse,
+    Quit,
+}
+
+/// What a path is wanted for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    Open,
+    Import,
+    SaveAs,
+    Export,
+}
+
+/// What stands over the window.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Dialog {
+    /// There are unsaved changes; what was wanted is done afterwards.
+    Unsaved(Box<FileAction>),
+    Path(PathDialog),
+    /// Something is in the place that would be saved to.
+    Replace(PathBuf, Why),
+    /// Work that another window left behind is offered.
+    Recover,
+}
+
+/// Why it is asked whether a file may be replaced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Why {
+    /// It is another plushie.
+    Exists,
+    /// It is no plushie.
+    Foreign,
+    /// It was changed since it was read.
+    Changed,
+}
+
+/// Asks for a path in the window.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PathDialog {
+    pub purpose: Purpose,
+    pub path: String,
+    pub import: ImportChoice,
+    /// Why what was asked for last could not be had.
+    pub trouble: Option<String>,
+}
+
+#[derive(Default)]
+pub struct Files {
+    pub dialog: Option<Dialog>,
+    /// What a thread is busy with, ready to be shown.
+    pub working: Option<&'static str>,
+    /// Waits for saving to succeed.
+    pub(crate) after_save: Option<FileAction>,
+    /// The document whose changes may be dropped, as was answered.
+    pub(crate) granted: Option<Arc<Design>>,
+    /// What that thread is at.
+    pub(crate) running: Option<Running>,
+    /// Waits for an answer about the document that it would replace.
+    pub(crate) imported: Option<Box<New>>,
+    /// The path that the desktop's dialog was opened for.
+    pub(crate) picking: Option<Purpose>,
+    /// Whether the desktop has dialogs.
+    pub native_dialogs: bool,
+    /// The window should close.
+    pub quit: bool,
+}
+
+impl Purpose {
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Open => "Open a plushie",
+            Self::Import => "New plushie from an outline",
+            Self::SaveAs => "Save the plushie as",
+            Self::Export => "Export the blueprint",
+        }
+    }
+
+    /// What the button says.
+    pub fn verb(self) -> &'static str {
+        match self {
+            Self::Open => "Open",
+            Self::Import => "Create",
+            Self::SaveAs => "Save",
+            Self::Export => "Export",
+        }
+    }
+}
+
+impl PathDialog {
+    pub fn confirm(&self) -> FileAction {
+        let path = PathBuf::from(self.path.trim());
+        match self.purpose {
+            Purpose::Open => FileAction::OpenPath(path),
+            Purpose::Import => FileAction::ImportPath { path, choice: self.import.clone() },
+            Purpose::SaveAs => FileAction::SavePath(path),
+            Purpose::Export => FileAction::ExportPath(path),
+        }
+    }
+}
+
+/// Whether the desktop is likely to have dialogs: on Linux they come over the session bus.
+pub fn desktop_has_dialogs() -> bool {
+    let bus = || {
+        std::env::var_os("DBUS_SESSION_BUS_ADDRESS").is_some()
+            || std::env::var_os("XDG_RUNTIME_DIR").is_some_and(|dir| Path::new(&dir).join("bus").exists())
+    };
+    !cfg!(target_os = "linux") || bus()
+}

@@ -1,0 +1,48 @@
+//! Another resolution of the mesh: what is wanted, and who works on it.
+
+use crate::design::Design;
+use crate::studio::jobs::{Running, cancel};
+
+/// Largest `finer`.
+pub const FINEST: usize = 16;
+
+/// The resolution that is wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Resolution {
+    /// Muscle fibres.
+    pub fibers: usize,
+    /// The simulation mesh is this many times finer than that of the fibres.
+    pub finer: usize,
+}
+
+#[derive(Default)]
+pub struct Meshing {
+    /// What the controls say; `None`: that of the design.
+    pub(crate) wanted: Option<Resolution>,
+    pub running: Option<Running>,
+}
+
+impl Meshing {
+    /// What is wanted, or else what the design has.
+    pub fn resolution(&self, design: &Design) -> Resolution {
+        let present = || {
+            let (fibers, edges) = (design.fiber_routings().len(), design.mesh.edges().len());
+            let finer = (edges as f64 / fibers.max(1) as f64).sqrt().round() as usize;
+            Resolution { fibers, finer: finer.clamp(1, FINEST) }
+        };
+        self.wanted.unwrap_or_else(present)
+    }
+
+    pub fn cancel(&mut self) {
+        cancel(&mut self.running);
+    }
+
+    /// Whether the mesh that is waited for is there; it is not waited for any more then.
+    pub(crate) fn take(&mut self, serial: u64) -> bool {
+        let wanted = Running::is(self.running.as_ref(), serial);
+        if wanted {
+            self.running = None;
+        }
+        wanted
+    }
+}

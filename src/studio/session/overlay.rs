@@ -1,0 +1,18 @@
+//! What stands over the window for the keyboard's sake, and names that are typed.
+
+/// What stands over the window for the keyboard's sake.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Overlay {
+    /// Every command by name.
+    Palette,
+    /// What every key does.
+    Shortcuts,
+}
+
+/// What gets another name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Renamed {
+    Pose(usize),
+    Network(usize),
+    Plushie,
+}

@@ -1,0 +1,58 @@
+//! Networks for all poses at once: what may be built, and who looks for them.
+
+use crate::discovery::Parameters;
+use crate::operations::rig::Options;
+use crate::rigging::BadTendons;
+use crate::studio::jobs::{Running, cancel};
+use std::sync::{Arc, Mutex};
+
+/// What may be built, as the panel has it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RigChoice {
+    pub max_winches: usize,
+    /// Tendons of each winch, as they are typed: `2`, `3,2` winch by winch, or `1..4` to choose from.
+    pub tendons: String,
+    /// Whether the parameters of discovery hold; otherwise several are tried.
+    pub hold: bool,
+}
+
+impl Default for RigChoice {
+    fn default() -> Self {
+        let Options { max_winches, tendons, .. } = Options::default();
+        Self { max_winches, tendons: tendons.to_string(), hold: false }
+    }
+}
+
+impl RigChoice {
+    /// With the parameters of discovery.
+    pub(crate) fn options(&self, parameters: &Parameters) -> Result<Options, BadTendons> {
+        let held = |value: usize| self.hold.then_some(value);
+        Ok(Options {
+            max_winches: self.max_winches,
+            tendons: self.tendons.trim().parse()?,
+            seed_num: held(parameters.seed_num),
+            join_depth: held(parameters.join_depth),
+            join_len: held(parameters.join_len),
+            phi: self.hold.then_some(parameters.phi),
+        })
+    }
+}
+
+#[derive(Default)]
+pub struct Rigging {
+    pub choice: RigChoice,
+    pub running: Option<Running>,
+    /// What was done last, from the thread.
+    pub(crate) step: Arc<Mutex<String>>,
+}
+
+impl Rigging {
+    pub fn cancel(&mut self) {
+        cancel(&mut self.running);
+    }
+
+    /// What was done last.
+    pub fn step(&self) -> String {
+        self.step.lock().map(|step| step.clone()).unwrap_or_default()
+    }
+}

@@ -1,0 +1,42 @@
+//! What the window keeps beyond its life: work, settings, claims on files.
+
+use crate::files::Stamp;
+use crate::studio::keeper::{Abandoned, Keeper};
+use crate::studio::store::{Settings, Store};
+use std::fs::File;
+use std::path::Path;
+use std::time::Duration;
+
+/// Without a [`Store`] (in tests) nothing is kept beyond the window's life.
+#[derive(Default)]
+pub struct Safety {
+    pub(crate) store: Option<Store>,
+    pub(crate) keeper: Option<Keeper>,
+    /// Says to other windows that the file is open here.
+    pub(crate) claim: Option<File>,
+    /// What the document's file held when it was read or written last.
+    pub(crate) seen: Option<Stamp>,
+    /// What is still to be offered, the newest last.
+    pub(crate) abandoned: Vec<Abandoned>,
+    pub(crate) settings: Settings,
+    /// The next look at the work that is kept is due after this long.
+    pub(crate) due: Option<Duration>,
+}
+
+impl Safety {
+    /// Of a document whose file held that when it was read.
+    pub(crate) fn seen(seen: Option<Stamp>) -> Self {
+        Self { seen, ..Self::default() }
+    }
+
+    /// Where the window keeps its work.
+    pub(crate) fn folder(&self) -> Option<&Path> {
+        self.keeper.as_ref().map(Keeper::folder)
+    }
+
+    /// The document has no file.
+    pub(crate) fn unclaim(&mut self) {
+        self.claim = None;
+        self.seen = None;
+    }
+}

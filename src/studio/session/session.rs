@@ -1,0 +1,327 @@
+//! The state of the window, in parts.
+
+use super::discovery::Discovery;
+use super::document::Document;
+use super::files::Files;
+use super::look::Look;
+use super::meshing::{Meshing, Resolution};
+use super::overlay::{Overlay, Renamed};
+use super::picked::{Mode, Picked, Selection};
+use super::playback::Playback;
+use super::rigging::Rigging;
+use super::safety::Safety;
+use super::sketching::Sketching;
+use super::solver::{Shapes, Solver};
+use super::tasks::Tasks;
+use super::texturing::{Found, Texturing};
+use crate::design::file::MAX_BYTES;
+use crate::design::history::History;
+use crate::design::{Design, Target};
+use crate::discovery::Parameters;
+use crate::engine::{Quality, Request};
+use crate::files::Stamp;
+use crate::outline::Drawing;
+use crate::picture::Texture;
+use crate::picture::layers::{Layer, Textured};
+use crate::rigging::Proposal;
+use crate::studio::canvas::Hit;
+use crate::studio::jobs::{self, Jobs, Running, Wake};
+use crate::studio::keeper::Abandoned;
+use crate::studio::messages::Messages;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+/// Makes proposals for a design and the targets of a pose.
+pub type Propose = Arc<dyn Fn(&Design, &[Target], &Parameters, &AtomicBool) -> Vec<Proposal> + Send + Sync>;
+/// Writes the blueprint of a design into a folder.
+pub type Export = Arc<dyn Fn(&Design, &Path) -> Result<(), String> + Send + Sync>;
+
+/// The long work that is done elsewhere; tests put their own in.
+#[derive(Clone)]
+pub struct Services {
+    pub propose: Propose,
+    pub export: Export,
+}
+
+/// Everything that the window knows. Panels and tools read it; only acts change it, each the parts that it is about.
+pub struct Session {
+    pub(crate) document: Document,
+    pub(crate) picked: Picked,
+    pub(crate) look: Look,
+    pub(crate) playback: Playback,
+    pub(crate) solver: Solver,
+    pub(crate) discovery: Discovery,
+    pub(crate) rigging: Rigging,
+    pub(crate) meshing: Meshing,
+    pub(crate) sketching: Sketching,
+    pub(crate) texturing: Texturing,
+    /// A keyframe that is worked out.
+    pub(crate) keying: Option<Running>,
+    pub(crate) messages: Messages,
+    pub(crate) files: Files,
+    pub(crate) safety: Safety,
+    /// The tools that are taken, by name: of the views and of the sheet.
+    pub(crate) tools: [&'static str; 2],
+    /// The panel that is open, by name.
+    pub(crate) panel: &'static str,
+    /// Whether pictures can be drawn.
+    pub(crate) gpu: bool,
+    pub(crate) overlay: Option<Overlay>,
+    /// A name that is being typed.
+    pub(crate) renaming: Option<(Renamed, String)>,
+    pub(crate) jobs: Jobs,
+    /// Jobs of panels, and what came of them.
+    pub(crate) tasks: Tasks,
+    pub(crate) services: Services,
+}
+
+impl Session {
+    pub fn new(design: Design, path: Option<PathBuf>, wake: Wake, services: Services) -> Self {
+        let seen = path.as_deref().and_then(|path| Stamp::at(path, MAX_BYTES).ok());
+        let document = Document::new(design, path);
+        Self {
+            picked: Picked::first(document.design()),
+            look: Look::default(),
+            playback: Playback::default(),
+            solver: Solver::new(document.design(), wake.clone()),
+            document,
+            discovery: Discovery::default(),
+            rigging: Rigging::default(),
+            meshing: Meshing::default(),
+            sketching: Sketching::default(),
+            texturing: Texturing::default(),
+            keying: None,
+            messages: Messages::default(),
+            files: Files::default(),
+            safety: Safety::seen(seen),
+            tools: [""; 2],
+            panel: "",
+            gpu: false,
+            overlay: None,
+            renaming: None,
+            jobs: Jobs::new(wake),
+            tasks: Tasks::default(),
+            services,
+        }
+    }
+
+    /// The document as it is now.
+    pub fn design(&self) -> &Arc<Design> {
+        self.document.design()
+    }
+
+    pub fn history(&self) -> &History {
+        &self.document.history
+    }
+
+    /// The current pose; `None` is the rest shape.
+    pub fn pose(&self) -> Option<usize> {
+        self.picked.pose
+    }
+
+    /// Whether a dialog, the palette or a page stands over the window.
+    pub fn is_covered(&self) -> bool {
+        self.files.dialog.is_some() || self.overlay.is_some()
+    }
+
+    /// Which of these panels is open; the first one at first.
+    pub fn panel(&self, all: &[&'static str]) -> &'static str {
+        all.iter().copied().find(|&id| id == self.panel).or(all.first().copied()).unwrap_or_default()
+    }
+
+    /// The jobs of panels.
+    pub fn tasks(&self) -> &Tasks {
+        &self.tasks
+    }
+
+    /// Whether a tool is the one for its canvas.
+    pub fn has_taken(&self, id: &str) -> bool {
+        self.tools.contains(&id)
+    }
+
+    /// What stands over the window.
+    pub fn overlay(&self) -> Option<Overlay> {
+        self.overlay
+    }
+
+    /// A name that is being typed.
+    pub fn renaming(&self) -> Option<&(Renamed, String)> {
+        self.renaming.as_ref()
+    }
+
+    /// What commands are about when nothing is pointed at.
+    pub fn selected(&self) -> Hit {
+        match self.picked.selection {
+            Selection::Target(index) => Hit::Target(index),
+            Selection::Pin(index) => Hit::Pin(index),
+            _ => Hit::Nothing,
+        }
+    }
+
+    pub fn selection(&self) -> Selection {
+        self.picked.selection
+    }
+
+    pub fn playback(&self) -> &Playback {
+        &self.playback
+    }
+
+    pub fn discovery(&self) -> &Discovery {
+        &self.discovery
+    }
+
+    pub fn shapes(&self) -> &Shapes {
+        &self.solver.shapes
+    }
+
+    pub fn messages(&self) -> &Messages {
+        &self.messages
+    }
+
+    pub fn look(&self) -> &Look {
+        &self.look
+    }
+
+    /// Whether a thread is busy with a file, a keyframe or a rig.
+    pub fn is_working(&self) -> bool {
+        self.working().is_some()
+    }
+
+    /// What threads are busy with, ready to be shown.
+    pub fn working(&self) -> Option<&'static str> {
+        let keying = self.keying.is_some().then_some("Working out the keyframe");
+        let rigging = self.rigging.running.is_some().then_some("Looking for winches and tendons");
+        self.files.working.or(rigging).or(keying)
+    }
+
+    /// Whether the window is about to close.
+    pub fn is_closing(&self) -> bool {
+        self.files.quit
+    }
+
+    /// Targets of the current pose; none at rest and while the animation is shown.
+    pub fn targets(&self) -> &[Target] {
+        match (self.picked.mode, self.picked.pose.and_then(|pose| self.design().poses.get(pose))) {
+            (Mode::Pose, Some(pose)) => &pose.targets,
+            _ => &[],
+        }
+    }
+
+    /// Whether a hand is in the middle of a change.
+    pub fn is_dragging(&self) -> bool {
+        self.document.history.in_gesture()
+    }
+
+    /// Whether the shapes answer the newest question; while the outline is drawn none is asked.
+    pub fn is_settled(&self) -> bool {
+        self.sketching.open || self.solver.is_settled()
+    }
+
+    /// Whether the hand rests and the shapes are being refined with all effort.
+    pub fn is_refining(&self) -> bool {
+        self.solver.worker.is_refining()
+    }
+
+    /// How much work a frame may take.
+    pub fn quality(&self) -> Quality {
+        self.solver.quality
+    }
+
+    /// What the solver was asked last.
+    pub fn request(&self) -> Option<&Request> {
+        self.solver.asked.as_ref()
+    }
+
+    /// The proposal that the views show.
+    pub fn shown_proposal(&self) -> Option<&Arc<Proposal>> {
+        self.discovery.shown()
+    }
+
+    /// What the solver has to say about the newest shapes.
+    pub fn solver_warning(&self) -> Option<&str> {
+        self.solver.warning.as_deref()
+    }
+
+    /// Why networks cannot be proposed now, if so.
+    pub fn cannot_propose(&self) -> Option<&'static str> {
+        if self.discovery.running.is_some() {
+            Some("Discovery is running")
+        } else if self.picked.mode == Mode::Animation || self.targets().is_empty() {
+            Some("Choose a pose with at least one target first: drag a point of the body")
+        } else {
+            None
+        }
+    }
+
+    pub fn meshing(&self) -> &Meshing {
+        &self.meshing
+    }
+
+    pub fn resolution(&self) -> Resolution {
+        self.meshing.resolution(self.design())
+    }
+
+    pub fn rigging(&self) -> &Rigging {
+        &self.rigging
+    }
+
+    /// Why no rig can be looked for now, if so.
+    pub fn cannot_rig(&self) -> Option<&'static str> {
+        if self.rigging.running.is_some() {
+            return Some("A rig is being looked for");
+        }
+        let posed = self.design().poses.iter().any(|pose| !pose.targets.is_empty());
+        (!posed).then_some("Pose the plushie first: drag a point of the body")
+    }
+
+    /// Files that were opened or saved lately, the newest first.
+    pub fn recent(&self) -> &[PathBuf] {
+        &self.safety.settings.recent
+    }
+
+    /// The work that is offered now.
+    pub fn offered(&self) -> Option<&Abandoned> {
+        self.safety.abandoned.last()
+    }
+
+    pub fn sketching(&self) -> &Sketching {
+        &self.sketching
+    }
+
+    /// The drawing of the outline: the document's, or one traced from its outline.
+    pub fn drawing(&self) -> &Drawing {
+        self.sketching.drawing(self.design())
+    }
+
+    /// The texture of the document, as soon as it is read.
+    pub fn texture(&self) -> Option<&Arc<Texture>> {
+        match &self.texturing.found {
+            Found::Picture(texture) => Some(texture),
+            _ => None,
+        }
+    }
+
+    /// Why a layer of the pictures cannot be shown, if so.
+    pub fn cannot_show(&self, layer: &str) -> Option<&'static str> {
+        if layer != Textured::NAME {
+            return None;
+        }
+        match self.texturing.found {
+            Found::Picture(_) => None,
+            Found::Trouble => Some("The texture of this plushie is missing or broken"),
+            Found::Nothing if self.texturing.path.is_some() => Some("The texture is being read"),
+            Found::Nothing => Some("This plushie has no texture; the import has “Keep the picture as texture”"),
+        }
+    }
+}
+
+impl Drop for Session {
+    fn drop(&mut self) {
+        self.discovery.cancel();
+        self.meshing.cancel();
+        self.rigging.cancel();
+        self.tasks.cancel();
+        jobs::cancel(&mut self.keying);
+    }
+}
