@@ -102,7 +102,8 @@ impl Tour<'_> {
         let text = file::to_text(&design).map_err(|e| CommandError::Failed(e.to_string()))?;
         self.files.push(("pig.plush".into(), text.into_bytes()));
         let figures = table::figures(&design, self.cancel)?;
-        let (files, _) = fabrication::blueprint(&design).map_err(|e| CommandError::Failed(e.to_string()))?;
+        let (files, _) =
+            fabrication::blueprint(&design, &Default::default()).map_err(|e| CommandError::Failed(e.to_string()))?;
         let count = files.len();
         self.files.extend(files.into_iter().map(|file| (format!("blueprint/{}", file.name), file.bytes)));
         say(self.out, &format!("{:5.1} s  blueprint  {count} files", self.clock.elapsed().as_secs_f64()))?;

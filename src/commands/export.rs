@@ -3,13 +3,14 @@
 use super::error::CommandError;
 use super::output::{say, say_json};
 use super::{document, words};
+use crate::motion::TooFast;
 use crate::operations::{Context, export};
 use clap::Args;
 use std::io::Write;
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
-/// Write the blueprint: patterns, routings, winch tracks, controller program
+/// Write the blueprint: patterns, routings, winch tracks, controller programs
 ///
 /// Sheets are SVG in mm with a 100 mm reference line; tracks are in s, mm and encoder counts.
 #[derive(Debug, Args)]
@@ -20,6 +21,9 @@ pub struct Export {
     /// Folder to write; an earlier export is replaced, any other folder refused
     #[arg(short, long, value_name = "DIR")]
     pub output: PathBuf,
+    /// Give the animation more time where its motors are too slow for it; otherwise such an animation is refused
+    #[arg(long)]
+    pub stretch: bool,
     /// Print the manifest: files with sizes in bytes and SHA-256, and remarks
     #[arg(long)]
     pub json: bool,
@@ -28,10 +32,13 @@ pub struct Export {
 impl Export {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
         let design = document::load(&self.design)?;
-        let manifest = export::run(&design, &self.output, &Context::new(cancel)).map_err(|error| match error {
-            export::Error::Export(error) => words::unexported(&self.design, error),
-            export::Error::Cancelled(_) => CommandError::Cancelled,
-        })?;
+        let too_fast = if self.stretch { TooFast::Stretch } else { TooFast::Refuse };
+        let options = export::Options { too_fast };
+        let manifest =
+            export::run(&design, &self.output, &options, &Context::new(cancel)).map_err(|error| match error {
+                export::Error::Export(error) => words::unexported(&self.design, error),
+                export::Error::Cancelled(_) => CommandError::Cancelled,
+            })?;
         if self.json {
             return say_json(out, &manifest);
         }

@@ -2,6 +2,7 @@
 
 use super::error::CommandError;
 use crate::fabrication::ExportError;
+use crate::motion::MotionError;
 use crate::operations::{Progress, Unbalanced, new_design, reshape};
 use crate::outline::{Change, Changes, Note, OutlineError, Remedy};
 use crate::rigging;
@@ -32,6 +33,7 @@ pub fn unexported(design: &Path, error: ExportError) -> CommandError {
     match error {
         ExportError::Write { path, source } => CommandError::write(&path, source),
         ExportError::NotOurs { .. } | ExportError::Changed { .. } => CommandError::Usage(error.to_string()),
+        ExportError::Motion(MotionError::TooFast { .. }) => CommandError::input(design, format!("{error} (--stretch)")),
         ExportError::NoNetworks => CommandError::input(design, format!("{error}; run `plushwright rig` first")),
         error => CommandError::input(design, error),
     }

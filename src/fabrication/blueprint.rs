@@ -6,13 +6,21 @@ use super::products::PRODUCTS;
 use super::writers;
 use crate::design::Design;
 use crate::files::folder::{self, Listed, MANIFEST};
-use crate::motion::{self, Trajectory};
+use crate::motion::{self, TooFast, Trajectory};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
 const MANIFEST_FORMAT: &str = "plushwright-blueprint/1";
 /// The beginning of the format of an earlier export, whatever its version.
 const ANY_VERSION: &str = "plushwright-blueprint/";
+
+/// How a blueprint is made.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Options {
+    /// What to do where the animation is too fast for the motors.
+    pub too_fast: TooFast,
+}
 
 /// The contents of an export.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -38,9 +46,9 @@ pub struct File {
 ///
 /// # Errors
 /// A folder that is not ours or was changed by hand, what [`blueprint`] refuses, and what the system says of the disk.
-pub fn export(design: &Design, dir: &Path) -> Result<Manifest, ExportError> {
+pub fn export(design: &Design, dir: &Path, options: &Options) -> Result<Manifest, ExportError> {
     folder::check(dir, ANY_VERSION)?;
-    let (files, manifest) = blueprint(design)?;
+    let (files, manifest) = blueprint(design, options)?;
     let files: Vec<(&str, &[u8])> = files.iter().map(|file| (file.name.as_str(), file.bytes.as_slice())).collect();
     folder::write(dir, ANY_VERSION, &files)?;
     Ok(manifest)
@@ -50,13 +58,13 @@ pub fn export(design: &Design, dir: &Path) -> Result<Manifest, ExportError> {
 ///
 /// # Errors
 /// A design that is not sound or has no networks, and an animation that the motors cannot be told.
-pub fn blueprint(design: &Design) -> Result<(Vec<File>, Manifest), ExportError> {
+pub fn blueprint(design: &Design, options: &Options) -> Result<(Vec<File>, Manifest), ExportError> {
     motion::check(design)?;
     design.validate()?;
     if design.networks.is_empty() {
         return Err(ExportError::NoNetworks);
     }
-    let trajectory = Trajectory::of(design)?;
+    let trajectory = Trajectory::of(design, options.too_fast)?;
     let (mut files, mut sections, mut remarks) = (Vec::new(), Vec::new(), Vec::new());
     for make in PRODUCTS {
         let source = Source { design, trajectory: &trajectory, sections: &sections, remarks: &remarks };

@@ -9,7 +9,7 @@
 //! | `pattern.svg` | front and mirrored back: `cut`, `stitch`, `note`, `reference` |
 //! | `routing.svg`, `routing.csv` | holes and tendons; enough for cables pulled by hand |
 //! | `tracks.csv` | cable wound by each winch over time; one row of zeros if the design has no keyframes |
-//! | `controller-ascii.txt` | the commands that wind it, for controllers of the classic ASCII family |
+//! | `controller-ascii-setup.txt`, `-motion.txt`, `-stop.txt` | the commands that set up, wind and unwind, for controllers of the classic ASCII family |
 //! | `README.txt` | how to use the files, and remarks on this design |
 //! | `manifest.json` | name, size and SHA-256 of every other file |
 //!
@@ -17,7 +17,7 @@
 //! use plushwright::{design::bundled, fabrication};
 //!
 //! let pig = bundled::ALL[0].design()?;
-//! let (files, manifest) = fabrication::blueprint(&pig)?;
+//! let (files, manifest) = fabrication::blueprint(&pig, &Default::default())?;
 //! assert_eq!(files[0].name, "pattern.svg");
 //! assert!(files[0].bytes.starts_with(b"<?xml"));
 //! assert_eq!(manifest.files.len() + 1, files.len(), "the manifest names all files but itself");
@@ -36,7 +36,7 @@ pub mod writers;
 
 pub use crate::files::folder::{Listed as ManifestFile, MANIFEST};
 pub use crate::files::sha256;
-pub use blueprint::{File, Manifest, blueprint, export};
+pub use blueprint::{File, Manifest, Options, blueprint, export};
 pub use cables::{holes, tendon_length_mm};
 pub use error::ExportError;
 pub use product::{Content, Part, Product, Section, Source};

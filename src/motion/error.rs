@@ -12,6 +12,11 @@ pub enum MotionError {
     TooLong { steps: f64 },
     #[error("winch {winch:?} would have to go to {counts:.3e} counts, beyond the controller's {MAX_COUNTS:.0}")]
     TooFar { winch: String, counts: f64 },
+    #[error(
+        "between {from_s} s and {to_s} s winch {winch:?} winds {by_mm:.1} mm: the motor's speed and acceleration need {needs_s:.2} s for that; \
+         move the keyframes apart, or let the motion be stretched"
+    )]
+    TooFast { winch: String, from_s: f64, to_s: f64, by_mm: f64, needs_s: f64 },
     #[error("{winches} winches are more than the {MAX_NODES} nodes of the controllers' network")]
     TooManyWinches { winches: usize },
     #[error("controller.encoder_lines: 4 x {lines} is more than the {MAX_RESOLUTION} the controllers take")]

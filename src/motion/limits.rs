@@ -8,3 +8,12 @@ pub const MAX_COUNTS: f64 = 1.8e9;
 pub const MAX_NODES: usize = 255;
 /// Largest encoder resolution, counts per revolution.
 pub const MAX_RESOLUTION: u32 = 65535;
+
+/// What a winch's motor can do, mm and s of cable.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// mm/s.
+    pub speed: f64,
+    /// mm/s^2.
+    pub acceleration: f64,
+}

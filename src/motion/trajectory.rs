@@ -1,12 +1,12 @@
-//! Trajectories of the winches: how much cable each spool has wound at each step of the animation.
+//! Trajectories of the winches: how much cable each spool has wound at each step of the plan.
 
 use super::error::MotionError;
 use super::limits::{MAX_COUNTS, MAX_STEPS};
-use super::winches::winch_labels;
+use super::plan::{Note, Plan, TooFast};
+use super::winches::{counts_per_mm, winch_labels};
 use crate::design::{Design, Keyframe, animation};
-use std::f64::consts::PI;
 
-/// Positions of all winches over the animation.
+/// Positions of all winches over the plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trajectory {
     /// Names of the winches, in the order of the networks: the columns of the rows below.
@@ -16,12 +16,8 @@ pub struct Trajectory {
     pub lengths_mm: Vec<Vec<f64>>,
     /// Encoder counts of the rounded lengths.
     pub counts: Vec<Vec<i64>>,
-}
-
-/// `4 * encoder_lines * gear_ratio / (2 pi * spool_radius)`, counts per mm of cable.
-pub fn counts_per_mm(design: &Design) -> f64 {
-    let lines = f64::from(design.controller.encoder_lines);
-    4.0 * lines * design.controller.gear_ratio / (2.0 * PI * design.fabrication.spool_radius_mm)
+    /// What became of the animation on the way.
+    pub notes: Vec<Note>,
 }
 
 /// Refuses an animation that is beyond what a trajectory can hold, by its keyframes alone: the design need not be sound.
@@ -45,19 +41,25 @@ pub fn check(design: &Design) -> Result<(), MotionError> {
 }
 
 impl Trajectory {
-    /// The whole animation at the track rate; a single step of zeros without keyframes.
+    /// The whole animation as [`Plan`] has it, in steps of at most the track rate's, keyframes included; a single step of zeros without any.
     ///
     /// # Errors
-    /// Too many steps, or a position beyond the controllers'.
-    pub fn of(design: &Design) -> Result<Self, MotionError> {
+    /// Too many steps, a position beyond the controllers', or a section that no motor can follow where it may not be stretched.
+    pub fn of(design: &Design, too_fast: TooFast) -> Result<Self, MotionError> {
         check(design)?;
+        let plan = Plan::of(design, too_fast)?;
+        let rate = design.controller.track_rate_hz;
+        let steps = plan.count(rate);
+        if steps > MAX_STEPS {
+            return Err(MotionError::TooLong { steps });
+        }
         let winches = winch_labels(design);
         let scale = counts_per_mm(design);
-        let times_s = animation::track_times(design);
+        let times_s = plan.steps(rate);
         let mut lengths_mm = Vec::with_capacity(times_s.len());
         let mut counts = Vec::with_capacity(times_s.len());
         for &time in &times_s {
-            let lengths: Vec<f64> = animation::activations_at(design, time).into_iter().map(six_decimals).collect();
+            let lengths: Vec<f64> = plan.at(time).into_iter().map(six_decimals).collect();
             let mut row = Vec::with_capacity(lengths.len());
             for (winch, length) in winches.iter().zip(&lengths) {
                 let position = (scale * length).round();
@@ -69,20 +71,13 @@ impl Trajectory {
             lengths_mm.push(lengths);
             counts.push(row);
         }
-        Ok(Self { winches, times_s, lengths_mm, counts })
+        Ok(Self { winches, times_s, lengths_mm, counts, notes: plan.notes })
     }
 
     /// Lowest and highest position of a winch, counts.
     pub fn range(&self, winch: usize) -> (i64, i64) {
         let positions = || self.counts.iter().map(|row| row[winch]);
         (positions().min().unwrap_or(0), positions().max().unwrap_or(0))
-    }
-
-    /// Fastest motor speed that the trajectory asks of a winch, rpm.
-    pub fn peak_rpm(&self, winch: usize, encoder_lines: u32) -> f64 {
-        let steps = self.times_s.windows(2).zip(self.counts.windows(2));
-        let speeds = steps.map(|(t, c)| (c[1][winch] - c[0][winch]).abs() as f64 / (t[1] - t[0]));
-        speeds.fold(0.0, f64::max) * 60.0 / (4.0 * f64::from(encoder_lines))
     }
 }
 

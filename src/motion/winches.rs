@@ -1,7 +1,14 @@
-//! Names of winches that tables and programs can hold.
+//! Winches as motors know them: their names in tables, and counts for cable.
 
 use crate::design::Design;
 use std::collections::HashSet;
+use std::f64::consts::PI;
+
+/// `4 * encoder_lines * gear_ratio / (2 pi * spool_radius)`, counts per mm of cable.
+pub fn counts_per_mm(design: &Design) -> f64 {
+    let lines = f64::from(design.controller.encoder_lines);
+    4.0 * lines * design.controller.gear_ratio / (2.0 * PI * design.fabrication.spool_radius_mm)
+}
 
 /// A name for each network that a table's header can hold: letters, digits, spaces and `-_.()`, each name once.
 pub fn winch_labels(design: &Design) -> Vec<String> {

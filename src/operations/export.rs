@@ -2,6 +2,7 @@
 
 use super::{Cancelled, Context};
 use crate::design::Design;
+pub use crate::fabrication::Options;
 use crate::fabrication::{self, ExportError, Manifest};
 use std::path::Path;
 
@@ -19,9 +20,9 @@ pub enum Error {
 ///
 /// # Errors
 /// [`Error::Export`], see there; [`Error::Cancelled`] before anything is written.
-pub fn run(design: &Design, folder: &Path, context: &Context) -> Result<Manifest, Error> {
+pub fn run(design: &Design, folder: &Path, options: &Options, context: &Context) -> Result<Manifest, Error> {
     context.check()?;
-    Ok(fabrication::export(design, folder)?)
+    Ok(fabrication::export(design, folder, options)?)
 }
 
 #[cfg(test)]
@@ -35,14 +36,14 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("blueprint");
         let mut design = testing::sample();
-        let stopped = run(&design, &path, &Context::new(&AtomicBool::new(true)));
+        let stopped = run(&design, &path, &Options::default(), &Context::new(&AtomicBool::new(true)));
         assert!(matches!(stopped, Err(Error::Cancelled(_))) && !path.exists());
         let go = AtomicBool::new(false);
-        let manifest = run(&design, &path, &Context::new(&go)).unwrap();
+        let manifest = run(&design, &path, &Options::default(), &Context::new(&go)).unwrap();
         assert!(manifest.files.iter().all(|file| path.join(&file.name).is_file()));
         design.networks.clear();
         design.keyframes.clear();
-        let nothing = run(&design, &path, &Context::new(&go));
+        let nothing = run(&design, &path, &Options::default(), &Context::new(&go));
         assert!(matches!(nothing, Err(Error::Export(ExportError::NoNetworks))));
     }
 }

@@ -5,6 +5,7 @@ use crate::defaults;
 use crate::design::edit::{self, EditError};
 use crate::design::{Design, Easing, Keyframe, Network};
 use crate::mesh::Mesh;
+use crate::motion;
 use crate::rigging::{self, RigError};
 
 pub use crate::rigging::{RigOptions as Options, TendonChoice};
@@ -63,7 +64,7 @@ pub fn prepare(design: &Design, options: &Options, context: &mut Context) -> Res
     Ok(Rigged { networks, keyframes, notes, mesh: rigged.mesh, present: design.networks.clone() })
 }
 
-/// Lays the poses on the timeline, evenly spaced, with rest at both ends.
+/// Lays the poses on the timeline, [`defaults::KEYFRAME_SPACING_S`] apart or as far as the motors need, with rest at both ends.
 fn lay_out(design: &mut Design, context: &Context) -> Result<Vec<Note>, Error> {
     let names: Vec<String> = design.poses.iter().filter(|p| !p.targets.is_empty()).map(|p| p.name.clone()).collect();
     let stops = std::iter::once(None).chain(names.into_iter().map(Some)).chain([None]);
@@ -77,7 +78,21 @@ fn lay_out(design: &mut Design, context: &Context) -> Result<Vec<Note>, Error> {
         })?;
         notes.extend(keyed.notes.into_iter().map(Note::Key));
     }
+    space_out(design);
     Ok(notes)
+}
+
+/// Moves keyframes apart until motors can follow, to tenths of a second.
+fn space_out(design: &mut Design) {
+    /// Rounding that does not cost another tenth, s.
+    const ROUNDING_S: f64 = 1e-9;
+    for k in 1..design.keyframes.len() {
+        let needs =
+            motion::smooth_s(design, &design.keyframes[k - 1].activations_mm, &design.keyframes[k].activations_mm);
+        let spacing = ((needs - ROUNDING_S) * 10.0).ceil().max(10.0 * defaults::KEYFRAME_SPACING_S);
+        let tenths = (10.0 * design.keyframes[k - 1].time_s).round() + spacing;
+        design.keyframes[k].time_s = tenths / 10.0;
+    }
 }
 
 impl Rigged {

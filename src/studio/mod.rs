@@ -125,10 +125,12 @@ pub fn services() -> Services {
             propose::for_targets(design, targets, parameters, &Context::new(cancel)).unwrap_or_default()
         }),
         export: Arc::new(|design, folder| {
-            export::run(design, folder, &Context::new(&AtomicBool::new(false))).map(drop).map_err(|error| match error {
-                export::Error::Export(error) => words::unexported(&error),
-                export::Error::Cancelled(_) => error.to_string(),
-            })
+            export::run(design, folder, &export::Options::default(), &Context::new(&AtomicBool::new(false)))
+                .map(drop)
+                .map_err(|error| match error {
+                    export::Error::Export(error) => words::unexported(&error),
+                    export::Error::Cancelled(_) => error.to_string(),
+                })
         }),
     }
 }

@@ -2,17 +2,17 @@
 
 use crate::support::{Random, rectangle, rigged};
 use plushwright::design::{Design, Easing, Keyframe, Network, Tendon, animation};
-use plushwright::fabrication::{self, ExportError, Manifest, blueprint, export};
-use plushwright::motion::{MotionError, winch_labels};
+use plushwright::fabrication::{self, ExportError, Manifest, Options, blueprint, export};
+use plushwright::motion::{MotionError, Plan, TooFast, winch_labels};
 use roxmltree::{Document, Node};
 use sha2::{Digest, Sha256};
 use std::f64::consts::PI;
 use std::fs;
 use std::path::Path;
 
-/// A file of a blueprint as text.
+/// A file of a blueprint as text; motions that no motor can follow are stretched.
 fn text(design: &Design, name: &str) -> String {
-    let (files, _) = blueprint(design).expect("a blueprint");
+    let (files, _) = blueprint(design, &Options { too_fast: TooFast::Stretch }).expect("a blueprint");
     let file = files.into_iter().find(|f| f.name == name).expect(name);
     String::from_utf8(file.bytes).expect("text")
 }
@@ -164,17 +164,17 @@ fn a_narrow_notch_is_remarked() {
         [120.0, 80.0],
         [0.0, 80.0],
     ];
-    let (_, manifest) = blueprint(&design).expect("a blueprint");
+    let (_, manifest) = blueprint(&design, &Options::default()).expect("a blueprint");
     assert!(manifest.remarks.iter().any(|r| r.contains("narrow notch")), "{:?}", manifest.remarks);
 }
 
 #[test]
 fn holes_on_the_seam_are_remarked() {
     let mut design = rigged();
-    let (_, manifest) = blueprint(&design).expect("a blueprint");
+    let (_, manifest) = blueprint(&design, &Options::default()).expect("a blueprint");
     assert!(!manifest.remarks.iter().any(|r| r.contains("seam or next")), "{:?}", manifest.remarks);
     design.networks[0].tendons[0].routing = vec![10, 0];
-    let (_, manifest) = blueprint(&design).expect("a blueprint");
+    let (_, manifest) = blueprint(&design, &Options::default()).expect("a blueprint");
     assert!(manifest.remarks.iter().any(|r| r.contains("next to it: hole 2.")), "{:?}", manifest.remarks);
 }
 
@@ -223,19 +223,21 @@ fn tracks(csv: &str) -> (Vec<f64>, Vec<String>, Vec<Vec<String>>) {
 }
 
 #[test]
-fn tracks_follow_the_animation_and_the_counts_formula() {
+fn tracks_follow_the_plan_and_the_counts_formula() {
     let mut design = rigged();
     design.controller.gear_ratio = 43.2;
     design.fabrication.spool_radius_mm = 9.75;
     let (settings, header, rows) = tracks(&text(&design, "tracks.csv"));
     assert_eq!(settings, [512.0, 43.2, 9.75]);
     assert_eq!(header, ["time_s", "left_mm", "left_counts", "right_mm", "right_counts"]);
-    assert_eq!(rows.len(), 77, "0, 0.02, ... 1.50 and the last keyframe at 1.51 s");
+    assert_eq!(rows.len(), 77, "50 steps of 0.02 s to the keyframe at 1 s, 26 shorter ones to that at 1.51 s");
+    let plan = Plan::of(&design, TooFast::Refuse).expect("slow enough");
     for (i, row) in rows.iter().enumerate() {
         let time: f64 = row[0].parse().expect("a time");
-        let expected = if i == 76 { 1.51 } else { i as f64 / 50.0 };
-        assert!((time - expected).abs() < 1e-9);
-        let activations = animation::activations_at(&design, time);
+        let expected = if i <= 50 { i as f64 / 50.0 } else { 1.0 + 0.51 * (i - 50) as f64 / 26.0 };
+        assert!((time - expected).abs() < 1e-6);
+        // The first section is a straight line: its corners are rounded.
+        let activations = if i < 50 { plan.at(expected) } else { animation::activations_at(&design, expected) };
         for winch in 0..2 {
             let printed = &row[1 + 2 * winch];
             assert_eq!(printed.split_once('.').expect("decimals").1.len(), 6);
@@ -257,12 +259,10 @@ fn without_keyframes_the_tracks_rest() {
     assert_eq!(rows, [["0.000000", "0.000000", "0", "0.000000", "0"]]);
 }
 
-#[test]
-fn the_controller_program_is_valid_commands_for_one_node_a_winch() {
-    let design = rigged();
-    let program = text(&design, "controller-ascii.txt");
+/// A program as (node, command, argument).
+fn commands(program: &str) -> Vec<(usize, &str, Option<i64>)> {
     assert!(program.ends_with('\r') && !program.contains('\n') && program.is_ascii());
-    let commands: Vec<(usize, &str, Option<i64>)> = program
+    program
         .trim_end_matches('\r')
         .split('\r')
         .map(|line| {
@@ -271,36 +271,122 @@ fn the_controller_program_is_valid_commands_for_one_node_a_winch() {
             let value = (argument < line.len()).then(|| line[argument..].parse().expect("a number"));
             (line[..letters].parse().expect("a node"), &line[letters..argument], value)
         })
-        .collect();
-    let prologue = |node: usize| {
-        commands.iter().filter(|c| c.0 == node).take(11).map(|&(_, name, value)| (name, value)).collect::<Vec<_>>()
-    };
+        .collect()
+}
+
+#[test]
+fn the_controller_programs_are_valid_commands_for_one_node_a_winch() {
+    let design = rigged();
+    let setup = text(&design, "controller-ascii-setup.txt");
     let counts = |mm: f64| (4.0 * 512.0 * 43.0 * mm / (2.0 * PI * 10.0)).round() as i64;
     for (node, farthest) in [(1, counts(10.0)), (2, counts(4.0))] {
-        assert_eq!(
-            prologue(node),
-            [
-                ("DI", None),
-                ("ANSW", Some(2)),
-                ("ENCRES", Some(2048)),
-                ("SP", Some(5000)),
-                ("AC", Some(200)),
-                ("DEC", Some(200)),
-                ("LL", Some(farthest + 1)),
-                ("LL", Some(-1)),
-                ("APL", Some(1)),
-                ("HO", Some(0)),
-                ("EN", None),
-            ]
-        );
+        let own: Vec<_> =
+            commands(&setup).into_iter().filter(|c| c.0 == node).map(|(_, name, value)| (name, value)).collect();
+        let limits = [("LL", Some(farthest + 1)), ("LL", Some(-1)), ("APL", Some(1))];
+        assert_eq!(own[..4], [("DI", None), ("ANSW", Some(2)), ("ENCRES", Some(2048)), ("HO", Some(0))]);
+        assert_eq!(own[4..], limits);
     }
-    // Every step of the track: targets of all nodes in order, then their starts.
     let (_, _, rows) = tracks(&text(&design, "tracks.csv"));
-    let steps = &commands[22..];
-    assert_eq!(steps.len(), 4 * rows.len());
-    for (step, row) in steps.chunks(4).zip(&rows) {
-        let target = |i: usize| row[2 + 2 * i].parse().ok();
-        assert_eq!(step, [(1, "LA", target(0)), (2, "LA", target(1)), (1, "M", None), (2, "M", None)]);
+    let motion = text(&design, "controller-ascii-motion.txt");
+    let motion = commands(&motion);
+    let on = |node| [(node, "AC", Some(30_000)), (node, "DEC", Some(30_000)), (node, "EN", None)];
+    assert_eq!(motion[..6], [on(1), on(2)].concat());
+    // Every step: the speed and the target of its end for all nodes in order, then their starts.
+    let steps = &motion[6..];
+    assert_eq!(steps.len(), 6 * (rows.len() - 1));
+    for (step, pair) in steps.chunks(6).zip(rows.windows(2)) {
+        let at = |row: &[String], node: usize| row[2 * node].parse::<i64>().expect("counts");
+        for node in [1, 2] {
+            let [speed, target] = [step[2 * node - 2], step[2 * node - 1]];
+            let seconds: f64 = pair[1][0].parse::<f64>().expect("a time") - pair[0][0].parse::<f64>().expect("a time");
+            let needed = 60.0 * (at(&pair[1], node) - at(&pair[0], node)).abs() as f64 / 2048.0 / seconds;
+            assert!(
+                (speed.0, speed.1) == (node, "SP")
+                    && (needed - 0.1..needed + 1.1).contains(&(speed.2.expect("rpm") as f64))
+                    || speed.2 == Some(1)
+            );
+            assert_eq!(target, (node, "LA", Some(at(&pair[1], node))));
+        }
+        assert_eq!(step[4..], [(1, "M", None), (2, "M", None)]);
+    }
+    let stop = text(&design, "controller-ascii-stop.txt");
+    let stop = commands(&stop);
+    assert!(stop.contains(&(1, "LA", Some(0))) && stop.contains(&(2, "LA", Some(0))));
+    assert_eq!(stop[stop.len() - 2..], [(1, "DI", None), (2, "DI", None)]);
+    for sent_again in [&motion, &stop] {
+        assert!(sent_again.iter().all(|c| c.1 != "HO"), "zero is set once");
+    }
+}
+
+/// How a drive of the classic family follows its commands: a trapezoid of speed with SP, AC and DEC, planned anew at every M. Written
+/// apart from the tool's own simulation. Returns for each node the largest distance to the track and the largest position, counts.
+fn followed(motion: &str, rows: &[Vec<String>], nodes: usize) -> Vec<(f64, f64)> {
+    let resolution = 2048.0;
+    let at = |row: usize, column: usize| rows[row][column].parse::<f64>().expect("a figure");
+    (1..=nodes)
+        .map(|node| {
+            let (mut x, mut v) = (0.0_f64, 0.0_f64);
+            let (mut speed, mut acceleration, mut loaded) = (0.0, 0.0, 0.0);
+            let (mut lag, mut highest, mut step) = (0.0_f64, 0.0_f64, 0);
+            for (_, name, value) in commands(motion).into_iter().filter(|c| c.0 == node) {
+                let value = value.unwrap_or(0) as f64;
+                match name {
+                    "SP" => speed = value / 60.0 * resolution,
+                    "AC" | "DEC" => acceleration = value * resolution,
+                    "LA" => loaded = value,
+                    "M" => {
+                        let next = (step + 1).min(rows.len() - 1);
+                        let (from, to) = (at(step, 2 * node), at(next, 2 * node));
+                        let (begin, end) = (at(step, 0), at(next, 0));
+                        let ticks = ((end - begin) / 1e-4).ceil().max(1.0);
+                        let dt = (end - begin) / ticks;
+                        for k in 0..ticks as usize {
+                            let rest: f64 = loaded - x;
+                            let want = rest.signum()
+                                * speed.min((2.0 * acceleration * rest.abs()).sqrt()).min(rest.abs() / dt.max(1e-9));
+                            v += (want - v).clamp(-acceleration * dt, acceleration * dt);
+                            x += v * dt;
+                            let part = (k + 1) as f64 / ticks;
+                            lag = lag.max((x - (from + (to - from) * part)).abs());
+                            highest = highest.max(x);
+                        }
+                        step = next;
+                    }
+                    _ => {}
+                }
+            }
+            (lag, highest)
+        })
+        .collect()
+}
+
+#[test]
+fn a_drive_that_plays_the_motion_stays_on_its_track_however_often_it_is_sent() {
+    for bundled in plushwright::design::bundled::ALL {
+        let design = bundled.design().expect("a sound design");
+        let options = Options { too_fast: TooFast::Stretch };
+        let (files, _) = blueprint(&design, &options).expect("a blueprint");
+        let read = |name: &str| {
+            let file = files.iter().find(|f| f.name == name).expect(name);
+            String::from_utf8(file.bytes.clone()).expect("text")
+        };
+        let (_, _, rows) = tracks(&read("tracks.csv"));
+        let motion = read("controller-ascii-motion.txt");
+        let counts_per_mm =
+            4.0 * 512.0 * design.controller.gear_ratio / (2.0 * PI * design.fabrication.spool_radius_mm);
+        for (winch, (lag, highest)) in followed(&motion, &rows, design.networks.len()).into_iter().enumerate() {
+            let most = rows.iter().map(|row| row[2 + 2 * winch].parse::<f64>().expect("counts")).fold(0.0, f64::max);
+            let least_mm = f64::max(1.0, 0.02 * most / counts_per_mm);
+            assert!(lag / counts_per_mm <= least_mm, "{}: {:.2} mm", bundled.name, lag / counts_per_mm);
+            assert!(highest <= most + 0.5, "{}: beyond the track", bundled.name);
+            // The limits that were set up hold whatever is sent.
+            let limits = commands(&read("controller-ascii-setup.txt"))
+                .into_iter()
+                .filter(|c| c.0 == winch + 1 && c.1 == "LL")
+                .map(|c| c.2)
+                .collect::<Vec<_>>();
+            assert_eq!(limits, [Some(most as i64 + 1), Some(-1)]);
+        }
     }
 }
 
@@ -327,7 +413,7 @@ fn what_cannot_be_made_is_refused() {
     let fails = |spoil: &dyn Fn(&mut Design)| {
         let mut design = rigged();
         spoil(&mut design);
-        blueprint(&design).map(drop).expect_err("refused")
+        blueprint(&design, &Options::default()).map(drop).expect_err("refused")
     };
     let key = |time_s, mm| Keyframe { time_s, activations_mm: vec![mm; 2], pose: None, easing: Easing::Linear };
     let none = fails(&|d| {
@@ -360,7 +446,7 @@ fn listing(dir: &Path) -> Vec<String> {
 fn the_manifest_lists_every_other_file() {
     let parent = tempfile::tempdir().expect("a folder");
     let dir = parent.path().join("new/blueprint");
-    let manifest = export(&rigged(), &dir).expect("exported");
+    let manifest = export(&rigged(), &dir, &Options::default()).expect("exported");
     let json: serde_json::Value =
         serde_json::from_slice(&fs::read(dir.join("manifest.json")).expect("a manifest")).expect("JSON");
     assert_eq!(serde_json::from_value::<Manifest>(json.clone()).expect("a manifest"), manifest);
@@ -375,7 +461,7 @@ fn the_manifest_lists_every_other_file() {
     }
     listed.sort();
     assert_eq!(listing(&dir), listed);
-    for name in ["pattern.svg", "routing.svg", "routing.csv", "tracks.csv", "controller-ascii.txt"] {
+    for name in ["pattern.svg", "routing.svg", "routing.csv", "tracks.csv", "controller-ascii-motion.txt"] {
         assert!(listed.contains(&name.to_string()), "{name} is missing");
     }
     // The check value of the SHA-256 standard (FIPS 180-2, "abc").
@@ -389,32 +475,32 @@ fn the_folder_appears_whole_or_not_at_all() {
     let dir = parent.path().join("blueprint");
     let mut design = rigged();
     design.networks[0].tendons[0].routing = vec![10, 10];
-    assert!(export(&design, &dir).is_err());
+    assert!(export(&design, &dir, &Options::default()).is_err());
     assert!(listing(parent.path()).is_empty(), "a refused design leaves nothing");
 
     let design = rigged();
-    export(&design, &dir).expect("exported");
+    export(&design, &dir, &Options::default()).expect("exported");
     let first = fs::read(dir.join("tracks.csv")).expect("tracks");
     let mut slower = design.clone();
     slower.controller.track_rate_hz = 10.0;
-    export(&slower, &dir).expect("an earlier export is replaced");
+    export(&slower, &dir, &Options::default()).expect("an earlier export is replaced");
     assert_ne!(fs::read(dir.join("tracks.csv")).expect("tracks"), first);
-    export(&design, &dir).expect("and again");
+    export(&design, &dir, &Options::default()).expect("and again");
     assert_eq!(fs::read(dir.join("tracks.csv")).expect("tracks"), first, "the same design gives the same bytes");
     assert_eq!(listing(parent.path()), ["blueprint"]);
 
     fs::write(dir.join("my notes.txt"), "mine").expect("written");
-    let refused = export(&design, &dir).expect_err("somebody's file is in it");
+    let refused = export(&design, &dir, &Options::default()).expect_err("somebody's file is in it");
     assert!(matches!(&refused, ExportError::NotOurs { found, .. } if found == "my notes.txt"), "{refused}");
     assert_eq!(fs::read_to_string(dir.join("my notes.txt")).expect("still there"), "mine");
 
     let other = parent.path().join("other");
     fs::create_dir(&other).expect("a folder");
-    export(&design, &other).expect("an empty folder is fine");
+    export(&design, &other, &Options::default()).expect("an empty folder is fine");
     let file = parent.path().join("file");
     fs::write(&file, "text").expect("written");
-    assert!(export(&design, &file).is_err_and(|e| e.is_input()));
-    assert!(export(&design, &file.join("below")).is_err());
+    assert!(export(&design, &file, &Options::default()).is_err_and(|e| e.is_input()));
+    assert!(export(&design, &file.join("below"), &Options::default()).is_err());
     assert_eq!(listing(parent.path()), ["blueprint", "file", "other"]);
 }
 
@@ -465,7 +551,7 @@ fn the_bundled_outlines_make_good_patterns() {
         let opening = (last[0] - first[0]).hypot(last[1] - first[1]);
         assert!((49.0..50.001).contains(&opening), "{name}: the gap's ends are {opening} mm apart");
         if let Ok(dir) = std::env::var("PLUSHWRIGHT_KEEP_BLUEPRINTS") {
-            export(&design, &Path::new(&dir).join(name)).expect("exported");
+            export(&design, &Path::new(&dir).join(name), &Options::default()).expect("exported");
         }
     }
 }

@@ -3,7 +3,7 @@
 //! The suite tries a part. `scripts/hostile` tries all, through the built program.
 
 use plushwright::design::file::{self, TextError};
-use plushwright::fabrication::{ExportError, blueprint};
+use plushwright::fabrication::{ExportError, Options, blueprint};
 use std::fs;
 use std::ops::Range;
 use std::path::Path;
@@ -82,7 +82,7 @@ fn what_no_field_takes_is_refused_by_name_and_the_rest_makes_a_finite_blueprint(
             for value in UNUSUAL.into_iter().filter(|_| k % 4 == 0) {
                 let Ok(design) = file::parse(&replaced(&text, place, value)) else { continue };
                 let started = Instant::now();
-                match blueprint(&design) {
+                match blueprint(&design, &Options::default()) {
                     Ok((files, _)) => files.iter().for_each(|file| {
                         let written = String::from_utf8_lossy(&file.bytes);
                         assert!(is_finite(&written), "{name}, {value} in {}: {}", around(&text, place), file.name);

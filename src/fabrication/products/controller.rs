@@ -1,19 +1,26 @@
-//! The program for motor controllers of the classic ASCII family.
+//! The programs for motor controllers of the classic ASCII family.
 
 use crate::design::Design;
 use crate::fabrication::error::ExportError;
 use crate::fabrication::product::{Content, Part, Product, Source};
-use crate::motion::{Trajectory, classic};
+use crate::motion::{Note, Program, Trajectory, classic};
 
-/// Time on the line for one winch's step (target, start and their replies) at the factory's 9600 baud, s.
-const STEP_ON_LINE_S: f64 = 0.015;
+/// Bits on the line at the factory's setting, 1/s: ten for each byte.
+const BAUD: f64 = 9600.0;
+const BITS_A_BYTE: f64 = 10.0;
+/// Bytes of a reply, `OK` and its end.
+const REPLY_BYTES: usize = 4;
 
-/// The program `controller-ascii`.
+/// The programs `controller-ascii-setup`, `-motion` and `-stop`.
 pub(super) fn make(source: &Source<'_>) -> Result<Part, ExportError> {
-    let program = classic::program(source.design, source.trajectory)?;
-    let products = vec![Product::new("controller-ascii", Content::Program(program))];
-    let remarks = remarks(source.design, source.trajectory);
-    Ok(Part { products, guide: guide(source.design, source.trajectory), remarks })
+    let programs = classic::programs(source.design, source.trajectory)?;
+    let remarks = remarks(source.design, source.trajectory, &programs.motion);
+    let guide = guide(source.design, source.trajectory);
+    let classic::Programs { setup, motion, stop } = programs;
+    let parts = [("setup", setup), ("motion", motion), ("stop", stop)];
+    let products =
+        parts.map(|(part, program)| Product::new(format!("controller-ascii-{part}"), Content::Program(program)));
+    Ok(Part { products: products.into(), guide, remarks })
 }
 
 fn guide(design: &Design, trajectory: &Trajectory) -> String {
@@ -23,42 +30,59 @@ fn guide(design: &Design, trajectory: &Trajectory) -> String {
     format!(
         "  For Faulhaber controllers of the classic ASCII family (MCDC, MCBL 300x RS), 8N1, 9600 baud from the factory,
   Xon/Xoff, with node numbers set beforehand:
-{nodes}  Put the plushie at rest, cables just slack: HO0 makes this the zero position. Send one command at a time (each ends
-  with a carriage return) and await its reply. Every step is one LA and one M for each node; begin a step every
-  {interval} s. Limits of travel, {speed} rpm and {acceleration} rev/s^2 are set at the start; check them against your
-  motor and gear before you let it pull.
+{nodes}  Send one command at a time (each ends with a carriage return) and await its reply.
+  setup: once, with the plushie at rest and its cables just slack. It makes this the zero position and sets the limits of travel;
+  never send it while cable is wound. motion: as often as you like, from the rest position. Step k begins at time_s of row k of
+  tracks.csv with SP and LA for every node, then M for every node: each is the position of the next row, so that the drives follow
+  without trailing. stop: back to zero; wait {wait} s before its last commands (DI), which switch the motors off. Send it after the
+  last motion, and after one that was broken off.
+  At most {speed} rpm and {acceleration} rev/s^2 are asked of the motors; AC and DEC are set to their largest value, believed to be 30000, so that
+  the drives do not trail. Set current limits (LPC, LCC) for your motor and gear before you let it pull: this file knows neither.
 ",
         nodes = nodes.concat(),
-        interval = 1.0 / motor.track_rate_hz,
+        wait = classic::stopping_s(design, trajectory),
         speed = motor.speed_rpm,
         acceleration = motor.acceleration,
     )
 }
 
-/// Remarks where the motor settings cannot follow the trajectory.
-fn remarks(design: &Design, trajectory: &Trajectory) -> Vec<String> {
-    let motor = &design.controller;
-    let mut remarks = Vec::new();
-    for (i, winch) in trajectory.winches.iter().enumerate() {
-        let peak = trajectory.peak_rpm(i, motor.encoder_lines);
-        if peak > f64::from(motor.speed_rpm) {
-            remarks.push(format!(
-                "Winch {winch:?} needs {peak:.0} rpm at its fastest, more than the {} rpm set: it will lag behind.",
-                motor.speed_rpm
-            ));
-        }
-    }
-    let on_line = STEP_ON_LINE_S * trajectory.winches.len() as f64;
-    if trajectory.times_s.len() > 1 && on_line * motor.track_rate_hz > 1.0 {
+/// What became of the animation, and where the line is too slow for it.
+fn remarks(design: &Design, trajectory: &Trajectory, motion: &Program) -> Vec<String> {
+    let mut remarks: Vec<String> = trajectory.notes.iter().map(worded).collect();
+    let slow = motion.steps().zip(trajectory.times_s.windows(2)).filter_map(|((_, commands), times)| {
+        let bytes: usize = commands.map(|command| command.len() + classic::TERMINATOR.len() + REPLY_BYTES).sum();
+        let on_line = BITS_A_BYTE * bytes as f64 / BAUD;
+        (on_line > times[1] - times[0]).then_some((on_line, times[1] - times[0]))
+    });
+    if let Some((on_line, step)) = slow.max_by(|a, b| a.0.total_cmp(&b.0)) {
         remarks.push(format!(
-            "At 9600 baud a step takes about {:.0} ms on the line, longer than the {:.0} ms between steps: set a higher baud \
-             rate, or a lower track rate.",
+            "At 9600 baud a step takes up to {:.0} ms on the line with its replies, longer than the {:.0} ms of the step: set a higher \
+             baud rate, or a lower track rate.",
             1e3 * on_line,
-            1e3 / motor.track_rate_hz
+            1e3 * step
         ));
     }
     if design.keyframes.is_empty() {
         remarks.push("The design has no keyframes: its tracks hold the rest state alone.".into());
     }
     remarks
+}
+
+/// A sentence of what happened to the animation on its way to the motors.
+fn worded(note: &Note) -> String {
+    match note {
+        Note::Slack { winch, time_s, length_mm } => format!(
+            "The keyframe at {time_s} s lets winch {winch:?} out by {:.1} mm beyond its just-slack length: a winch cannot push, it stops at 0.",
+            -length_mm
+        ),
+        Note::Lead { lead_s } => format!(
+            "The animation does not begin at rest: the winches take {lead_s:.2} s to get to its first keyframe."
+        ),
+        Note::Stretched { from_s, to_s, now_s } => format!(
+            "From {from_s} s to {to_s} s the motors would have been too slow: that section takes {now_s:.2} s now, and what follows is later."
+        ),
+        Note::Rounded { winch, from_s, to_s } => format!(
+            "From {from_s} s to {to_s} s winch {winch:?} moves as evenly as its motor can, not as the keyframe's easing would have it."
+        ),
+    }
 }
