@@ -3,7 +3,7 @@
 /// Digits shown in the text table; JSON and CSV have them all.
 const SHOWN_DIGITS: i32 = 3;
 
-/// A number with [`SHOWN_DIGITS`] digits: plain between 0.001 and a million, else with an exponent.
+/// A number with `SHOWN_DIGITS` digits: plain between 0.001 and a million, else with an exponent.
 pub fn significant(value: f64) -> String {
     if !value.is_finite() {
         return "-".into();

@@ -44,7 +44,7 @@ pub struct Measured {
     pub analysis: f64,
     pub factorization: Summary,
     pub solve: f64,
-    /// [`COLUMNS`] right-hand sides together.
+    /// `COLUMNS` right-hand sides together.
     pub solve_many: f64,
     pub factor_nonzeros: usize,
 }
@@ -194,7 +194,7 @@ impl Unit {
         Ok(Self { cholesky: cholesky.ok_or_else(none)?, matrix })
     }
 
-    /// The time of one factorisation, ms: the median of [`UNIT_ROUNDS`].
+    /// The time of one factorisation, ms: the median of `UNIT_ROUNDS`.
     pub fn time(&mut self) -> f64 {
         let once = |_| {
             let clock = Instant::now();

@@ -2,7 +2,7 @@
 //!
 //! A scene is a bundled shape or one that is made from the seed ([`silhouettes`]), at rest, and one to six targets 8 to 45 % of the body
 //! length away. Three answers to it are compared with the best pose known: that of `soft_ik`'s default method, what a
-//! drag shows after [`EARLY`] factorisations, and what it shows after [`PATIENT`] frames in which the hand rests. Best known is the
+//! drag shows after `EARLY` factorisations, and what it shows after `PATIENT` frames in which the hand rests. Best known is the
 //! best of all that many starts lead to, the paper's gradient method among them.
 
 use super::drags::{places_on, points, positions, towards};

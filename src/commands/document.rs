@@ -39,6 +39,10 @@ enum Place {
     Away(Box<Design>, bool),
 }
 
+/// Reads a design.
+///
+/// # Errors
+/// A file that cannot be read or is no sound design; [`CommandError`] names it.
 pub fn load(path: &Path) -> Result<Design, CommandError> {
     file::read(path).map_err(unread)
 }

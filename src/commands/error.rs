@@ -61,7 +61,10 @@ impl CommandError {
     }
 }
 
-/// [`CommandError::Cancelled`] once an interrupt was seen.
+/// Ends a command once an interrupt was seen.
+///
+/// # Errors
+/// [`CommandError::Cancelled`].
 pub fn check_cancel(cancel: &AtomicBool) -> Result<(), CommandError> {
     if cancel.load(Ordering::SeqCst) { Err(CommandError::Cancelled) } else { Ok(()) }
 }
@@ -76,6 +79,9 @@ pub enum ParseStop {
 
 impl ParseStop {
     /// Prints help or version; a wrong command line becomes its error.
+    ///
+    /// # Errors
+    /// A wrong command line is [`CommandError::Usage`]; help and version are none.
     pub fn print(self) -> Result<(), CommandError> {
         match self {
             Self::Information(text) => text.print().map_err(CommandError::Print),

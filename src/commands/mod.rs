@@ -76,11 +76,17 @@ pub enum Command {
 }
 
 /// Reads the command line; help and version come back as [`ParseStop::Information`].
+///
+/// # Errors
+/// [`ParseStop`] with help, version, or what is wrong.
 pub fn parse(args: impl IntoIterator<Item = OsString>) -> Result<Cli, ParseStop> {
     Cli::try_parse_from(args).map_err(ParseStop::from)
 }
 
 /// Runs one command. Figures go to `out`; a raised `cancel` ends it with [`CommandError::Cancelled`].
+///
+/// # Errors
+/// What the command says; its exit code is [`CommandError::code`].
 pub fn run(command: &Command, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
     match command {
         Command::Demo(command) => command.run(out, cancel),

@@ -178,7 +178,7 @@ pub fn save(design: &Design, from: Option<&Path>, to: &Path, seen: Option<&Stamp
     write_with(to, carried.design.as_ref().unwrap_or(design), carried.texture)
 }
 
-/// [`write`] together with another file, both or neither.
+/// [`fn@write`] together with another file, both or neither.
 ///
 /// # Errors
 /// As [`write()`].

@@ -1,6 +1,6 @@
 //! The document: a plushie from outline to controller settings.
 //!
-//! A [`Design`] is plain data. It is validated on reading ([`Design::validate`]), written atomically ([`file`]), changed by
+//! A [`Design`] is plain data. It is validated on reading ([`Design::validate`]), written atomically ([`mod@file`]), changed by
 //! the functions of [`edit`], and held by a [`history::History`], which keeps shared snapshots for undo. [`animation`]
 //! reads winch activations off the timeline. Lengths are mm, stiffnesses N/mm.
 

@@ -11,7 +11,7 @@ pub struct Shape {
     pub nodes: Vec<Point>,
     /// Cable wound by each winch, mm, in the order of the design's networks; 0 is the just-slack rest state.
     pub activations_mm: Vec<f64>,
-    /// Contraction of each fibre, mm, in the order of [`Design::fiber_routings`]; empty for the realizable plushie.
+    /// Contraction of each fibre, mm, in the order of `Design::fiber_routings`; empty for the realizable plushie.
     pub fiber_contractions_mm: Vec<f64>,
     /// Tension of each fibre, N; empty for the realizable plushie.
     pub fiber_tensions: Vec<f64>,

@@ -33,7 +33,8 @@ pub struct Body {
 impl Body {
     /// A body with rest positions `nodes`. `stiffness` is a factor per triangle (all one if absent).
     ///
-    /// Returns the index of the first triangle that is clockwise, degenerate or not finite as the error.
+    /// # Errors
+    /// The index of the first triangle that is clockwise, degenerate or not finite.
     pub fn new(
         nodes: &[[f64; 2]],
         triangles: &[[usize; 3]],

@@ -1,7 +1,7 @@
 //! Sparse Cholesky factorisation. Only this file and [`super::indefinite`] name faer.
 //!
 //! Symbolic analysis (approximate minimum degree on the fixed pattern) once per topology; numeric factorisation and
-//! solves (our own, [`super::panels`]) without allocation afterwards. Sequential, so that the same input gives the same bits.
+//! solves (our own, `super::panels`) without allocation afterwards. Sequential, so that the same input gives the same bits.
 
 use super::panels::{Memory, Panels};
 use super::pattern::Pattern;

@@ -35,7 +35,7 @@ pub trait Hyperelastic: Send + Sync {
         let _ = limit;
         None
     }
-    /// `mu` and `kappa`, where it is the neo-Hookean material: its triangles are worked on many at a time ([`super::triangles`]).
+    /// `mu` and `kappa`, where it is the neo-Hookean material: its triangles are worked on many at a time (`super::triangles`).
     fn neo_hookean(&self) -> Option<Moduli> {
         None
     }

@@ -61,6 +61,9 @@ pub struct Loose {
 
 impl Model {
     /// Compiles the terms: pattern, symbolic factorisation, free rigid motions.
+    ///
+    /// # Errors
+    /// [`ModelError::Memory`] for a model whose factor does not fit.
     pub fn new(
         nodes: &[[f64; 2]],
         body: Body,

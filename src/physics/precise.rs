@@ -21,7 +21,7 @@ const WORTHWHILE: f64 = 0.7;
 /// One that leaves more than this part asks for a new factor.
 const FAST: f64 = 0.01;
 
-/// Forces of an equilibrium, in balance to [`BALANCED`] or as far as refinement went.
+/// Forces of an equilibrium, in balance to `BALANCED` or as far as refinement went.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Forces {
     pub tensions: Vec<f64>,

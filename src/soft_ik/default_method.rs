@@ -2,7 +2,7 @@
 //!
 //! Fibres (every winch one element) in a drag: the all-at-once method in tension space, whose objective is the drag's.
 //! Else, where there are many, and for many winches of any kind: Newton's method in contraction space from several starts
-//! ([`super::fibers`]). Few winches leave real local minima: a look at the states that winding reaches ([`winding`]), and
+//! (`super::fibers`). Few winches leave real local minima: a look at the states that winding reaches ([`winding`]), and
 //! Newton's method at the end.
 
 use super::newton::Newton;

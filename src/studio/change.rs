@@ -106,6 +106,10 @@ impl Change {
         }
     }
 
+    /// Makes the change.
+    ///
+    /// # Errors
+    /// What the document refuses; it is unchanged then.
     pub fn apply(self, design: &mut Design) -> Result<Made, EditError> {
         Ok(match self {
             Self::AddPose => Made::Pose(add_pose(design)?),

@@ -74,6 +74,9 @@ pub enum StudioError {
 }
 
 /// Opens the window and returns when it is closed. Without a design the first example is shown.
+///
+/// # Errors
+/// [`StudioError`] where there is no display or no graphics adapter.
 pub fn run(design: Option<Design>, path: Option<PathBuf>) -> Result<(), StudioError> {
     if !has_display() {
         return Err(StudioError::NoDisplay);

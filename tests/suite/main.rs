@@ -7,6 +7,7 @@ mod circles;
 mod cli;
 mod document;
 mod drag;
+mod examples;
 mod export;
 mod extremes;
 #[cfg(unix)]

@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | [`row`] | what a row is, its thresholds, and how it is judged |
 //! | [`measure`] | runs a case through the door of a problem file |
-//! | [`reference`] | answers of twice the digits, by formulas of their own |
+//! | [`mod@reference`] | answers of twice the digits, by formulas of their own |
 //! | [`closed`] | closed forms |
 //! | [`scenes`] | the bodies |
 //! | [`materials`], [`elements`], [`meshes`], [`pins`], [`targets`] | the rows |

@@ -18,7 +18,7 @@ pub trait OutlineReader: Sync {
     /// Options of [`Import`] that mean something for this kind, beside those of the clean-up.
     fn options(&self) -> &'static [ReadingOption];
 
-    /// The clean outline of a file, see [`super::finish::finish`].
+    /// The clean outline of a file, see `super::finish::finish`.
     ///
     /// # Errors
     /// See [`OutlineError`]. Never panics, and ends within some seconds, whatever the bytes are.

@@ -1,10 +1,10 @@
 //! Newton's method in the contractions: the question's own `O`, with true bounds, for any number of fibres.
 //!
-//! Each iteration linearises the equilibrium at `(x, beta)` ([`saddle`]), minimises the quadratic model of `O` within the bounds
-//! ([`quadratic`]), and settles the body at the activations that it names; `O` never rises. Where the exact reduced Hessian is not
+//! Each iteration linearises the equilibrium at `(x, beta)` (`saddle`), minimises the quadratic model of `O` within the bounds
+//! (`quadratic`), and settles the body at the activations that it names; `O` never rises. Where the exact reduced Hessian is not
 //! positive definite, Gauss-Newton takes its place. Damping (Levenberg, Marquardt) follows the gain ratio.
 //!
-//! It is a local method: what it finds depends on where it starts ([`super::fibers`]). An element that is slack feels
+//! It is a local method: what it finds depends on where it starts (`super::fibers`). An element that is slack feels
 //! nothing but the regulariser.
 
 mod border;

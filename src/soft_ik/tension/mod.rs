@@ -8,7 +8,7 @@
 //! 3. With `G` the rows `dl/dx` of free elements: `J = -Y^T G^T`, `c = -G v`, `r_0 = S (x - u) - x'`.
 //! 4. The step in tension minimises `1/2 |r_0 + J dtau|^2 + 1/2 (z dtau)^2 + c dtau + rho/2 |tau|^2 + nu/2 |dtau|^2` with every
 //!    tension between those at its bounds: a convex dual of the size of the targets, solved by a semismooth Newton method.
-//!    `z` is what the last step has shown of the curvature that `J^T J` leaves out ([`secant`]).
+//!    `z` is what the last step has shown of the curvature that `J^T J` leaves out (`secant`).
 //! 5. `dx = -u - H^-1 G^T dtau` is a Newton step of the statics under the new tensions, capped and line-searched on
 //!    `E(.; tau)`.
 //! 6. Elements that reach a bound are held there as springs. A held element stays part of step 4, in the same units: with

@@ -5,12 +5,12 @@
 //! wound from rest enters one. So what counts is `O` on the *wound states*: the equilibria on the way along straight lines from
 //! rest, `beta(t) = beta_0 + t (beta - beta_0)`, `t` from 0 to 1, slowly. [`Search`] finds the best of them:
 //!
-//! 1. **Walk** ([`walk`]): continuation along lines to the edge of the winches' range ([`rays`]), in steps that the change of pose
+//! 1. **Walk** (`walk`): continuation along lines to the edge of the winches' range (`rays`), in steps that the change of pose
 //!    bounds. One winch has one line each way, and the walk is over when it has covered the range; two and three have lines
 //!    through a lattice on the faces of the box of their ranges, more have lines spread over it.
 //! 2. **Polish**: from the bottom of every valley that no lower one lies next to, the lowest first, Gauss-Newton in the
 //!    activations; no more once several end where others have.
-//! 3. **Prove** ([`proof`]): what is found is wound directly from rest, all winches in proportion, in ever more steps, until the
+//! 3. **Prove** (`proof`): what is found is wound directly from rest, all winches in proportion, in ever more steps, until the
 //!    end does not depend on their number. Where it ends elsewhere, the best state that can be proved between the valley on the
 //!    line and what was found is taken. What winding does not enter is never the answer.
 //!

@@ -49,6 +49,7 @@ fn strip(line: &[Point], width: impl Fn(f64) -> f64) -> Vec<Point> {
 }
 
 /// The `k`-th nasty outline of a seed, with its name; about 250 mm.
+#[expect(clippy::too_many_lines, reason = "a table of a dozen shapes, each a few lines")]
 pub fn nasty(k: usize, seed: u64) -> (String, Outline) {
     let mut random = Random::new(seed.wrapping_mul(31).wrapping_add(k as u64 + 1));
     let r = &mut random;
