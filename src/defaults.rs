@@ -58,6 +58,27 @@ pub const SEAM_ALLOWANCE_MM: f64 = 8.0;
 pub const TENDON_HOLE_MM: f64 = 1.5;
 /// Opening left in the seam to turn and stuff the body, mm.
 pub const TURNING_GAP_MM: f64 = 50.0;
+/// Least distance from a hole to the seam, mm: nearer, the needle meets the stitches. For this and the rules below: felt of 2 to 3 mm, a hand, a
+/// darning needle; unconfirmed.
+pub const HOLE_TO_SEAM_MM: f64 = 5.0;
+/// Least distance between two holes, mm.
+pub const HOLE_TO_HOLE_MM: f64 = 8.0;
+/// Most holes of a cable between its winch and its end.
+pub const MOST_HOLES: usize = 8;
+/// Largest turn of a cable at one hole, degrees.
+pub const TURN_DEGREES: f64 = 75.0;
+/// Largest sum of all turns of a cable, degrees: at a friction of 0.2 that leaves 0.28 of the tension.
+pub const TURNING_DEGREES: f64 = 360.0;
+/// Cables nearer than this run along each other, mm.
+pub const BESIDE_MM: f64 = 3.0;
+/// Longest stretch of a cable along another one, mm.
+pub const ALONG_MM: f64 = 10.0;
+/// Length from the winch on which cables may run together, mm.
+pub const LEAD_MM: f64 = 20.0;
+/// Diameter of a winch's housing, mm: a small gearmotor and its spool.
+pub const HOUSING_MM: f64 = 24.0;
+/// Least space between two housings, mm.
+pub const BETWEEN_HOUSINGS_MM: f64 = 5.0;
 /// Radius of the printed spool's core, mm.
 pub const SPOOL_RADIUS_MM: f64 = 10.0;
 /// Encoder lines per motor revolution (counts are four times as many). Faulhaber IE2-512.

@@ -1,5 +1,6 @@
-//! The rules of sewing, as settings of a design, and what a breach of one says.
+//! The rules of sewing, and what a breach of one says.
 
+use crate::defaults;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -30,19 +31,18 @@ pub struct Rules {
 }
 
 impl Default for Rules {
-    /// Felt of 2 to 3 mm, a hand and a darning needle.
     fn default() -> Self {
         Self {
-            hole_to_seam_mm: 5.0,
-            hole_to_hole_mm: 8.0,
-            most_holes: 8,
-            turn_degrees: 75.0,
-            turning_degrees: 360.0,
-            beside_mm: 3.0,
-            along_mm: 10.0,
-            lead_mm: 20.0,
-            housing_mm: 24.0,
-            between_housings_mm: 5.0,
+            hole_to_seam_mm: defaults::HOLE_TO_SEAM_MM,
+            hole_to_hole_mm: defaults::HOLE_TO_HOLE_MM,
+            most_holes: defaults::MOST_HOLES,
+            turn_degrees: defaults::TURN_DEGREES,
+            turning_degrees: defaults::TURNING_DEGREES,
+            beside_mm: defaults::BESIDE_MM,
+            along_mm: defaults::ALONG_MM,
+            lead_mm: defaults::LEAD_MM,
+            housing_mm: defaults::HOUSING_MM,
+            between_housings_mm: defaults::BETWEEN_HOUSINGS_MM,
         }
     }
 }
