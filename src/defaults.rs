@@ -46,6 +46,8 @@ pub const JOIN_LEN: usize = 3;
 pub const TENDON_NUM: usize = 2;
 /// Trade between a large mean and a small spread of the tendons' net contractions (phi of Algorithm 2).
 pub const PHI: f64 = 0.5;
+/// Rounds of the joint search for winches: half a minute of one core for three poses and 414 fibres, after which gains are rare.
+pub const RIG_ROUNDS: usize = 60;
 
 /// Muscle fibres of a new design, unless its file brings its own mesh. The paper's designs have 276 to 571. A new design has no
 /// default height: it is as large as its file says (plain numbers of an SVG and pixels measure 1/96 inch, those of a DXF or OBJ

@@ -9,6 +9,7 @@
 //! | --- | --- |
 //! | [`defaults`] | every default figure of the tool, with unit, source or reason |
 //! | [`random`] | repeatable random numbers |
+//! | [`threads`] | work spread over all processors, results in order |
 //! | [`files`] | the one way to write files and folders; what they hold before and after |
 //! | [`outline`] | a silhouette: reading, clean-up, polygons |
 //! | [`mesh`] | outline to triangle mesh, points of the body, quality |
@@ -71,3 +72,4 @@ pub mod sewing;
 pub mod soft_ik;
 #[cfg(feature = "studio")]
 pub mod studio;
+pub mod threads;

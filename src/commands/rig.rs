@@ -3,6 +3,7 @@
 use super::error::CommandError;
 use super::output::say;
 use super::{document, words};
+use crate::defaults;
 use crate::files::shown;
 use crate::operations::rig::{self, Error, Options, TendonChoice};
 use crate::operations::{Context, Progress};
@@ -11,9 +12,10 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
-/// Find winches and tendons for all poses: solve, discover, try out, accept
+/// Find winches and tendons for all poses
 ///
-/// Where the design has no keyframes, its poses are laid on the timeline one second apart, with rest at both ends.
+/// All winches are looked for together, within the rules of sewing, and what is told is what `check` says of the design. Where
+/// the design has no keyframes, its poses are laid on the timeline one second apart, with rest at both ends.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: plushwright rig pig.plush -o pig.plush --max-winches 1 --tendons 2")]
 pub struct Rig {
@@ -21,12 +23,27 @@ pub struct Rig {
     pub design: PathBuf,
     #[command(flatten)]
     pub target: document::Target,
-    /// Most winches the design may have in the end
+    /// Most winches that are added
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..=64))]
     pub max_winches: u16,
     /// Tendons of each winch: one number for all, a list winch by winch, or a range to choose from
     #[arg(long, value_name = "N[,N...]|A..B", default_value = "1..4")]
     pub tendons: TendonChoice,
+    /// How networks are looked for: all together, or winch by winch those of Algorithm 2 as they are
+    #[arg(long, value_enum, default_value_t)]
+    pub method: Method,
+    /// Whether networks keep the design's rules of sewing, or none (for studies)
+    #[arg(long, value_enum, default_value_t)]
+    pub rules: Rules,
+    /// Forget the networks that are there, and solve keyframes of poses anew
+    #[arg(long)]
+    pub fresh: bool,
+    /// Rounds of the search; it ends sooner where nothing is gained
+    #[arg(long, value_name = "N", default_value_t = defaults::RIG_ROUNDS as u16, value_parser = clap::value_parser!(u16).range(0..=10_000))]
+    pub rounds: u16,
+    /// Seed of the search: another one may find other networks
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
     /// Fibers that seed a network (SEED_NUM of Algorithm 2) [default: several are tried]
     #[arg(long, value_name = "N")]
     pub seed_num: Option<usize>,
@@ -41,10 +58,45 @@ pub struct Rig {
     pub phi: Option<f64>,
 }
 
+/// How networks are looked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum Method {
+    #[default]
+    Joint,
+    Algorithm2,
+}
+
+impl From<Method> for rig::Method {
+    fn from(method: Method) -> Self {
+        match method {
+            Method::Joint => Self::Joint,
+            Method::Algorithm2 => Self::Algorithm2,
+        }
+    }
+}
+
+/// Which rules networks keep.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum Rules {
+    #[default]
+    Sewing,
+    None,
+}
+
 impl Rig {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
         let (mut design, edit) = self.target.open(&self.design, cancel)?;
+        let given = [("seed-num", self.seed_num.is_some()), ("join-depth", self.join_depth.is_some())];
+        let given = given.into_iter().chain([("join-len", self.join_len.is_some()), ("phi", self.phi.is_some())]);
+        if let Some((name, _)) = given.into_iter().find(|(_, given)| *given && self.method == Method::Joint) {
+            return Err(CommandError::Usage(format!("--{name} is a parameter of --method algorithm2")));
+        }
         let options = Options {
+            method: self.method.into(),
+            rules: self.rules == Rules::Sewing,
+            fresh: self.fresh,
+            rounds: usize::from(self.rounds),
+            seed: self.seed,
             max_winches: usize::from(self.max_winches),
             tendons: self.tendons.clone(),
             seed_num: self.seed_num,
@@ -70,7 +122,7 @@ impl Rig {
 /// Why there is no rig for a design that was read from `path`.
 pub fn failed(path: &Path, error: Error) -> CommandError {
     match error {
-        Error::NoTargets => CommandError::input(path, error),
+        Error::NoTargets | Error::NoModel => CommandError::input(path, error),
         Error::NothingFound => CommandError::NotConverged(error.to_string()),
         Error::Key(_) | Error::Edit(_) => CommandError::Failed(error.to_string()),
         Error::Cancelled(_) => CommandError::Cancelled,

@@ -61,6 +61,18 @@ pub fn progress(step: &Progress) -> String {
                 errors.iter().map(|(name, error)| format!("{name} {:.1} %", 100.0 * error)).collect();
             format!("winch {}: {tendons} tendons; {}", winch + 1, errors.join(", "))
         }
+        Progress::Rig(rigging::Progress::Round { round, rounds, worst, holes }) => {
+            format!(
+                "round {} of {rounds}: worst pose {:.1} % of its error at rest, {holes} holes",
+                round + 1,
+                100.0 * worst
+            )
+        }
+        Progress::Rig(rigging::Progress::Found { winches, tendons, errors }) => {
+            let errors: Vec<String> =
+                errors.iter().map(|(name, error)| format!("{name} {:.2} %", 100.0 * error)).collect();
+            format!("{winches} winches, {tendons} tendons; {}", errors.join(", "))
+        }
     }
 }
 

@@ -5,9 +5,9 @@ use super::{Cancelled, Context, NoSuchPose, Unbalanced, View};
 use crate::design::{Design, Pose};
 use crate::engine::target_error;
 use crate::engine::{Question, Warning};
+use crate::threads::in_order;
 use serde::{Deserialize, Serialize};
 use std::fmt;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// What is checked.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -94,7 +94,7 @@ pub fn run(design: &Design, options: &Options, context: &Context) -> Result<Figu
     let wanted: Vec<&Pose> = design.poses.iter().filter(wanted).collect();
     // A context belongs to one thread; what tells it to stop does not.
     let cancel = context.cancel();
-    let solved = every_pose(&wanted, |pose| pose_figures(design, pose, &Context::new(cancel)));
+    let solved = in_order(&wanted, |pose| pose_figures(design, pose, &Context::new(cancel)));
     let mut figures = Figures {
         name: design.name.clone(),
         fibers: design.fiber_routings().len(),
@@ -112,36 +112,6 @@ pub fn run(design: &Design, options: &Options, context: &Context) -> Result<Figu
         figures.notes.extend(notes);
     }
     Ok(figures)
-}
-
-/// `solve` of every pose, in the order of the poses.
-fn every_pose<T: Send>(poses: &[&Pose], solve: impl Fn(&Pose) -> T + Sync) -> Vec<T> {
-    let threads = std::thread::available_parallelism().map_or(1, |n| n.get()).min(poses.len());
-    if threads <= 1 {
-        return poses.iter().map(|pose| solve(pose)).collect();
-    }
-    let next = AtomicUsize::new(0);
-    let work = || {
-        let mut done = Vec::new();
-        loop {
-            let index = next.fetch_add(1, Ordering::Relaxed);
-            let Some(pose) = poses.get(index) else { return done };
-            done.push((index, solve(pose)));
-        }
-    };
-    let mut done: Vec<(usize, T)> = std::thread::scope(|scope| {
-        let others: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
-        let mut done = work();
-        for other in others {
-            match other.join() {
-                Ok(more) => done.extend(more),
-                Err(panic) => std::panic::resume_unwind(panic),
-            }
-        }
-        done
-    });
-    done.sort_by_key(|(index, _)| *index);
-    done.into_iter().map(|(_, value)| value).collect()
 }
 
 fn pose_figures(design: &Design, pose: &Pose, context: &Context) -> Result<(PoseFigures, Vec<Note>), Cancelled> {
@@ -173,21 +143,6 @@ mod tests {
     use super::*;
     use crate::design::testing;
     use std::sync::atomic::AtomicBool;
-
-    #[test]
-    fn poses_keep_their_order_and_are_solved_once() {
-        let pose = |k: usize| Pose { name: format!("{k}"), ..Pose::default() };
-        for count in [0, 1, 2, 37] {
-            let poses: Vec<Pose> = (0..count).map(pose).collect();
-            let calls = AtomicUsize::new(0);
-            let solved = every_pose(&poses.iter().collect::<Vec<_>>(), |pose| {
-                calls.fetch_add(1, Ordering::Relaxed);
-                pose.name.clone()
-            });
-            assert_eq!(calls.into_inner(), count);
-            assert!(solved.iter().zip(&poses).all(|(name, pose)| *name == pose.name) && solved.len() == count);
-        }
-    }
 
     #[test]
     fn the_poses_asked_for_are_checked_and_others_refused() {

@@ -8,13 +8,15 @@ use crate::mesh::Mesh;
 use crate::motion;
 use crate::rigging::{self, RigError};
 
-pub use crate::rigging::{RigOptions as Options, TendonChoice};
+pub use crate::rigging::{Method, RigOptions as Options, TendonChoice};
 
 /// Why there is no rig.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Error {
     #[error("the design has no pose with targets, so there is nothing to rig for")]
     NoTargets,
+    #[error("the body has no model: a triangle has no area, or the mesh is too large for the memory")]
+    NoModel,
     #[error("no network brings any pose closer to its targets")]
     NothingFound,
     #[error(transparent)]
@@ -39,6 +41,8 @@ pub struct Rigged {
     /// The timeline, where the design had none.
     pub keyframes: Vec<Keyframe>,
     pub notes: Vec<Note>,
+    /// Whether the networks replace those that are there.
+    fresh: bool,
     /// What it was found for.
     mesh: Mesh,
     present: Vec<Network>,
@@ -52,16 +56,53 @@ pub struct Rigged {
 pub fn prepare(design: &Design, options: &Options, context: &mut Context) -> Result<Rigged, Error> {
     let cancel = context.cancel();
     let mut progress = |step| context.tell(&Progress::Rig(step));
-    let mut rigged = rigging::rig(design, options, &mut progress, cancel).map_err(|error| match error {
+    let bare = options.fresh.then(|| without_networks(design));
+    let from = bare.as_ref().unwrap_or(design);
+    let mut rigged = rigging::rig(from, options, &mut progress, cancel).map_err(|error| match error {
         RigError::NoTargets => Error::NoTargets,
+        RigError::NoModel => Error::NoModel,
         RigError::NothingFound => Error::NothingFound,
         RigError::Cancelled => Error::Cancelled(Cancelled),
     })?;
     context.check()?;
-    let notes = if rigged.keyframes.is_empty() { lay_out(&mut rigged, context)? } else { Vec::new() };
-    let networks = rigged.networks.split_off(design.networks.len());
-    let keyframes = if design.keyframes.is_empty() { rigged.keyframes } else { Vec::new() };
-    Ok(Rigged { networks, keyframes, notes, mesh: rigged.mesh, present: design.networks.clone() })
+    let notes = if rigged.keyframes.is_empty() {
+        lay_out(&mut rigged, context)?
+    } else if options.fresh {
+        key_again(&mut rigged, context)?
+    } else {
+        Vec::new()
+    };
+    let networks = rigged.networks.split_off(from.networks.len());
+    let replaced = design.keyframes.is_empty() || options.fresh;
+    let keyframes = if replaced { rigged.keyframes } else { Vec::new() };
+    Ok(Rigged { networks, keyframes, notes, fresh: options.fresh, mesh: rigged.mesh, present: design.networks.clone() })
+}
+
+/// The design before it had winches: its keyframes at rest.
+fn without_networks(design: &Design) -> Design {
+    let mut bare = design.clone();
+    bare.networks.clear();
+    bare.keyframes.iter_mut().for_each(|keyframe| keyframe.activations_mm.clear());
+    bare
+}
+
+/// Solves every keyframe of a pose anew for the present winches; the others are at rest.
+fn key_again(design: &mut Design, context: &Context) -> Result<Vec<Note>, Error> {
+    let mut notes = Vec::new();
+    for keyframe in design.keyframes.clone() {
+        let Keyframe { time_s, pose: Some(pose), easing, .. } = keyframe else { continue };
+        let options = key::Options { pose: Some(pose), time_s, easing };
+        let keyed = key::run(design, &options, context).map_err(unkeyed)?;
+        notes.extend(keyed.notes.into_iter().map(Note::Key));
+    }
+    Ok(notes)
+}
+
+fn unkeyed(error: key::Error) -> Error {
+    match error {
+        key::Error::Cancelled(cancelled) => Error::Cancelled(cancelled),
+        error => Error::Key(error),
+    }
 }
 
 /// Lays the poses on the timeline, [`defaults::KEYFRAME_SPACING_S`] apart or as far as the motors need, with rest at both ends.
@@ -72,10 +113,7 @@ fn lay_out(design: &mut Design, context: &Context) -> Result<Vec<Note>, Error> {
     for (index, pose) in stops.enumerate() {
         let options =
             key::Options { pose, time_s: index as f64 * defaults::KEYFRAME_SPACING_S, easing: Easing::default() };
-        let keyed = key::run(design, &options, context).map_err(|error| match error {
-            key::Error::Cancelled(cancelled) => Error::Cancelled(cancelled),
-            error => Error::Key(error),
-        })?;
+        let keyed = key::run(design, &options, context).map_err(unkeyed)?;
         notes.extend(keyed.notes.into_iter().map(Note::Key));
     }
     space_out(design);
@@ -106,6 +144,10 @@ impl Rigged {
     /// # Errors
     /// A network does not lie on the mesh.
     pub fn apply(self, design: &mut Design) -> Result<(), EditError> {
+        if self.fresh {
+            design.networks.clear();
+            design.keyframes.clear();
+        }
         for network in self.networks {
             edit::accept_network(design, network)?;
         }
@@ -158,6 +200,7 @@ mod tests {
             networks: vec![added],
             keyframes: Vec::new(),
             notes: Vec::new(),
+            fresh: false,
             mesh: design.mesh.clone(),
             present: design.networks.clone(),
         };

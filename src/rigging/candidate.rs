@@ -31,7 +31,8 @@ pub fn with_network(design: &Design, tendons: &[Vec<usize>]) -> Design {
     with
 }
 
-fn unused_name(design: &Design) -> String {
+/// A name for one more network.
+pub(super) fn unused_name(design: &Design) -> String {
     let mut k = design.networks.len() + 1;
     loop {
         let name = format!("winch {k}");

@@ -8,8 +8,8 @@
 use super::layout::Layout;
 use super::moves::{Ground, Shape};
 use super::refine::{Fit, Task};
-use super::threads::in_order;
 use crate::random::Random;
+use crate::threads::in_order;
 
 /// Random layouts at the beginning, and those of them that are looked at closely.
 const FIRST: usize = 96;
@@ -103,11 +103,18 @@ impl<'a> Joint<'a> {
         &self.alive
     }
 
-    /// The best so far, improved as far as it goes.
-    pub fn finished(&self, stop: &dyn Fn() -> bool) -> Option<Fit> {
-        let best = self.alive.first()?;
-        let last = self.task.improve(best.clone(), LAST_STEPS, false, stop);
+    /// The best few, by their worst pose.
+    pub fn finalists(&self, count: usize) -> Vec<Fit> {
+        let mut all = self.alive.clone();
+        all.sort_by(|a, b| a.worst().total_cmp(&b.worst()));
+        all.truncate(count);
+        all
+    }
+
+    /// A fit improved as far as it goes.
+    pub fn finished(&self, fit: &Fit, stop: &dyn Fn() -> bool) -> Fit {
+        let last = self.task.improve(fit.clone(), LAST_STEPS, false, stop);
         let wound = self.task.wound(last, LAST_STEPS, stop);
-        wound.filter(|fit| fit.cost < best.cost).or_else(|| Some(best.clone()))
+        wound.filter(|wound| wound.cost < fit.cost).unwrap_or_else(|| fit.clone())
     }
 }

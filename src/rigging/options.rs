@@ -1,5 +1,6 @@
 //! What a search for a rig may build, what it tells on the way, and why it may fail.
 
+use crate::defaults;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
@@ -8,6 +9,14 @@ use std::str::FromStr;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct RigOptions {
+    pub method: Method,
+    /// Whether the networks that are there are forgotten.
+    pub fresh: bool,
+    /// Whether the rules of sewing are kept ([`Method::Joint`] alone).
+    pub rules: bool,
+    /// Rounds of search, and the seed of its random numbers ([`Method::Joint`] alone).
+    pub rounds: usize,
+    pub seed: u64,
     pub max_winches: usize,
     pub tendons: TendonChoice,
     /// Parameters of Algorithm 2 held at these values; `None` lets the search vary them.
@@ -20,6 +29,11 @@ pub struct RigOptions {
 impl Default for RigOptions {
     fn default() -> Self {
         Self {
+            method: Method::default(),
+            fresh: false,
+            rules: true,
+            rounds: defaults::RIG_ROUNDS,
+            seed: 1,
             max_winches: 3,
             tendons: TendonChoice::default(),
             seed_num: None,
@@ -28,6 +42,16 @@ impl Default for RigOptions {
             phi: None,
         }
     }
+}
+
+/// How networks are looked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Method {
+    /// All winches together, over all poses.
+    #[default]
+    Joint,
+    /// Winch by winch, the networks of Algorithm 2 as they are.
+    Algorithm2,
 }
 
 /// How many tendons each winch gets.
@@ -85,6 +109,10 @@ pub enum Progress {
     Candidates { winch: usize, count: usize },
     /// A winch was accepted; `errors`: name and target error (body lengths) of every pose with all winches so far.
     Accepted { winch: usize, tendons: usize, errors: Vec<(String, f64)> },
+    /// A round of the joint search begins: the worst pose's error so far, as a part of that at rest, and the holes of the rig.
+    Round { round: usize, rounds: usize, worst: f64, holes: usize },
+    /// The end of the joint search; `errors`: what a check says of every pose, body lengths.
+    Found { winches: usize, tendons: usize, errors: Vec<(String, f64)> },
 }
 
 /// Why no rig was found.
@@ -92,6 +120,8 @@ pub enum Progress {
 pub enum RigError {
     #[error("the design has no pose with targets, so there is nothing to rig for")]
     NoTargets,
+    #[error("the body has no model: a triangle has no area, or the mesh is too large for the memory")]
+    NoModel,
     #[error("no network brings any pose closer to its targets")]
     NothingFound,
     #[error("cancelled")]

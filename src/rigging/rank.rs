@@ -5,6 +5,7 @@ use super::criteria;
 use super::criterion::Judged;
 use super::trial::{Reached, Scrutiny, Trial};
 use crate::design::Design;
+use crate::threads::in_order;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Candidates that are posed carefully after a quick screening.
@@ -38,35 +39,18 @@ pub(super) fn rank(
     out.into_iter().map(|(_, candidate, reached)| (candidate, reached)).collect()
 }
 
-/// Tries every candidate on every pose: as many threads as the machine has, at most eight, and the same result whatever their
-/// number. An empty list stands for a candidate that has no model.
-pub(super) fn try_all(
+/// Tries every candidate on every pose, on all processors. An empty list stands for a candidate that has no model.
+fn try_all(
     design: &Design,
     candidates: &[Candidate],
     poses: &[Baseline],
     scrutiny: Scrutiny,
     cancel: &AtomicBool,
 ) -> Vec<Vec<Reached>> {
-    let threads = std::thread::available_parallelism().map_or(1, |n| n.get()).min(8);
-    let mut out: Vec<Vec<Reached>> = vec![Vec::new(); candidates.len()];
-    std::thread::scope(|scope| {
-        let workers: Vec<_> = (0..threads)
-            .map(|worker| {
-                scope.spawn(move || {
-                    let mine = candidates.iter().enumerate().skip(worker).step_by(threads);
-                    mine.take_while(|_| !cancel.load(Ordering::Relaxed))
-                        .map(|(k, candidate)| (k, try_one(design, candidate, poses, scrutiny, cancel)))
-                        .collect::<Vec<_>>()
-                })
-            })
-            .collect();
-        for worker in workers {
-            for (k, reached) in worker.join().unwrap_or_default() {
-                out[k] = reached;
-            }
-        }
-    });
-    out
+    in_order(candidates, |candidate| match cancel.load(Ordering::Relaxed) {
+        true => Vec::new(),
+        false => try_one(design, candidate, poses, scrutiny, cancel),
+    })
 }
 
 fn try_one(

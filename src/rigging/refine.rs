@@ -12,7 +12,7 @@
 //! have moved, their places in the mesh, rest lengths and bounds follow.
 
 use super::layout::Layout;
-use super::sewable::Sewable;
+use super::sewable::{Sewable, posed_violation};
 use crate::design::{Design, Network, Target};
 use crate::engine::compile::{Plushie, compile_with, objective};
 use crate::mesh::BodyPoint;
@@ -22,6 +22,8 @@ use crate::soft_ik::routing::{self, RoutingPoint};
 use crate::soft_ik::{Actuation, Objective, Posture, Question};
 use nalgebra::{DMatrix, DVector};
 
+/// Power of the misses.
+const POWER: f64 = 2.0;
 /// `W`: a rule broken by a tenth weighs as much as a pose missed by a third of its way.
 const RULES: f64 = 1.0;
 /// `S`: small enough to cost a pose nothing that could be seen, and a winch without use stays at rest.
@@ -41,6 +43,8 @@ const EASIER: f64 = 0.3;
 const BARELY_TAUT: f64 = 1e-3;
 /// Activation in which poses are begun, as a part of the range.
 const FIRST_ACTIVATION: f64 = 0.25;
+/// Steps of improvement in another mesh.
+const TRANSFER_STEPS: usize = 15;
 /// Steps from rest in which an answer is wound, and by how much `C` may differ there.
 const WINDING_STEPS: usize = 6;
 const SAME_STATE: f64 = 1.02;
@@ -54,6 +58,8 @@ pub struct Task<'a> {
     pub sewable: Option<&'a Sewable<'a>>,
     /// Winches that are there and stay.
     pub fixed: &'a [Network],
+    /// The rim of the mesh, ring by ring.
+    rings: Vec<Vec<usize>>,
 }
 
 /// A layout and what it reaches.
@@ -71,6 +77,16 @@ pub struct Fit {
 }
 
 impl Fit {
+    /// The activations without those of one winch of the layout, for [`Task::resume`].
+    pub fn without(&self, winch: usize) -> Self {
+        let mut out = self.clone();
+        for posture in &mut out.poses {
+            let fixed = posture.beta.len() - self.layout.winches.len();
+            posture.beta.remove(fixed + winch);
+        }
+        out
+    }
+
     /// The worst pose's error as a part of that at rest.
     pub fn worst(&self) -> f64 {
         self.misses.iter().fold(0.0_f64, |m, f| m.max(*f)).sqrt()
@@ -96,7 +112,7 @@ impl<'a> Task<'a> {
             targets.iter().map(square).sum()
         };
         let poses = poses.map(|targets| (targets, miss(targets))).filter(|(_, miss)| *miss > 0.0).collect();
-        Self { design, poses, sewable, fixed }
+        Self { design, poses, sewable, fixed, rings: design.mesh.boundary() }
     }
 
     fn build(&self, layout: &Layout) -> Option<Built> {
@@ -144,12 +160,23 @@ impl<'a> Task<'a> {
             objective.targets.iter().map(square).sum::<f64>() / self.poses[k].1
         };
         let misses: Vec<f64> = poses.iter().enumerate().map(|(k, posture)| miss(k, posture)).collect();
-        let violation = self.sewable.map_or(0.0, |s| s.violations(&layout).iter().map(|v| v * v).sum());
+        let violation = self.sewable.map_or(0.0, |s| s.violations(&layout).iter().map(|v| v * v).sum::<f64>());
+        let posed = poses.iter().map(|posture| self.posed_violation(built, &posture.x));
+        let violation = violation + if self.sewable.is_some() { posed.sum() } else { 0.0 };
         let winches = &built.actuation.winches;
         let used =
             poses.iter().flat_map(|p| p.beta.iter().zip(winches)).map(|(b, w)| (b / w.upper).powi(2)).sum::<f64>();
-        let cost = misses.iter().map(|f| f * f).sum::<f64>() + RULES * violation + SPARING * used;
+        let cost = misses.iter().map(|f| f.powf(POWER)).sum::<f64>() + RULES * violation + SPARING * used;
         Fit { layout, poses, misses, violation, cost }
+    }
+
+    /// By how much cables leave the body in a pose.
+    fn posed_violation(&self, built: &Built, x: &[f64]) -> f64 {
+        let ring = |nodes: &Vec<usize>| nodes.iter().map(|&n| [x[2 * n], x[2 * n + 1]]).collect();
+        let rings: Vec<Vec<Point>> = self.rings.iter().map(ring).collect();
+        let elements = &built.plushie.model.contractile.elements;
+        let cables = elements.iter().map(|e| e.routing.iter().map(|point| point.at(x)).collect());
+        posed_violation(&rings, &cables.collect::<Vec<_>>())
     }
 
     /// A layout tried for the first time: every pose is begun with all winches wound a little. `None` where that is no equilibrium.
@@ -172,6 +199,22 @@ impl<'a> Task<'a> {
         };
         let from: Vec<(Vec<f64>, Vec<f64>)> = from.poses.iter().map(pose).collect();
         self.fit(layout, &mut built, &from, stop)
+    }
+
+    /// A fit of the same body in another mesh: wound from rest to its activations, and improved from there.
+    pub fn transferred(&self, fit: &Fit, stop: &dyn Fn() -> bool) -> Option<Fit> {
+        let mut built = self.build(&fit.layout)?;
+        let rest = built.plushie.model.rest.clone();
+        let mut poses = Vec::with_capacity(fit.poses.len());
+        for (k, posture) in fit.poses.iter().enumerate() {
+            let mut beta = posture.beta.clone();
+            built.actuation.clamp(&mut beta);
+            let mut question = built.question(k);
+            let zero = question.settle(&vec![0.0; beta.len()], &rest, stop).0;
+            poses.push(question.wind(&zero, &beta, WINDING_STEPS, stop).0);
+        }
+        let begun = self.judged(fit.layout.clone(), &built, poses);
+        self.wound(self.improve(begun, TRANSFER_STEPS, false, stop), TRANSFER_STEPS, stop)
     }
 
     /// Improves a fit by at most so many steps; `frozen` leaves the points where they are.
@@ -269,7 +312,8 @@ impl Local {
         for (k, posture) in fit.poses.iter().enumerate() {
             let first = moving + k * winches;
             let pose = PoseRows::new(built, k, posture, &points)?;
-            let weight = (2.0 * fit.misses[k].max(least) / task.poses[k].1).sqrt();
+            let miss = fit.misses[k].max(least);
+            let weight = (2.0 * POWER * miss.powf(POWER - 1.0) / task.poses[k].1).sqrt();
             for (t, target) in built.objectives[k].targets.iter().enumerate() {
                 let offset = target.offset(&posture.x);
                 for axis in 0..2 {

@@ -1,27 +1,37 @@
-//! The design loop without a hand: over all poses, solve, discover, try out, accept (section 3).
+//! Winches and tendons for all poses of a design, without a hand.
 
-use super::candidate::{Baseline, Candidate, with_network};
-use super::generators::candidates;
-use super::options::{Progress, RigError, RigOptions, TendonChoice};
-use super::polish::polish;
-use super::rank::rank;
-use super::trial::{Reached, Scrutiny, Trial};
-use crate::design::{Design, Target};
-use crate::discovery::Parameters;
+use super::candidate::unused_name;
+use super::greedy;
+use super::joint::Joint;
+use super::moves::{Ground, Shape};
+use super::options::{Method, Progress, RigError, RigOptions, TendonChoice};
+use super::prune::pruned;
+use super::refine::{Fit, Task};
+use super::sewable::Sewable;
+use super::truth::realised;
+use crate::design::{Design, Network, remesh};
 use crate::engine::target_error;
+use crate::mesh::{Mesh, Request};
+use crate::outline::Outline;
+use crate::sewing::Rules;
+use crate::threads::in_order;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A pose served better than this part of its rest error needs no further winch of its own.
-const SERVED: f64 = 0.02;
-/// Candidates of one pose that are simulated; the most promising come first.
-const PER_POSE: usize = 150;
-/// Adds networks to `design` until its poses are served or `options` are used up. `progress` hears of every step.
+/// All poses served to this part of their rest errors need no better rig.
+pub(super) const SERVED: f64 = 0.005;
+/// Bodies of more fibres are searched on a mesh of about so many, and what is found is improved on their own.
+const COARSE: usize = 430;
+const FINE: usize = 700;
+/// Layouts that are finished and compared by what a check says of them.
+const FINALISTS: usize = 3;
+/// Rounds without a gain of a hundredth after which a search is over.
+const PATIENCE: usize = 20;
+
+/// The design with winches for its poses, in addition to those that it has.
 ///
-/// One winch at a time: each pose that is not yet served is solved for fibres with the winches so far held, discovery turns
-/// the fibres' activations into candidates, every candidate is simulated on *all* poses, and the one that leaves the least
-/// cost is polished by small changes of its paths and accepted. With [`TendonChoice::PerWinch`] every number asked for is
-/// built as long as it helps at all. Existing keyframes leave the
-/// new winches at rest.
+/// [`Method::Joint`]: all new winches are searched for together ([`Joint`]), on a coarse mesh where the body's own is fine, what is
+/// found is improved on its own mesh, points and tendons that cost little are left out, and what counts in the end is what a check
+/// says. [`Method::Algorithm2`]: winch by winch with the networks of Algorithm 2 as they are.
 ///
 /// # Errors
 /// [`RigError::NoTargets`] where no pose has targets, [`RigError::NothingFound`] where no network helps, or cancelled.
@@ -31,109 +41,142 @@ pub fn rig(
     progress: &mut dyn FnMut(Progress),
     cancel: &AtomicBool,
 ) -> Result<Design, RigError> {
-    let poses: Vec<(String, Vec<Target>)> =
-        design.poses.iter().filter(|p| !p.targets.is_empty()).map(|p| (p.name.clone(), p.targets.clone())).collect();
-    if poses.is_empty() {
+    if design.poses.iter().all(|pose| pose.targets.is_empty()) {
         return Err(RigError::NoTargets);
     }
-    let mut current = design.clone();
-    let mut reached = reach(&current, &poses, &[], cancel);
-    for winch in 0..options.max_winches {
-        let known: Vec<Baseline> =
-            poses.iter().zip(&reached).map(|((_, targets), before)| Baseline { targets, before }).collect();
-        let served = |k: usize| reached[k].error <= SERVED * rest_error(design, &poses[k].1);
-        let exact = matches!(options.tendons, TendonChoice::PerWinch(_));
-        if !exact && (0..poses.len()).all(served) {
+    match options.method {
+        Method::Joint => together(design, options, progress, cancel),
+        Method::Algorithm2 => greedy::rig(design, options, progress, cancel),
+    }
+}
+
+/// The rim of a mesh at rest.
+fn rim(mesh: &Mesh) -> Outline {
+    let mut rings = mesh.boundary().into_iter().map(|ring| ring.into_iter().map(|n| mesh.nodes[n]).collect());
+    Outline { outer: rings.next().unwrap_or_default(), holes: rings.collect() }
+}
+
+fn together(
+    design: &Design,
+    options: &RigOptions,
+    progress: &mut dyn FnMut(Progress),
+    cancel: &AtomicBool,
+) -> Result<Design, RigError> {
+    let shape = shape(options);
+    let coarse = coarser(design);
+    let searched = coarse.as_ref().unwrap_or(design);
+    let found = layouts(searched, options, &shape, progress, cancel)?;
+    let found: Vec<Fit> = match coarse {
+        None => found,
+        Some(_) => {
+            let (outline, stop) = (rim(&design.mesh), || cancel.load(Ordering::Relaxed));
+            let sewable = sewable(design, &outline, options);
+            let task = Task::new(design, sewable.as_ref(), &design.networks);
+            in_order(&found, |fit| task.transferred(fit, &stop)).into_iter().flatten().collect()
+        }
+    };
+    let judged = in_order(&found, |fit| judged(design, fit, cancel));
+    if cancel.load(Ordering::Relaxed) {
+        return Err(RigError::Cancelled);
+    }
+    let worst = |errors: &[(String, f64, f64)]| errors.iter().map(|(_, error, rest)| error / rest).fold(0.0, f64::max);
+    let best = judged.into_iter().min_by(|a, b| worst(&a.1).total_cmp(&worst(&b.1)));
+    let Some((rigged, errors)) = best.filter(|(_, errors)| worst(errors) < 1.0) else {
+        return Err(RigError::NothingFound);
+    };
+    let tendons = rigged.networks[design.networks.len()..].iter().map(|n| n.tendons.len()).sum();
+    let errors = errors.into_iter().map(|(name, error, _)| (name, error)).collect();
+    progress(Progress::Found { winches: rigged.networks.len() - design.networks.len(), tendons, errors });
+    Ok(rigged)
+}
+
+/// How many winches and tendons there may be.
+fn shape(options: &RigOptions) -> Shape {
+    let count = |winch: usize| match &options.tendons {
+        TendonChoice::PerWinch(list) => list.get(winch).or(list.last()).map_or([1, 1], |&n| [n, n]),
+        TendonChoice::Between(low, high) => [*low, *high],
+    };
+    let most_holes = if options.rules { Rules::default().most_holes } else { FREE_HOLES };
+    Shape { tendons: (0..options.max_winches).map(count).collect(), most_holes }
+}
+
+/// Most holes of a tendon where no rule is asked for.
+const FREE_HOLES: usize = 20;
+
+/// The design on a coarse mesh, where its own is fine and the outline takes another one.
+fn coarser(design: &Design) -> Option<Design> {
+    if design.mesh.edges().len() <= FINE {
+        return None;
+    }
+    let (mesh, set) = remesh::body(&design.outline, &Request::fibers(COARSE), 1).ok()?;
+    let mut coarse = design.clone();
+    remesh::carry(&mut coarse, mesh, set);
+    Some(coarse)
+}
+
+fn sewable<'a>(design: &'a Design, rim: &'a Outline, options: &RigOptions) -> Option<Sewable<'a>> {
+    let gap_mm = design.fabrication.turning_gap_mm;
+    options.rules.then(|| Sewable::new(Rules::default(), &design.outline, rim, gap_mm))
+}
+
+/// The best few layouts that a search finds on the design's own mesh; those that keep the rules, where any do.
+fn layouts(
+    design: &Design,
+    options: &RigOptions,
+    shape: &Shape,
+    progress: &mut dyn FnMut(Progress),
+    cancel: &AtomicBool,
+) -> Result<Vec<Fit>, RigError> {
+    let (outline, stop) = (rim(&design.mesh), || cancel.load(Ordering::Relaxed));
+    let sewable = sewable(design, &outline, options);
+    let task = Task::new(design, sewable.as_ref(), &design.networks);
+    let ground = Ground::new(&design.mesh, sewable.as_ref());
+    let mut joint = Joint::new(&task, &ground, shape.clone(), Vec::new(), options.seed, &stop);
+    let (mut best, mut since) = (f64::INFINITY, 0);
+    for round in 0..options.rounds {
+        let Some(fit) = joint.alive().first() else { break };
+        let (worst, holes) = (fit.worst(), fit.layout.holes());
+        progress(Progress::Round { round, rounds: options.rounds, worst, holes });
+        since = if worst < 0.99 * best { 0 } else { since + 1 };
+        best = best.min(worst);
+        if worst <= SERVED || since > PATIENCE {
             break;
         }
-        let found = gather(&current, &poses, &known, &served, options, winch, cancel);
-        progress(Progress::Candidates { winch, count: found.len() });
-        let ranked = rank(&current, found, &known, cancel);
-        if cancel.load(Ordering::Relaxed) {
+        joint.advance(&stop);
+        if stop() {
             return Err(RigError::Cancelled);
         }
-        let Some((best, now)) = ranked.into_iter().next() else { break };
-        let (best, now) = polish(&current, best, now, &known, cancel);
-        if cancel.load(Ordering::Relaxed) {
-            return Err(RigError::Cancelled);
-        }
-        drop(known);
-        current = with_network(&current, &best.tendons);
-        reached = reach(&current, &poses, &now, cancel);
-        let errors = poses.iter().zip(&reached).map(|((name, _), r)| (name.clone(), r.error)).collect();
-        progress(Progress::Accepted { winch, tendons: best.tendons.len(), errors });
     }
-    if current.networks.len() == design.networks.len() {
-        return Err(RigError::NothingFound);
+    let mut finished =
+        in_order(&joint.finalists(FINALISTS), |fit| pruned(&task, shape, joint.finished(fit, &stop), &stop));
+    if stop() {
+        return Err(RigError::Cancelled);
     }
-    widen_keyframes(&mut current);
-    Ok(current)
+    if let Some(sewable) = &sewable
+        && finished.iter().any(|fit| sewable.is_kept(&fit.layout))
+    {
+        finished.retain(|fit| sewable.is_kept(&fit.layout));
+    }
+    Ok(finished)
 }
 
-/// What the present networks reach in every pose when they are wound from rest; `known`: what was reached so far.
-fn reach(design: &Design, poses: &[(String, Vec<Target>)], known: &[Reached], cancel: &AtomicBool) -> Vec<Reached> {
-    let mut out = Vec::new();
-    if let Some(mut trial) = Trial::new(design) {
-        for (k, (_, targets)) in poses.iter().enumerate() {
-            let known = known.get(k).map(|reached| &reached.posture);
-            out.push(trial.pose(design, targets, known, Scrutiny::Whole, cancel));
+/// The design with a layout's networks, and what a check says of every pose: its name, the error, that at rest, body lengths.
+fn judged(design: &Design, fit: &Fit, cancel: &AtomicBool) -> (Design, Vec<(String, f64, f64)>) {
+    let mut with = design.clone();
+    if let Some(points) = fit.layout.located(&design.mesh) {
+        for network in fit.layout.networks(&design.mesh, &points) {
+            let name = unused_name(&with);
+            with.networks.push(Network { name, ..network });
         }
     }
-    out
-}
-
-fn rest_error(design: &Design, targets: &[Target]) -> f64 {
-    target_error(design, targets, &design.mesh.nodes)
-}
-
-/// Candidates of all poses that are not yet served (of all, where all are).
-fn gather(
-    design: &Design,
-    poses: &[(String, Vec<Target>)],
-    known: &[Baseline],
-    served: &dyn Fn(usize) -> bool,
-    options: &RigOptions,
-    winch: usize,
-    cancel: &AtomicBool,
-) -> Vec<Candidate> {
-    let numbers: Vec<usize> = match &options.tendons {
-        TendonChoice::PerWinch(list) => list.get(winch).or(list.last()).copied().into_iter().collect(),
-        TendonChoice::Between(low, high) => (*low..=*high).collect(),
-    };
-    let defaults = Parameters::default();
-    let base = Parameters {
-        seed_num: options.seed_num.unwrap_or(defaults.seed_num),
-        join_depth: options.join_depth.unwrap_or(defaults.join_depth),
-        join_len: options.join_len.unwrap_or(defaults.join_len),
-        tendon_num: numbers.first().copied().unwrap_or(defaults.tendon_num),
-        phi: options.phi.unwrap_or(defaults.phi),
-        ..defaults
-    };
-    let asked = |p: &Parameters| {
-        options.seed_num.is_none_or(|v| v == p.seed_num)
-            && options.join_depth.is_none_or(|v| v == p.join_depth)
-            && options.join_len.is_none_or(|v| v == p.join_len)
-            && options.phi.is_none_or(|v| v == p.phi)
-    };
-    let all_served = (0..poses.len()).all(served);
-    let mut out: Vec<Candidate> = Vec::new();
-    for (k, (_, targets)) in poses.iter().enumerate() {
-        if served(k) && !all_served {
-            continue;
-        }
-        for candidate in candidates(design, targets, known, &base, &numbers, cancel).into_iter().take(PER_POSE) {
-            if asked(&candidate.parameters) && !out.iter().any(|c| c.tendons == candidate.tendons) {
-                out.push(candidate);
-            }
-        }
-    }
-    out
-}
-
-/// Existing keyframes leave the new winches at rest.
-fn widen_keyframes(design: &mut Design) {
-    let count = design.networks.len();
-    for keyframe in &mut design.keyframes {
-        keyframe.activations_mm.resize(count, 0.0);
-    }
+    let count = with.networks.len();
+    with.keyframes.iter_mut().for_each(|keyframe| keyframe.activations_mm.resize(count, 0.0));
+    let poses = design.poses.iter().filter(|pose| !pose.targets.is_empty());
+    let errors = poses.map(|pose| {
+        let error = realised(&with, &pose.targets, cancel).map_or(f64::INFINITY, |shape| shape.target_error);
+        let rest = target_error(design, &pose.targets, &design.mesh.nodes);
+        (pose.name.clone(), error, rest.max(f64::MIN_POSITIVE))
+    });
+    let errors = errors.collect();
+    (with, errors)
 }

@@ -5,7 +5,7 @@
 
 use super::layout::Layout;
 use crate::outline::polygon::{distance_to_segment, length};
-use crate::outline::{Outline, Point};
+use crate::outline::{Outline, Point, polygon};
 use crate::sewing::{self, Body, Rules};
 
 /// The search keeps farther from a rule than it says: by this length, and this angle. What is found is rounded to files.
@@ -13,38 +13,49 @@ const MARGIN_MM: f64 = 0.3;
 const MARGIN_DEGREES: f64 = 1.0;
 /// A length outside of the body that counts as much as a whole rule, mm.
 const OUTSIDE_MM: f64 = 10.0;
+/// Distance that the search keeps between pieces of cable and the seam, mm, and on how many places of a piece it looks. Nearer, a
+/// piece has the least of its weight.
+const CLEAR_MM: f64 = 1.0;
+const PLACES: usize = 4;
+const NEAR: f64 = 0.1;
+/// A piece may be outside of a posed body by this length, mm: rounding at corners of the mesh.
+const TOLERANCE_MM: f64 = 0.1;
 
 /// A body and the rules that cables in it should keep.
 pub struct Sewable<'a> {
     pub rules: Rules,
+    /// The seam, and the rim of the mesh: chords of the seam's curves, inside of it or outside.
+    bodies: [Body<'a>; 2],
     outline: &'a Outline,
-    body: Body<'a>,
+    rim: &'a Outline,
     gap_mm: f64,
 }
 
 impl<'a> Sewable<'a> {
-    pub fn new(rules: Rules, outline: &'a Outline, gap_mm: f64) -> Self {
-        let body = Body::new(outline);
-        let housing_mm = sewing::largest_housing(&body, rules.housing_mm);
-        Self { rules: Rules { housing_mm, ..rules }, outline, body, gap_mm }
+    /// `rim`: the boundary of the mesh at rest.
+    pub fn new(rules: Rules, outline: &'a Outline, rim: &'a Outline, gap_mm: f64) -> Self {
+        let bodies = [outline, rim].map(Body::new);
+        let housing_mm = sewing::largest_housing(&bodies[0], rules.housing_mm);
+        Self { rules: Rules { housing_mm, ..rules }, bodies, outline, rim, gap_mm }
     }
 
     /// Distance to the seam, negative outside of the body.
     pub fn depth(&self, p: Point) -> f64 {
-        self.body.depth(p)
+        self.bodies[0].depth(p).min(self.bodies[1].depth(p))
     }
 
     /// Length of a piece outside of the body, mm.
     pub fn outside(&self, a: Point, b: Point) -> f64 {
-        sewing::outside(self.outline.polygons().map(|ring| &ring[..]), a, b)
+        let of = |outline: &Outline| sewing::outside(outline.polygons(), a, b);
+        of(self.outline).max(of(self.rim))
     }
 
-    /// Whether a layout keeps every rule.
+    /// Whether a layout keeps every rule at rest.
     pub fn is_kept(&self, layout: &Layout) -> bool {
         let rigs = layout.rigs();
-        let inside = |cable: &Vec<Point>| cable.windows(2).all(|s| self.outside(s[0], s[1]) == 0.0);
+        let inside = |cable: &Vec<Point>| cable.windows(2).all(|s| self.outside(s[0], s[1]) <= TOLERANCE_MM);
         rigs.iter().flat_map(|rig| &rig.cables).all(inside)
-            && sewing::judge(&self.rules, &self.body, &rigs, self.gap_mm).is_empty()
+            && self.bodies.iter().all(|body| sewing::judge(&self.rules, body, &rigs, self.gap_mm).is_empty())
     }
 
     /// By how much every rule is broken at every place: 0 where it is kept, 1 by about as much as the rule allows.
@@ -82,7 +93,9 @@ impl<'a> Sewable<'a> {
             out.push(below(self.depth(*p), rules.hole_to_seam_mm));
         }
         for s in cable.windows(2) {
-            out.push(self.outside(s[0], s[1]) / OUTSIDE_MM);
+            let place = |k: usize| polygon::lerp(s[0], s[1], k as f64 / (PLACES + 1) as f64);
+            let near: f64 = (1..=PLACES).map(|k| below(self.depth(place(k)), CLEAR_MM)).sum();
+            out.push(self.outside(s[0], s[1]) / OUTSIDE_MM + NEAR * near);
         }
         for p in cable.windows(3) {
             out.push(above(sewing::turn(p[0], p[1], p[2]), rules.turn_degrees - MARGIN_DEGREES));
@@ -97,6 +110,13 @@ impl<'a> Sewable<'a> {
             out.extend(holes[..k].iter().map(|q| below(length(*p, *q), self.rules.hole_to_hole_mm)));
         }
     }
+}
+
+/// By how much pieces of cables leave a posed body, as [`Sewable::violations`] counts: its rings and cables in the pose, mm.
+pub fn posed_violation(rings: &[Vec<Point>], cables: &[Vec<Point>]) -> f64 {
+    let outside = |s: &[Point]| sewing::outside(rings.iter().map(Vec::as_slice), s[0], s[1]) - TOLERANCE_MM;
+    let pieces = cables.iter().flat_map(|cable| cable.windows(2));
+    pieces.map(|s| (outside(s).max(0.0) / OUTSIDE_MM).powi(2)).sum()
 }
 
 /// How far a length is below the least one and a margin, as a part of it.

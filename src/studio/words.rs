@@ -84,6 +84,12 @@ pub fn progress(step: &Progress) -> String {
             let worst = errors.iter().map(|(_, error)| *error).fold(0.0, f64::max);
             format!("Winch {}: {:.1} % off at most", winch + 1, 100.0 * worst)
         }
+        Progress::Rig(rigging::Progress::Round { round, rounds, worst, .. }) => {
+            format!("Round {} of {rounds}: the worst pose misses {:.1} % of its way", round + 1, 100.0 * worst)
+        }
+        Progress::Rig(rigging::Progress::Found { winches, tendons, .. }) => {
+            format!("{winches} winches with {tendons} tendons")
+        }
     }
 }
 

@@ -101,7 +101,11 @@ fn rig(ui: &mut Ui, session: &Session, actions: &mut Actions) {
             ui.add(field).labelled_by(label.id).on_hover_text(tip);
             ui.end_row();
         });
-        ui.checkbox(&mut choice.hold, "Hold the parameters").on_hover_text("Otherwise several are tried");
+        ui.checkbox(&mut choice.rules, "Keep the rules of sewing")
+            .on_hover_text("Otherwise a hand may not be able to sew it");
+        let held =
+            "Winch by winch, the networks of Algorithm 2 with the parameters above; otherwise all winches together";
+        ui.checkbox(&mut choice.hold, "Hold the parameters").on_hover_text(held);
         if choice != session.rigging().choice {
             actions.push(Action::SetRig(choice));
         }

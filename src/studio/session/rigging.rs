@@ -1,7 +1,7 @@
 //! Networks for all poses at once: what may be built, and who looks for them.
 
 use crate::discovery::Parameters;
-use crate::operations::rig::Options;
+use crate::operations::rig::{Method, Options};
 use crate::rigging::BadTendons;
 use crate::studio::jobs::{Running, cancel};
 use std::sync::{Arc, Mutex};
@@ -12,14 +12,16 @@ pub struct RigChoice {
     pub max_winches: usize,
     /// Tendons of each winch, as they are typed: `2`, `3,2` winch by winch, or `1..4` to choose from.
     pub tendons: String,
-    /// Whether the parameters of discovery hold; otherwise several are tried.
+    /// Whether networks keep the rules of sewing.
+    pub rules: bool,
+    /// Winch by winch, with the parameters of discovery as they are; otherwise all winches are looked for together.
     pub hold: bool,
 }
 
 impl Default for RigChoice {
     fn default() -> Self {
-        let Options { max_winches, tendons, .. } = Options::default();
-        Self { max_winches, tendons: tendons.to_string(), hold: false }
+        let Options { max_winches, tendons, rules, .. } = Options::default();
+        Self { max_winches, tendons: tendons.to_string(), rules, hold: false }
     }
 }
 
@@ -28,12 +30,15 @@ impl RigChoice {
     pub(crate) fn options(&self, parameters: &Parameters) -> Result<Options, BadTendons> {
         let held = |value: usize| self.hold.then_some(value);
         Ok(Options {
+            method: if self.hold { Method::Algorithm2 } else { Method::Joint },
+            rules: self.rules,
             max_winches: self.max_winches,
             tendons: self.tendons.trim().parse()?,
             seed_num: held(parameters.seed_num),
             join_depth: held(parameters.join_depth),
             join_len: held(parameters.join_len),
             phi: self.hold.then_some(parameters.phi),
+            ..Options::default()
         })
     }
 }

@@ -1,0 +1,73 @@
+//! Sparsity: points, tendons and winches that a rig can do without are left out.
+
+use super::layout::Layout;
+use super::moves::Shape;
+use super::refine::{Fit, Task};
+use super::search::SERVED;
+
+/// What is left out may make the worst pose worse by this part.
+const PRICE: f64 = 0.03;
+/// Steps of improvement after something was left out.
+const STEPS: usize = 25;
+
+/// The fit without what costs little: whole winches first, then tendons as far as the shape allows, then points.
+pub(super) fn pruned(task: &Task, shape: &Shape, fit: Fit, stop: &dyn Fn() -> bool) -> Fit {
+    let mut now = fit;
+    for fewer in [without_a_winch, without_a_tendon, without_a_point] {
+        loop {
+            let most = (now.worst() * (1.0 + PRICE)).max(SERVED);
+            let tried = fewer(&now.layout, shape).into_iter().filter_map(|(layout, kept)| {
+                let begun = task.resume(layout, &kept.map_or_else(|| now.clone(), |winch| now.without(winch)), stop)?;
+                let improved = task.wound(task.improve(begun, STEPS, false, stop), STEPS, stop)?;
+                let allowed = now.violation.max(1e-5);
+                (improved.worst() <= most && improved.violation <= allowed).then_some(improved)
+            });
+            let Some(next) = tried.min_by(|a, b| a.cost.total_cmp(&b.cost)) else { break };
+            if stop() {
+                return now;
+            }
+            now = next;
+        }
+    }
+    now
+}
+
+/// A layout, and the winch that it lacks.
+type Fewer = Vec<(Layout, Option<usize>)>;
+
+fn without_a_winch(layout: &Layout, shape: &Shape) -> Fewer {
+    let optional = layout.winches.len() > 1 && shape.tendons.iter().any(|[fewest, most]| fewest < most);
+    let without = |winch: usize| {
+        let mut new = layout.clone();
+        new.winches.remove(winch);
+        (new, Some(winch))
+    };
+    if optional { (0..layout.winches.len()).map(without).collect() } else { Vec::new() }
+}
+
+fn without_a_tendon(layout: &Layout, shape: &Shape) -> Fewer {
+    let fewest = |winch: usize| shape.tendons.get(winch).map_or(1, |[fewest, _]| *fewest);
+    let mut out = Vec::new();
+    for (winch, placed) in layout.winches.iter().enumerate().filter(|(k, w)| w.cables.len() > fewest(*k)) {
+        for cable in 0..placed.cables.len() {
+            let mut new = layout.clone();
+            new.winches[winch].cables.remove(cable);
+            out.push((new, None));
+        }
+    }
+    out
+}
+
+fn without_a_point(layout: &Layout, _: &Shape) -> Fewer {
+    let mut out = Vec::new();
+    for (winch, placed) in layout.winches.iter().enumerate() {
+        for (cable, points) in placed.cables.iter().enumerate() {
+            for k in 0..points.len().saturating_sub(1) {
+                let mut new = layout.clone();
+                new.winches[winch].cables[cable].remove(k);
+                out.push((new, None));
+            }
+        }
+    }
+    out
+}
