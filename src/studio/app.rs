@@ -77,7 +77,8 @@ impl Studio {
         let (now_s, passed_s, hands_off) = ctx
             .input(|i| (i.time, f64::from(i.stable_dt), !i.pointer.any_down() && i.pointer.press_origin().is_none()));
         let typing = ctx.text_edit_focused();
-        self.session.sketching.waits = self.tools.is_drawing(&self.session);
+        let was_drawing = self.tools.is_drawing(&self.session);
+        self.session.sketching.waits = was_drawing;
         acts::tick::tick(&mut self.session, now_s, passed_s, hands_off && !typing);
 
         let mut actions = Vec::new();
@@ -90,7 +91,7 @@ impl Studio {
         }
         self.tools.finish_before(&self.session, &mut actions);
         self.session.sketching.waits = self.tools.is_drawing(&self.session);
-        let changed = !actions.is_empty();
+        let changed = !actions.is_empty() || self.session.sketching.waits != was_drawing;
         let theme = self.session.look.theme;
         for action in actions {
             acts::apply::apply(&mut self.session, action);

@@ -78,8 +78,7 @@ fn break_off(session: &mut Session, serial: u64) {
             *running = None;
         }
     }
-    if session.files.picking.take_if(|picking| picking.serial == serial).is_some() {
-        session.files.take_back();
-    }
+    // As if there were none: a path can be typed.
+    filing::take_path(session, serial, None, true);
     session.tasks.break_off(serial);
 }
