@@ -45,7 +45,7 @@
 //!
 //! # Invariants
 //! - The core never imports the window: `cargo build --no-default-features` builds everything but `studio`.
-//! - Only `physics::cholesky` names the sparse linear algebra library.
+//! - Only `physics::cholesky` and `physics::indefinite` name the sparse linear algebra library.
 //! - The same input gives the same bits; iteration order never depends on hashing or thread count.
 //! - What is shown is finite, uninverted and within the actuation limits.
 

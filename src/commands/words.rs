@@ -33,7 +33,9 @@ pub fn unexported(design: &Path, error: ExportError) -> CommandError {
     match error {
         ExportError::Write { path, source } => CommandError::write(&path, source),
         ExportError::NotOurs { .. } | ExportError::Changed { .. } => CommandError::Usage(error.to_string()),
-        ExportError::Motion(MotionError::TooFast { .. }) => CommandError::input(design, format!("{error} (--stretch)")),
+        ExportError::Motion(MotionError::TooFast { .. }) => {
+            CommandError::input(design, format!("{error}; move the keyframes apart, or use --stretch"))
+        }
         ExportError::NoNetworks => CommandError::input(design, format!("{error}; run `plushwright rig` first")),
         error => CommandError::input(design, error),
     }

@@ -13,7 +13,8 @@
 //! The protocol has no clock that all nodes share, so the sender keeps the pace: every step at its time.
 
 use super::error::MotionError;
-use super::limits::{MAX_NODES, MAX_RESOLUTION};
+use super::limits::{Limits, MAX_NODES, MAX_RESOLUTION};
+use super::profile::Trapezoid;
 use super::program::Program;
 use super::trajectory::Trajectory;
 use crate::design::Design;
@@ -24,6 +25,8 @@ pub const TERMINATOR: &str = "\r";
 const FOLLOWING: u32 = 30_000;
 /// Speed on the way to zero, as a part of the design's.
 const STOP_SPEED: f64 = 0.25;
+/// Time beyond what the way to zero takes before motors are switched off, s: a motion that was broken off still has speed, a load slows the motor.
+const STOP_MARGIN_S: f64 = 1.0;
 
 /// What is sent to the drives, in three parts: see the module.
 #[derive(Clone, Debug, PartialEq)]
@@ -106,11 +109,19 @@ fn motion(design: &Design, trajectory: &Trajectory, resolution: u32) -> Program 
 /// Seconds until the farthest winch is back at zero when [`Programs::stop`] is sent.
 pub fn stopping_s(design: &Design, trajectory: &Trajectory) -> f64 {
     let motor = &design.controller;
-    let speed = stop_speed(design);
-    let farthest = (0..trajectory.winches.len()).map(|w| trajectory.range(w).1).max().unwrap_or(0) as f64;
-    let way_s = 60.0 * farthest / (4.0 * f64::from(motor.encoder_lines) * f64::from(speed));
-    // A ramp up and one down take half their time longer each.
-    (way_s + f64::from(speed) / 60.0 / f64::from(motor.acceleration)).ceil()
+    let revolutions = |counts: i64| counts as f64 / (4.0 * f64::from(motor.encoder_lines));
+    let slowly = Limits { speed: f64::from(stop_speed(design)) / 60.0, acceleration: f64::from(motor.acceleration) };
+    let farthest = (0..trajectory.winches.len()).map(|w| trajectory.range(w).1).max().unwrap_or(0);
+    let starts_s: f64 = (1..=trajectory.winches.len()).map(|node| line_s(&format!("{node}M"))).sum();
+    (Trapezoid::shortest(revolutions(farthest), slowly) + starts_s + STOP_MARGIN_S).ceil()
+}
+
+/// Time on the line of a command and its reply at the factory's setting, s: 9600 baud, ten bits a byte, `OK` and its end.
+pub fn line_s(command: &str) -> f64 {
+    const BAUD: f64 = 9600.0;
+    const BITS_A_BYTE: f64 = 10.0;
+    const REPLY_BYTES: usize = 4;
+    BITS_A_BYTE * (command.len() + TERMINATOR.len() + REPLY_BYTES) as f64 / BAUD
 }
 
 /// Speed on the way to zero, rpm.
@@ -122,13 +133,14 @@ fn stop_speed(design: &Design) -> u32 {
 fn stop(design: &Design, trajectory: &Trajectory) -> Program {
     let (motor, speed, nodes) = (&design.controller, stop_speed(design), 1..=trajectory.winches.len());
     let mut program = Program::new(TERMINATOR);
-    program.begin_step(0.0);
     for node in nodes.clone() {
         for (command, value) in [("SP", speed), ("AC", motor.acceleration), ("DEC", motor.acceleration)] {
             program.push(format_args!("{node}{command}{value}"));
         }
         program.push(format_args!("{node}LA0"));
     }
+    // The clock starts with the first of them that moves.
+    program.begin_step(0.0);
     for node in nodes.clone() {
         program.push(format_args!("{node}M"));
     }

@@ -13,8 +13,7 @@ pub enum MotionError {
     #[error("winch {winch:?} would have to go to {counts:.3e} counts, beyond the controller's {MAX_COUNTS:.0}")]
     TooFar { winch: String, counts: f64 },
     #[error(
-        "between {from_s} s and {to_s} s winch {winch:?} winds {by_mm:.1} mm: the motor's speed and acceleration need {needs_s:.2} s for that; \
-         move the keyframes apart, or let the motion be stretched"
+        "between {from_s:.2} s and {to_s:.2} s winch {winch:?} winds {by_mm:.1} mm: the motor's speed and acceleration need {needs_s:.2} s for that"
     )]
     TooFast { winch: String, from_s: f64, to_s: f64, by_mm: f64, needs_s: f64 },
     #[error("{winches} winches are more than the {MAX_NODES} nodes of the controllers' network")]

@@ -16,13 +16,14 @@ use serde::{Deserialize, Serialize};
 /// What became of the animation on its way to the motors.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Note {
-    /// A keyframe asks for slack, which no motor can push into a cable: it stops at the just-slack rest length.
+    /// A keyframe lets out more than the just-slack rest length, where line may leave the spool: it stops there.
     Slack { winch: String, time_s: f64, length_mm: f64 },
-    /// The first keyframe is not at rest: the winches are wound there first, from `-lead_s` on.
-    Lead { lead_s: f64 },
-    /// A section was too quick: it takes longer now, and what follows is later.
+    /// The first keyframe is not at rest: the winches are wound up to it first, and all else is `later_s` later where that takes longer
+    /// than there is time before it.
+    Lead { lead_s: f64, later_s: f64 },
+    /// A section was too quick: it takes longer now, and what follows is later. Its ends are those of the design's keyframes.
     Stretched { from_s: f64, to_s: f64, now_s: f64 },
-    /// The easing of a section is rounded off.
+    /// The easing of a section is rounded off. Its ends are those of the design's keyframes.
     Rounded { winch: String, from_s: f64, to_s: f64 },
 }
 
@@ -39,7 +40,7 @@ pub enum TooFast {
 /// Lengths of all winches over time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
-    /// The keyframes' times, s, the first one at 0 or later; before it there may be a lead from rest.
+    /// Times of the keyframes, s, those of a lead from rest before them.
     times_s: Vec<f64>,
     /// For each section between two of them, a profile a winch.
     sections: Vec<Vec<Profile>>,
@@ -48,10 +49,9 @@ pub struct Plan {
     pub notes: Vec<Note>,
 }
 
-/// A section's duration grows by this factor until it fits.
-const STRETCH: f64 = 1.01;
-/// A plan is refused where sections must be stretched more often: far beyond any time that a design may have.
-const MAX_STRETCHES: usize = 200_000;
+/// Part by which a section that is as long as a move from rest to rest needs, and does not fit, is made longer until it does. The speeds at
+/// its ends only shorten the way; it is a guard against rounding.
+const LONGER: f64 = 0.01;
 /// The lead runs at this part of speed and acceleration: nobody waits for it, and everybody watches it.
 const LEAD: f64 = 0.5;
 
@@ -86,7 +86,7 @@ impl Plan {
         let mut keys: Vec<Key> = design
             .keyframes
             .iter()
-            .map(|k| Key { time_s: k.time_s, easing: k.easing, lengths: k.activations_mm.clone() })
+            .map(|k| Key { asked_s: k.time_s, time_s: k.time_s, easing: k.easing, lengths: k.activations_mm.clone() })
             .collect();
         for key in &mut keys {
             for (winch, length) in winches.iter().zip(&mut key.lengths) {
@@ -142,6 +142,9 @@ fn steps_of(times_s: &[f64], rate_hz: f64) -> f64 {
 /// A keyframe on its way into the plan.
 #[derive(Clone, Debug)]
 struct Key {
+    /// When the design has it, s.
+    asked_s: f64,
+    /// When the plan has it, s.
     time_s: f64,
     easing: Easing,
     lengths: Vec<f64>,
@@ -157,9 +160,14 @@ fn lead(keys: &mut Vec<Key>, limits: Limits, notes: &mut Vec<Note>) {
     }
     let late = (needs - first.time_s).max(0.0);
     keys.iter_mut().for_each(|key| key.time_s += late);
-    let start = keys[0].time_s - needs;
-    keys.insert(0, Key { time_s: start, easing: Easing::Linear, lengths: vec![0.0; first.lengths.len()] });
-    notes.push(Note::Lead { lead_s: needs });
+    let rest = Key {
+        asked_s: first.time_s - needs,
+        time_s: first.time_s + late - needs,
+        easing: Easing::Linear,
+        lengths: vec![0.0; first.lengths.len()],
+    };
+    keys.insert(0, rest);
+    notes.push(Note::Lead { lead_s: needs, later_s: late });
 }
 
 /// A profile for each winch in each section; sections that are too quick are stretched or refused.
@@ -170,8 +178,6 @@ fn fit(
     too_fast: TooFast,
     notes: &mut Vec<Note>,
 ) -> Result<Vec<Vec<Profile>>, MotionError> {
-    let before: Vec<f64> = keys.iter().map(|key| key.time_s).collect();
-    let mut stretches = 0;
     let mut k = 0;
     let mut sections: Vec<Vec<Profile>> = Vec::new();
     while k + 1 < keys.len() {
@@ -182,30 +188,26 @@ fn fit(
             continue;
         }
         let duration = keys[k + 1].time_s - keys[k].time_s;
+        let by = |winch: usize| keys[k + 1].lengths[winch] - keys[k].lengths[winch];
         if too_fast == TooFast::Refuse {
             let slow = (0..winches.len()).find(|&winch| profile(keys, k, winch, limits).is_none()).unwrap_or(0);
-            let by = keys[k + 1].lengths[slow] - keys[k].lengths[slow];
-            let [from_s, to_s] = [before[k], before[k + 1]];
             return Err(MotionError::TooFast {
                 winch: winches[slow].clone(),
-                from_s,
-                to_s,
-                by_mm: by,
-                needs_s: Trapezoid::shortest(by, limits),
+                from_s: keys[k].asked_s,
+                to_s: keys[k + 1].asked_s,
+                by_mm: by(slow),
+                needs_s: Trapezoid::shortest(by(slow), limits),
             });
         }
-        stretches += 1;
-        if stretches > MAX_STRETCHES {
-            return Err(MotionError::TooLong { steps: f64::INFINITY });
-        }
-        let more = (STRETCH - 1.0) * duration;
+        let needs = (0..winches.len()).map(|winch| Trapezoid::shortest(by(winch), limits)).fold(0.0, f64::max);
+        let more = if needs > duration { needs * (1.0 + ROUNDING) - duration } else { LONGER * duration };
         keys[k + 1..].iter_mut().for_each(|key| key.time_s += more);
         // The speed at which the section begins has changed with it: the one before is fitted again.
         k = k.saturating_sub(1);
         sections.truncate(k);
     }
     for (section, profiles) in sections.iter().enumerate() {
-        let [from_s, to_s] = [before[section], before[section + 1]];
+        let [from_s, to_s] = [keys[section].asked_s, keys[section + 1].asked_s];
         let now_s = keys[section + 1].time_s - keys[section].time_s;
         if now_s > (to_s - from_s) * (1.0 + ROUNDING) {
             notes.push(Note::Stretched { from_s, to_s, now_s });

@@ -46,7 +46,6 @@ impl Trajectory {
     /// # Errors
     /// Too many steps, a position beyond the controllers', or a section that no motor can follow where it may not be stretched.
     pub fn of(design: &Design, too_fast: TooFast) -> Result<Self, MotionError> {
-        check(design)?;
         let plan = Plan::of(design, too_fast)?;
         let rate = design.controller.track_rate_hz;
         let steps = plan.count(rate);

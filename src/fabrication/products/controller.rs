@@ -5,12 +5,6 @@ use crate::fabrication::error::ExportError;
 use crate::fabrication::product::{Content, Part, Product, Source};
 use crate::motion::{Note, Program, Trajectory, classic};
 
-/// Bits on the line at the factory's setting, 1/s: ten for each byte.
-const BAUD: f64 = 9600.0;
-const BITS_A_BYTE: f64 = 10.0;
-/// Bytes of a reply, `OK` and its end.
-const REPLY_BYTES: usize = 4;
-
 /// The programs `controller-ascii-setup`, `-motion` and `-stop`.
 pub(super) fn make(source: &Source<'_>) -> Result<Part, ExportError> {
     let programs = classic::programs(source.design, source.trajectory)?;
@@ -50,8 +44,7 @@ fn guide(design: &Design, trajectory: &Trajectory) -> String {
 fn remarks(design: &Design, trajectory: &Trajectory, motion: &Program) -> Vec<String> {
     let mut remarks: Vec<String> = trajectory.notes.iter().map(worded).collect();
     let slow = motion.steps().zip(trajectory.times_s.windows(2)).filter_map(|((_, commands), times)| {
-        let bytes: usize = commands.map(|command| command.len() + classic::TERMINATOR.len() + REPLY_BYTES).sum();
-        let on_line = BITS_A_BYTE * bytes as f64 / BAUD;
+        let on_line: f64 = commands.map(classic::line_s).sum();
         (on_line > times[1] - times[0]).then_some((on_line, times[1] - times[0]))
     });
     if let Some((on_line, step)) = slow.max_by(|a, b| a.0.total_cmp(&b.0)) {
@@ -72,17 +65,21 @@ fn remarks(design: &Design, trajectory: &Trajectory, motion: &Program) -> Vec<St
 fn worded(note: &Note) -> String {
     match note {
         Note::Slack { winch, time_s, length_mm } => format!(
-            "The keyframe at {time_s} s lets winch {winch:?} out by {:.1} mm beyond its just-slack length: a winch cannot push, it stops at 0.",
+            "The keyframe at {time_s:.2} s lets winch {winch:?} out by {:.1} mm beyond its rest length, where line may leave the spool: it stops \
+             at 0, and that pose may be missed.",
             -length_mm
         ),
-        Note::Lead { lead_s } => format!(
-            "The animation does not begin at rest: the winches take {lead_s:.2} s to get to its first keyframe."
-        ),
+        Note::Lead { lead_s, later_s } => {
+            let later = if *later_s > 0.0 { format!("; all of it is {later_s:.2} s later") } else { String::new() };
+            format!(
+                "The animation does not begin at rest: its winches take {lead_s:.2} s to wind up to the first keyframe{later}."
+            )
+        }
         Note::Stretched { from_s, to_s, now_s } => format!(
-            "From {from_s} s to {to_s} s the motors would have been too slow: that section takes {now_s:.2} s now, and what follows is later."
+            "From {from_s:.2} s to {to_s:.2} s the motors would have been too slow: that section takes {now_s:.2} s now, and what follows is later."
         ),
         Note::Rounded { winch, from_s, to_s } => format!(
-            "From {from_s} s to {to_s} s winch {winch:?} moves as evenly as its motor can, not as the keyframe's easing would have it."
+            "From {from_s:.2} s to {to_s:.2} s winch {winch:?} moves as evenly as its motor can, not as the keyframe's easing would have it."
         ),
     }
 }
