@@ -168,7 +168,9 @@ impl Keeper {
     /// Goes on in a folder that another window left behind, so that its work is safe until it is saved.
     pub fn adopt(abandoned: Abandoned) -> (Self, Design, Facts) {
         let Abandoned { design, facts, folder, lock, .. } = abandoned;
-        (Self { folder, _lock: lock, kept: None, changed: None, writing: None }, design, facts)
+        // It is there, and goes once it is saved.
+        let kept = Work { design: Arc::new(design.clone()), drawing: None, facts: facts.clone() };
+        (Self { folder, _lock: lock, kept: Some(Arc::new(kept)), changed: None, writing: None }, design, facts)
     }
 
     fn join(&mut self) -> Option<Result<(), String>> {
@@ -303,9 +305,12 @@ mod tests {
         let mut found = Abandoned::find(&store).0;
         assert_eq!((found.len(), found[0].design.name.as_str()), (1, "one"));
         assert_eq!(found[0].facts, work("one").facts);
-        let (keeper, design, _) = Keeper::adopt(found.remove(0));
+        let (mut keeper, design, _) = Keeper::adopt(found.remove(0));
         assert_eq!(design.name, "one");
         assert!(Abandoned::find(&store).0.is_empty());
+        assert!(keeper.folder.join(DESIGN).exists());
+        keeper.follow(None, || {});
+        assert!(!keeper.folder.join(DESIGN).exists(), "it was saved, and would be offered again");
         keeper.end();
         assert_eq!(fs::read_dir(folder.path().join("work")).unwrap().count(), 0);
     }
