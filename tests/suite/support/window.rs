@@ -3,7 +3,7 @@
 use eframe::egui::{Key, Modifiers, Pos2, pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
-use plushwright::design::{Design, Network, Pin, Tendon};
+use plushwright::design::{Design, MaterialPoint, Network, Pin, Tendon};
 use plushwright::engine::Shape;
 use plushwright::mesh::Mesh;
 use plushwright::outline::Outline;
@@ -42,7 +42,7 @@ pub fn bar() -> Design {
 
 /// A winch at the left end with a tendon along the top, as discovery might propose.
 pub fn network() -> Network {
-    let tendon = Tendon { routing: vec![14, 15, 16, 17, 18, 19], ratio: 1.0, slack_mm: 0.0 };
+    let tendon = Tendon { routing: MaterialPoint::through(14..20), ratio: 1.0, slack_mm: 0.0 };
     Network { name: "winch 1".to_owned(), tendons: vec![tendon] }
 }
 
