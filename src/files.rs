@@ -7,7 +7,7 @@
 //! | [`read`] | the bytes of a regular file, up to a limit |
 //! | [`Hold`] | keeps other processes off a file between reading and writing it |
 //! | [`Stamp`] | tells whether a file is still what was read |
-//! | [`same`] | whether two paths are one file |
+//! | [`same`], [`is_taken`] | whether two paths are one file; whether something is there |
 //! | [`marked_png`], [`is_marked_png`] | tells our pictures from those of others |
 //!
 //! A file is written in full beside its place, flushed, and then takes the name. On Linux it has no name until then, so that even a
@@ -27,7 +27,7 @@ mod sweep;
 pub use hold::Hold;
 pub use mark::{is_marked_png, marked_png};
 pub use paths::parent;
-pub use place::same;
+pub use place::{is_taken, same};
 pub use signals::{before_exit, survive_size_limits};
 pub use stamp::{Stamp, sha256};
 

@@ -106,17 +106,12 @@ pub fn alone_in<T>(
     done
 }
 
-/// Whether there is anything in the place of a design.
-fn is_taken(path: &Path) -> bool {
-    std::fs::metadata(path).is_ok_and(|found| found.is_file() && found.len() > 0)
-}
-
 /// Refuses to replace what is no design, without force.
 ///
 /// # Errors
 /// It is there.
 pub fn refuse_foreign(path: &Path, force: bool) -> Result<(), CommandError> {
-    if force || !is_taken(path) || is_design(path) {
+    if force || !files::is_taken(path) || is_design(path) {
         return Ok(());
     }
     let path = shown(path);
@@ -127,7 +122,7 @@ pub fn refuse_foreign(path: &Path, force: bool) -> Result<(), CommandError> {
 /// command wrote before, which [`refuse_lost`] tells when its work is done.
 fn refuse_another(path: &Path, design: &Design, force: bool) -> Result<(), CommandError> {
     let may_go = |other: Design| other.is_bare() || other.name == design.name;
-    if force || !is_taken(path) || file::read(path).is_ok_and(may_go) {
+    if force || !files::is_taken(path) || file::read(path).is_ok_and(may_go) {
         return Ok(());
     }
     let path = shown(path);
@@ -146,7 +141,7 @@ pub fn refuse_lost(path: &Path, kept: &[&Design], force: bool) -> Result<(), Com
         let other = but_texture(&other);
         other.is_bare() || kept.iter().any(|design| but_texture(design) == other)
     };
-    if force || !is_taken(path) || file::read(path).is_ok_and(may_go) {
+    if force || !files::is_taken(path) || file::read(path).is_ok_and(may_go) {
         return Ok(());
     }
     let path = shown(path);

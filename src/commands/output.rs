@@ -98,8 +98,7 @@ impl Kind {
         /// Enough to know a picture or a drawing, bytes.
         const HEAD: u64 = 512;
         let mut head = Vec::new();
-        let there = std::fs::metadata(path).is_ok_and(|found| found.is_file() && found.len() > 0);
-        if !there {
+        if !files::is_taken(path) {
             return false;
         }
         if !std::fs::File::open(path).is_ok_and(|file| file.take(HEAD).read_to_end(&mut head).is_ok()) {

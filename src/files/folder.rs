@@ -154,10 +154,12 @@ fn fill_and_name(dir: &Path, place: &Path, format: &str, files: &[(&str, &[u8])]
     for _ in 0..TRIES {
         if check(dir, format)? {
             become_like(fresh.path(), place).map_err(failed)?;
+            // Nobody else takes it for one that was left behind while it has the temporary name.
+            let _old = File::open(place).ok().filter(|old| old.try_lock().is_ok());
             exchange(fresh.path(), place).map_err(failed)?;
             // Somebody may have put something into the old one in the last moment.
             if let Err(error) = check(fresh.path(), format) {
-                exchange(fresh.path(), place).map_err(failed)?;
+                put_back(fresh, place, exchange).map_err(failed)?;
                 return Err(match error {
                     FolderError::NotOurs { found, .. } => FolderError::NotOurs { path: dir.into(), found },
                     FolderError::Changed { name, .. } => FolderError::Changed { path: dir.into(), name },
@@ -182,6 +184,21 @@ fn fill_and_name(dir: &Path, place: &Path, format: &str, files: &[(&str, &[u8])]
         }
     }
     Err(failed(io::Error::other("others keep changing it")))
+}
+
+/// Gives the old folder, which has the temporary name, its place again. Where that cannot be done it stays beside the place under a name
+/// that anybody understands: `NAME.old-...`.
+fn put_back(old: TempDir, place: &Path, exchange: impl Fn(&Path, &Path) -> io::Result<()>) -> io::Result<()> {
+    let Err(error) = exchange(old.path(), place) else { return Ok(()) };
+    // Nothing here removes it any more, and nothing later what has no temporary name.
+    let old = old.keep();
+    let into = |(aside, kept): (TempDir, PathBuf)| {
+        fs::rename(&old, &kept)?;
+        let _ = aside.keep();
+        Ok(kept)
+    };
+    let kept = aside(place).and_then(into).unwrap_or_else(|_| old.clone());
+    Err(io::Error::new(error.kind(), format!("{error}; what was there is in {}", super::shown(&kept))))
 }
 
 /// A new folder beside a place, held so that nobody takes it for one that was left behind.
@@ -246,10 +263,7 @@ fn exchange(fresh: &Path, place: &Path) -> io::Result<()> {
 /// The exchange in three steps, each taken back where the next fails. Between the first two the old folder stands beside its place under a
 /// name that anybody understands: `NAME.old-...`.
 fn exchange_in_steps(fresh: &Path, place: &Path) -> io::Result<()> {
-    let name = place.file_name().unwrap_or_default();
-    let prefix = format!("{}.old-", name.to_string_lossy());
-    let aside = tempfile::Builder::new().prefix(&prefix).tempdir_in(parent(place))?;
-    let old = aside.path().join(name);
+    let (aside, old) = aside(place)?;
     fs::rename(place, &old)?;
     if let Err(error) = fs::rename(fresh, place) {
         if fs::rename(&old, place).is_err() {
@@ -262,6 +276,15 @@ fn exchange_in_steps(fresh: &Path, place: &Path) -> io::Result<()> {
         let _ = aside.keep();
     }
     Ok(())
+}
+
+/// A folder beside a place for what stands there, and the path that it gets in it.
+fn aside(place: &Path) -> io::Result<(TempDir, PathBuf)> {
+    let name = place.file_name().unwrap_or_default();
+    let prefix = format!("{}.old-", name.to_string_lossy());
+    let aside = tempfile::Builder::new().prefix(&prefix).tempdir_in(parent(place))?;
+    let path = aside.path().join(name);
+    Ok((aside, path))
 }
 
 #[cfg(test)]
@@ -301,6 +324,27 @@ mod tests {
         // What was made on the way to a refusal is gone.
         assert!(put(&folder.path().join("x/y"), &[("a", "1"), ("a", "1")]).is_err());
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn an_old_folder_that_cannot_be_put_back_stays_beside_its_place() {
+        let folder = tempfile::tempdir().unwrap();
+        let place = folder.path().join("result");
+        fs::create_dir(&place).unwrap();
+        fs::write(place.join("new"), "ours").unwrap();
+        let (old, held) = fresh_beside(&place).unwrap();
+        fs::write(old.path().join("notes"), "mine").unwrap();
+        let refused = |_: &Path, _: &Path| Err(io::Error::from(io::ErrorKind::PermissionDenied));
+        let error = put_back(old, &place, refused).unwrap_err();
+        drop(held);
+        // Whoever writes there next clears away what is temporary.
+        sweep::sweep(folder.path());
+        let names = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().path());
+        let aside: Vec<PathBuf> = names.filter(|path| *path != place).collect();
+        assert!(matches!(&aside[..], [aside] if aside.to_string_lossy().contains("result.old-")), "{aside:?}");
+        let kept = aside[0].join("result");
+        assert_eq!(fs::read_to_string(kept.join("notes")).unwrap(), "mine");
+        assert!(error.to_string().contains(kept.to_str().unwrap()) && place.join("new").exists(), "{error}");
     }
 
     #[test]

@@ -38,6 +38,11 @@ pub(super) fn find(path: &Path) -> io::Result<Place> {
     }
 }
 
+/// Whether a file of some length is there, which would be lost if it were replaced.
+pub fn is_taken(path: &Path) -> bool {
+    fs::metadata(path).is_ok_and(|found| found.is_file() && found.len() > 0)
+}
+
 /// Whether both paths lead to one file, by whatever names.
 pub fn same(a: &Path, b: &Path) -> bool {
     #[cfg(unix)]

@@ -13,7 +13,7 @@ pub enum OutlineError {
     UnknownFormat,
     #[error("not a readable {format}: {reason}")]
     Unreadable { format: &'static str, reason: String },
-    #[error("the file is larger than {max} MB, the most that is read for an outline", max = MAX_FILE_BYTES >> 20)]
+    #[error("the file is larger than {max} MB, the most that is read", max = MAX_FILE_BYTES >> 20)]
     TooLarge,
     #[error("the drawing {0}, too much for an outline; simplify it")]
     TooComplex(&'static str),

@@ -79,6 +79,41 @@ pub trait Kind: Send + Sync + 'static {
     fn parameters(&self) -> &'static [Parameter];
 }
 
+/// Makes the table of all entries of a type a catalogue: [`Kind`] for them.
+macro_rules! catalogue {
+    ($kind:ty, $of:literal, $all:ident) => {
+        impl $crate::physics::catalogue::Kind for $kind {
+            const OF: &'static str = $of;
+
+            fn all() -> &'static [&'static Self] {
+                &$all
+            }
+
+            fn names() -> &'static [&'static str] {
+                static NAMES: [&str; $all.len()] = {
+                    let mut names = [""; $all.len()];
+                    let mut k = 0;
+                    while k < names.len() {
+                        names[k] = $all[k].name;
+                        k += 1;
+                    }
+                    names
+                };
+                &NAMES
+            }
+
+            fn name(&self) -> &'static str {
+                self.name
+            }
+
+            fn parameters(&self) -> &'static [$crate::physics::catalogue::Parameter] {
+                self.parameters
+            }
+        }
+    };
+}
+pub(super) use catalogue;
+
 /// A material of the catalogue. Two are equal where their names are.
 #[derive(Debug)]
 pub struct MaterialKind {

@@ -77,6 +77,8 @@ impl Studio {
         let (now_s, passed_s, hands_off) = ctx
             .input(|i| (i.time, f64::from(i.stable_dt), !i.pointer.any_down() && i.pointer.press_origin().is_none()));
         let typing = ctx.text_edit_focused();
+        let was_drawing = self.tools.is_drawing(&self.session);
+        self.session.sketching.waits = was_drawing;
         acts::tick::tick(&mut self.session, now_s, passed_s, hands_off && !typing);
 
         let mut actions = Vec::new();
@@ -88,7 +90,8 @@ impl Studio {
             actions.push(Action::File(FileAction::Quit));
         }
         self.tools.finish_before(&self.session, &mut actions);
-        let changed = !actions.is_empty();
+        self.session.sketching.waits = self.tools.is_drawing(&self.session);
+        let changed = !actions.is_empty() || self.session.sketching.waits != was_drawing;
         let theme = self.session.look.theme;
         for action in actions {
             acts::apply::apply(&mut self.session, action);
@@ -170,7 +173,7 @@ impl Studio {
     }
 
     fn set_title(&mut self, ctx: &egui::Context) {
-        let mark = if self.session.document.history.is_modified() { "*" } else { "" };
+        let mark = if self.session.document.is_modified() { "*" } else { "" };
         let title = format!("Plushwright - {}{mark}", self.session.design().name);
         if title != self.title {
             ctx.send_viewport_cmd(ViewportCommand::Title(title.clone()));
@@ -219,5 +222,58 @@ impl eframe::App for Studio {
 
     fn persist_egui_memory(&self) -> bool {
         false
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::outline::Changes;
+    use crate::studio::jobs::{New, Outcome};
+    use crate::studio::session::Dialog;
+    use crate::studio::{blank, services};
+    use egui_kittest::Harness;
+    use egui_kittest::kittest::Queryable;
+
+    #[test]
+    fn an_import_that_is_ready_asks_about_what_is_only_being_drawn() {
+        let show = |ui: &mut egui::Ui, studio: &mut Option<Studio>| {
+            studio.get_or_insert_with(|| Studio::new(ui.ctx(), blank::design(), None, services())).update(ui);
+        };
+        let mut window = Harness::builder().with_size(egui::vec2(1280.0, 800.0)).build_ui_state(show, None);
+        for key in [egui::Key::O, egui::Key::P] {
+            window.key_press(key);
+            window.step();
+        }
+        // Two corners: too few to be a part of the drawing.
+        let middle = window.get_by_label("Drawing sheet").rect().center();
+        for by in [-50.0, 50.0] {
+            let corner = middle + egui::vec2(by, 0.0);
+            window.hover_at(corner);
+            window.step();
+            window.drag_at(corner);
+            window.step();
+            window.drop_at(corner);
+            window.step();
+        }
+        let studio = window.state_mut().as_mut().unwrap();
+        assert!(studio.tools.is_drawing(&studio.session) && !studio.session.document.is_modified());
+        let design = Design { name: "import".into(), ..blank::design() };
+        let new = New { design, changes: Changes::default(), notes: Vec::new(), texture: None };
+        studio.session.jobs.start("Import", |_| Outcome::Imported(Ok(Box::new(new))));
+        let session = |window: &Harness<'_, Option<Studio>>| {
+            let studio = window.state().as_ref().unwrap();
+            (studio.session.design().name.clone(), studio.session.files.dialog.clone())
+        };
+        while session(&window).1.is_none() && session(&window).0 != "import" {
+            window.step();
+        }
+        assert!(matches!(session(&window).1, Some(Dialog::Unsaved(_))));
+        // A dialog is measured before it is seen.
+        window.step();
+        window.get_by_label("Discard changes").click();
+        window.step();
+        window.step();
+        assert_eq!(session(&window).0, "import");
     }
 }

@@ -28,7 +28,7 @@ pub struct Keeper {
     folder: PathBuf,
     /// Held as long as the window lives.
     _lock: File,
-    kept: Option<Work>,
+    kept: Option<Arc<Work>>,
     changed: Option<Instant>,
     writing: Option<JoinHandle<Result<(), String>>>,
 }
@@ -40,6 +40,28 @@ pub struct Work {
     /// With what is only being drawn yet.
     pub drawing: Option<Drawing>,
     pub facts: Facts,
+}
+
+/// What [`Work`] is put together from.
+pub struct Sources<'a> {
+    pub design: &'a Arc<Design>,
+    pub drawing: Option<&'a Drawing>,
+    /// [`Facts::path`] and [`Facts::origin`] as they were given.
+    pub path: Option<&'a Path>,
+    pub origin: Option<&'a Path>,
+    pub seen: Option<Stamp>,
+    pub is_modified: bool,
+}
+
+/// The work of some sources, so that nothing is done in a frame in which they are what they were.
+pub struct Revision {
+    design: Arc<Design>,
+    drawing: Option<Drawing>,
+    path: Option<PathBuf>,
+    origin: Option<PathBuf>,
+    seen: Option<Stamp>,
+    is_modified: bool,
+    work: Option<Arc<Work>>,
 }
 
 /// Where a document belongs.
@@ -93,9 +115,9 @@ impl Keeper {
 
     /// Once a frame: writes what has changed when it is time, and clears away what is saved (`None`). `wake` is called when a write has
     /// ended.
-    pub fn follow(&mut self, work: Option<Work>, wake: impl FnOnce() + Send + 'static) -> Kept {
+    pub fn follow(&mut self, work: Option<Arc<Work>>, wake: impl FnOnce() + Send + 'static) -> Kept {
         if self.writing.as_ref().is_some_and(|writing| !writing.is_finished()) {
-            return Kept::All;
+            return Kept::Due(EVERY);
         }
         if let Some(Err(why)) = self.join() {
             self.kept = None;
@@ -109,7 +131,7 @@ impl Keeper {
             }
             return Kept::All;
         };
-        if self.kept.as_ref().is_some_and(|kept| kept.is(&work)) {
+        if self.kept.as_ref().is_some_and(|kept| Arc::ptr_eq(kept, &work) || kept.is(&work)) {
             self.changed = None;
             return Kept::All;
         }
@@ -144,10 +166,11 @@ impl Keeper {
     }
 
     /// Goes on in a folder that another window left behind, so that its work is safe until it is saved.
-    pub fn adopt(self, abandoned: Abandoned) -> (Self, Design, Facts) {
+    pub fn adopt(abandoned: Abandoned) -> (Self, Design, Facts) {
         let Abandoned { design, facts, folder, lock, .. } = abandoned;
-        self.end();
-        (Self { folder, _lock: lock, kept: None, changed: None, writing: None }, design, facts)
+        // It is there, and goes once it is saved.
+        let kept = Work { design: Arc::new(design.clone()), drawing: None, facts: facts.clone() };
+        (Self { folder, _lock: lock, kept: Some(Arc::new(kept)), changed: None, writing: None }, design, facts)
     }
 
     fn join(&mut self) -> Option<Result<(), String>> {
@@ -155,12 +178,41 @@ impl Keeper {
         Some(writing.join().unwrap_or_else(|_| Err("it broke down".into())))
     }
 
+    /// Nothing is to be recovered. Pictures stay: a document that was recovered is saved with the one that is here, every time.
     fn clear(&self) {
-        let _ = fs::remove_file(self.folder.join(DESIGN));
-        let others = fs::read_dir(&self.folder).into_iter().flatten().flatten();
-        for entry in others.filter(|entry| entry.file_name() != LOCK) {
-            let _ = fs::remove_file(entry.path());
+        for name in [DESIGN, FACTS] {
+            let _ = fs::remove_file(self.folder.join(name));
         }
+    }
+}
+
+impl Revision {
+    pub fn of(sources: &Sources<'_>) -> Self {
+        let &Sources { design, drawing, path, origin, seen, is_modified } = sources;
+        let absolute = |path: Option<&Path>| path.and_then(|path| std::path::absolute(path).ok());
+        let facts = || Facts { path: absolute(path), origin: absolute(origin), texture: design.texture.clone(), seen };
+        let work = || Arc::new(Work { design: design.clone(), drawing: drawing.cloned(), facts: facts() });
+        Self {
+            design: design.clone(),
+            drawing: drawing.cloned(),
+            path: path.map(Path::to_path_buf),
+            origin: origin.map(Path::to_path_buf),
+            seen,
+            is_modified,
+            work: (is_modified || drawing.is_some()).then(work),
+        }
+    }
+
+    pub fn is_of(&self, sources: &Sources<'_>) -> bool {
+        Arc::ptr_eq(&self.design, sources.design)
+            && self.drawing.as_ref() == sources.drawing
+            && (self.path.as_deref(), self.origin.as_deref()) == (sources.path, sources.origin)
+            && (self.seen, self.is_modified) == (sources.seen, sources.is_modified)
+    }
+
+    /// None of a document that is saved as it is.
+    pub fn work(&self) -> Option<Arc<Work>> {
+        self.work.clone()
     }
 }
 
@@ -234,12 +286,12 @@ mod tests {
     use super::*;
     use crate::studio::blank;
 
-    fn work(name: &str) -> Work {
-        Work {
+    fn work(name: &str) -> Arc<Work> {
+        Arc::new(Work {
             design: Arc::new(Design { name: name.into(), ..blank::design() }),
             drawing: None,
             facts: Facts { path: Some("/x/pig.plush".into()), ..Facts::default() },
-        }
+        })
     }
 
     #[test]
@@ -253,9 +305,12 @@ mod tests {
         let mut found = Abandoned::find(&store).0;
         assert_eq!((found.len(), found[0].design.name.as_str()), (1, "one"));
         assert_eq!(found[0].facts, work("one").facts);
-        let (keeper, design, _) = Keeper::new(&store).unwrap().adopt(found.remove(0));
+        let (mut keeper, design, _) = Keeper::adopt(found.remove(0));
         assert_eq!(design.name, "one");
         assert!(Abandoned::find(&store).0.is_empty());
+        assert!(keeper.folder.join(DESIGN).exists());
+        keeper.follow(None, || {});
+        assert!(!keeper.folder.join(DESIGN).exists(), "it was saved, and would be offered again");
         keeper.end();
         assert_eq!(fs::read_dir(folder.path().join("work")).unwrap().count(), 0);
     }
@@ -272,7 +327,45 @@ mod tests {
         assert_eq!(keeper.join(), Some(Ok(())));
         assert_eq!(crate::design::file::read(&file).unwrap().name, "two");
         assert!(matches!(keeper.follow(Some(work), || {}), Kept::All) && keeper.changed.is_none());
+        let picture = keeper.folder.join("work.texture.png");
+        fs::write(&picture, "skin").unwrap();
         assert!(matches!(keeper.follow(None, || {}), Kept::All));
-        assert!(!file.exists());
+        assert!(!file.exists() && picture.exists(), "what was recovered names it");
+        let folder = keeper.folder.clone();
+        keeper.end();
+        assert!(!folder.exists());
+    }
+
+    #[test]
+    fn while_it_is_written_the_next_look_is_due() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut keeper = Keeper::new(&Store::at(folder.path())).unwrap();
+        let (done, wait) = std::sync::mpsc::channel::<()>();
+        keeper.writing = Some(std::thread::spawn(move || wait.recv().map_err(|error| error.to_string())));
+        assert!(matches!(keeper.follow(Some(work("three")), || {}), Kept::Due(_)), "a failure would not be told");
+        done.send(()).unwrap();
+        keeper.join();
+    }
+
+    #[test]
+    fn work_is_put_together_anew_where_its_sources_have_changed() {
+        let design = Arc::new(blank::design());
+        let drawing = Drawing::default();
+        let path = Path::new("/x/pig.plush");
+        let saved =
+            Sources { design: &design, drawing: None, path: None, origin: None, seen: None, is_modified: false };
+        let known = Revision::of(&saved);
+        assert!(known.is_of(&saved) && known.work().is_none());
+        assert!(!known.is_of(&Sources { design: &Arc::new(blank::design()), ..saved }));
+        for other in [
+            Sources { is_modified: true, ..saved },
+            Sources { drawing: Some(&drawing), ..saved },
+            Sources { path: Some(path), is_modified: true, ..saved },
+            Sources { seen: Some(Stamp::of(b"x")), is_modified: true, ..saved },
+        ] {
+            assert!(!known.is_of(&other));
+            let work = Revision::of(&other).work().unwrap();
+            assert_eq!((work.facts.path.as_deref(), work.facts.seen), (other.path, other.seen));
+        }
     }
 }

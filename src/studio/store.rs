@@ -2,7 +2,7 @@
 //! rules): work that was not saved, which files are open, recent files and settings.
 
 use super::canvas::Plushie;
-use super::session::Views;
+use super::session::{QUALITIES, Views};
 use crate::engine::Quality;
 use crate::files::{self, sha256};
 use crate::picture::Shown;
@@ -12,6 +12,8 @@ use serde::{Deserialize, Serialize};
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread::JoinHandle;
 
 /// Recent files that are remembered.
 const MOST_RECENT: usize = 10;
@@ -37,6 +39,54 @@ pub struct Settings {
     pub window: Option<[f32; 2]>,
     /// The newest first.
     pub recent: Vec<PathBuf>,
+}
+
+/// Writes settings down on a thread of its own, as a disk may take longer than a frame. Of several that wait the newest is written; when
+/// it is dropped, all is.
+pub struct Scribe {
+    /// What was handed over last, or was there at first.
+    last: Settings,
+    /// Until it is dropped.
+    send: Option<Sender<Settings>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Scribe {
+    /// `known`: what the store has.
+    pub fn new(store: Store, known: Settings) -> Self {
+        let (send, receive) = channel();
+        let thread = std::thread::spawn(move || write_down(&store, &receive));
+        Self { last: known, send: Some(send), thread: Some(thread) }
+    }
+
+    /// Has them written, where they are not what was handed over last.
+    pub fn remember(&mut self, settings: Settings) {
+        if settings == self.last {
+            return;
+        }
+        self.last = settings.clone();
+        if let Some(send) = &self.send {
+            // Where the thread is gone there is nobody to write; they are a help and no work.
+            let _ = send.send(settings);
+        }
+    }
+}
+
+impl Drop for Scribe {
+    fn drop(&mut self) {
+        self.send = None;
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
+    }
+}
+
+fn write_down(store: &Store, receive: &Receiver<Settings>) {
+    while let Ok(settings) = receive.recv() {
+        let newest = receive.try_iter().last().unwrap_or(settings);
+        // A disk that is full is told about where work is kept.
+        let _ = store.remember(&newest);
+    }
 }
 
 impl Store {
@@ -110,9 +160,7 @@ impl Settings {
     }
 
     pub fn quality(&self) -> Option<Quality> {
-        [Quality::Draft, Quality::Balanced, Quality::Accurate]
-            .into_iter()
-            .find(|quality| self.quality.as_deref() == Some(&format!("{quality:?}")))
+        QUALITIES.into_iter().find(|quality| self.quality.as_deref() == Some(&format!("{quality:?}")))
     }
 }
 
@@ -138,6 +186,25 @@ mod tests {
         assert_eq!((read.recent.len(), &read.recent[0]), (MOST_RECENT, &PathBuf::from("/a/7.plush")));
         fs::write(folder.path().join("state/plushwright/settings.ron"), "(dark: maybe").unwrap();
         assert_eq!(store.settings(), Settings::default());
+    }
+
+    #[test]
+    fn the_newest_settings_are_on_the_disk_when_the_scribe_is_gone_and_nothing_is_written_twice() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::at(folder.path());
+        let quality = |k: usize| Settings { quality: Some(k.to_string()), ..Settings::default() };
+        let mut scribe = Scribe::new(store.clone(), quality(0));
+        for k in 1..50 {
+            scribe.remember(quality(k));
+        }
+        drop(scribe);
+        assert_eq!(store.settings(), quality(49));
+        // What another window has written since stays until something is set otherwise here.
+        let mut scribe = Scribe::new(store.clone(), quality(49));
+        store.remember(&quality(7)).unwrap();
+        scribe.remember(quality(49));
+        drop(scribe);
+        assert_eq!(store.settings(), quality(7));
     }
 
     #[cfg(unix)]

@@ -1,6 +1,6 @@
 //! The palette, the page of shortcuts, and keys: whatever the table of commands says can be done by keyboard alone.
 
-use super::studio::{Window, bar, click, pose, press, session, settle, window};
+use super::support::window::{Window, bar, click, pose, press, session, settle, window};
 use eframe::egui::accesskit::Role::ListBoxOption;
 use eframe::egui::{Key, Modifiers};
 use egui_kittest::Node;

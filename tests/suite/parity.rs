@@ -1,23 +1,17 @@
 //! Every operation through the command line and through the window, by accessible names: the same design, byte for byte.
 
+use super::support::window::{Window, click, drag, on_screen, open, press, session, settle, type_path};
 use eframe::egui::accesskit::Role;
-use eframe::egui::{self, Key, Modifiers, Pos2, pos2, vec2};
-use egui_kittest::Harness;
+use eframe::egui::{self, Key, Modifiers, vec2};
 use egui_kittest::kittest::Queryable;
 use plushwright::design::{Design, file};
-use plushwright::studio::app::Studio;
-use plushwright::studio::session::Session;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::time::{Duration, Instant};
-
-type Window = Harness<'static, Option<Studio>>;
 
 /// 120 x 40 mm.
 const BAR: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" width="120mm" height="40mm" viewBox="0 0 120 40">
 <rect width="120" height="40"/></svg>"#;
-const BAR_MM: [f32; 2] = [120.0, 40.0];
 
 /// Runs the program in a folder.
 #[track_caller]
@@ -28,47 +22,9 @@ fn run(folder: &Path, args: &[&str]) {
 
 /// The window on a design, with the real services.
 fn window(design: Design, path: Option<PathBuf>) -> Window {
-    let mut given = Some((design, path));
-    let mut window = Harness::builder().with_max_steps(32).with_size(vec2(1280.0, 800.0)).build_ui_state(
-        move |ui, studio: &mut Option<Studio>| {
-            let studio = studio.get_or_insert_with(|| {
-                let (design, path) = given.take().expect("made once");
-                Studio::new(ui.ctx(), design, path, plushwright::studio::services())
-            });
-            studio.update(ui);
-        },
-        None,
-    );
+    let mut window = open(design, path, plushwright::studio::services(), None);
     settle(&mut window);
     window
-}
-
-fn session(window: &Window) -> &Session {
-    window.state().as_ref().expect("made in the first frame").session()
-}
-
-/// Runs frames until nothing is being worked at.
-fn settle(window: &mut Window) {
-    let started = Instant::now();
-    loop {
-        window.step();
-        let s = session(window);
-        if s.is_settled() && s.discovery().running.is_none() && !s.is_working() && s.meshing().running.is_none() {
-            return;
-        }
-        assert!(started.elapsed() < Duration::from_secs(300), "nothing happened");
-        std::thread::sleep(Duration::from_millis(2));
-    }
-}
-
-fn click(window: &mut Window, name: &str) {
-    window.get_by_label(name).click();
-    settle(window);
-}
-
-fn press(window: &mut Window, modifiers: Modifiers, key: Key) {
-    window.key_press_modifiers(modifiers, key);
-    settle(window);
 }
 
 /// Types a value in place of what stands in a field.
@@ -80,37 +36,6 @@ fn enter(window: &mut Window, role: Role, name: &str, text: &str) {
     window.event(egui::Event::Text(text.to_owned()));
     window.step();
     press(window, Modifiers::NONE, Key::Tab);
-}
-
-/// Types a path into the dialog.
-fn enter_path(window: &mut Window, path: &Path) {
-    window.get_by_label("Path").focus();
-    window.step();
-    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
-    window.step();
-    window.get_by_label("Path").type_text(&path.to_string_lossy());
-    settle(window);
-}
-
-fn drag(window: &mut Window, from: Pos2, to: Pos2) {
-    window.hover_at(from);
-    window.step();
-    window.drag_at(from);
-    window.step();
-    for i in 1..=4 {
-        window.hover_at(from.lerp(to, i as f32 / 4.0));
-        window.step();
-    }
-    window.drop_at(to);
-    settle(window);
-}
-
-/// Where a point of the bar is on the screen.
-fn on_screen(window: &Window, p: [f32; 2]) -> Pos2 {
-    let rect = window.get_by_label("Idealized view").rect();
-    let scale = (rect.width() / (BAR_MM[0] * 1.32)).min(rect.height() / (BAR_MM[1] * 1.32));
-    let center = rect.center();
-    pos2(center.x + (p[0] - 0.5 * BAR_MM[0]) * scale, center.y - (p[1] - 0.5 * BAR_MM[1]) * scale)
 }
 
 /// Both ways came to the same design.
@@ -136,14 +61,14 @@ fn posed() -> (tempfile::TempDir, Window) {
     let (folder, mut window) = bar();
     click(&mut window, "Pin tool");
     for p in [[5.0, 10.0], [5.0, 30.0]] {
-        let p = on_screen(&window, p);
+        let p = on_screen(&window, "Idealized view", p);
         window.hover_at(p);
         window.drag_at(p);
         window.drop_at(p);
         settle(&mut window);
     }
     click(&mut window, "Drag tool");
-    let [from, to] = [[112.0, 20.0], [106.3, 37.7]].map(|p| on_screen(&window, p));
+    let [from, to] = [[112.0, 20.0], [106.3, 37.7]].map(|p| on_screen(&window, "Idealized view", p));
     drag(&mut window, from, to);
     assert_eq!((session(&window).design().pins.len(), session(&window).design().poses.len()), (2, 1));
     press(&mut window, Modifiers::COMMAND, Key::S);
@@ -178,7 +103,7 @@ fn imported(name: &str, bytes: &[u8], args: &[&str], choose: impl Fn(&mut Window
     run(folder.path(), &[&["new", name, "-o", design.to_str().unwrap()], args].concat());
     let mut window = window(plushwright::design::bundled::ALL[0].design().unwrap(), None);
     press(&mut window, Modifiers::COMMAND, Key::N);
-    enter_path(&mut window, &path);
+    type_path(&mut window, &path);
     choose(&mut window);
     click(&mut window, "Create");
     same(&window, &design);
@@ -253,11 +178,11 @@ fn a_picture_becomes_the_same_texture_both_ways() {
     run(folder.path(), &["new", "skin.svg", "-o", "cli/skin.plush", "--texture"]);
     let mut window = window(plushwright::design::bundled::ALL[0].design().unwrap(), None);
     press(&mut window, Modifiers::COMMAND, Key::N);
-    enter_path(&mut window, &folder.path().join("skin.svg"));
+    type_path(&mut window, &folder.path().join("skin.svg"));
     click(&mut window, "Keep the picture as texture");
     click(&mut window, "Create");
     press(&mut window, Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
-    enter_path(&mut window, &by_hand.join("skin.plush"));
+    type_path(&mut window, &by_hand.join("skin.plush"));
     press(&mut window, Modifiers::NONE, Key::Enter);
     for name in ["skin.plush", "skin.texture.png"] {
         assert!(fs::read(cli.join(name)).unwrap() == fs::read(by_hand.join(name)).unwrap(), "{name}");
@@ -342,7 +267,7 @@ fn a_blueprint_is_the_same_both_ways() {
     let (folder, mut window) = rigged();
     run(folder.path(), &["export", "bar.plush", "-o", "cli"]);
     press(&mut window, Modifiers::COMMAND, Key::E);
-    enter_path(&mut window, &folder.path().join("window"));
+    type_path(&mut window, &folder.path().join("window"));
     press(&mut window, Modifiers::NONE, Key::Enter);
     let files = |name: &str| {
         let mut files: Vec<_> = fs::read_dir(folder.path().join(name)).unwrap().map(|e| e.unwrap().path()).collect();

@@ -112,6 +112,7 @@ pub fn rename_pose(session: &mut Session) {
 
 /// Shapes and proposals belong to one mesh. Where the document has another one, by whatever way, they are let go.
 fn follow_mesh(session: &mut Session) {
+    session.document.follow();
     if session.solver.is_remeshed(session.document.design()) {
         session.solver.forget();
         session.discovery.clear();

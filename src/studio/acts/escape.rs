@@ -1,7 +1,7 @@
 //! Letting go.
 
-use super::{edit, filing, sheet};
-use crate::studio::action::{FileAction, Sketch};
+use super::{edit, sheet};
+use crate::studio::action::Sketch;
 use crate::studio::session::{Mode, Selection, Session};
 
 /// Ends a drag, a search or the animation as if it had not been; otherwise clears the selection.
@@ -11,8 +11,6 @@ pub fn escape(session: &mut Session) {
     }
     if session.document.history.in_gesture() {
         session.document.history.cancel();
-    } else if session.files.dialog.is_some() {
-        filing::ask(session, FileAction::CloseDialog);
     } else if session.sketching.open {
         sheet::sketch(session, Sketch::Select(None, None));
     } else if session.picked.mode == Mode::Animation {

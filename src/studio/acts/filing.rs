@@ -9,7 +9,7 @@ use crate::design::file::is_design;
 use crate::files;
 use crate::studio::action::Sketch;
 use crate::studio::jobs::{New, Outcome, Refused};
-use crate::studio::session::{Dialog, FREEHAND, FileAction, PathDialog, Purpose, Resolution, Session};
+use crate::studio::session::{Dialog, FREEHAND, FileAction, PathDialog, Picking, Purpose, Resolution, Session};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -29,7 +29,7 @@ pub fn ask(session: &mut Session, action: FileAction) {
     // An answer is about the document as it was then. Whatever dialog is open, the end of all work is asked about.
     let granted = action != FileAction::Quit
         && session.files.granted.as_ref().is_some_and(|granted| Arc::ptr_eq(granted, session.design()));
-    if replaces && !granted && session.document.history.is_modified() {
+    if replaces && !granted && (session.document.is_modified() || session.sketching.waits) {
         session.files.after_save = None;
         session.files.dialog = Some(Dialog::Unsaved(Box::new(action)));
         return;
@@ -76,8 +76,7 @@ fn go_on(session: &mut Session, action: FileAction) {
         FileAction::CloseDialog if session.files.dialog == Some(Dialog::Recover) => keep::recover_later(session),
         FileAction::CloseDialog => {
             session.files.dialog = None;
-            session.files.after_save = None;
-            session.files.granted = None;
+            session.files.take_back();
             session.files.imported = None;
         }
         FileAction::EditDialog(dialog) => session.files.dialog = Some(Dialog::Path(dialog)),
@@ -103,30 +102,53 @@ fn go_on(session: &mut Session, action: FileAction) {
 }
 
 /// The desktop's dialog was answered.
-pub fn take_path(session: &mut Session, path: Option<PathBuf>, at_once: bool) {
-    let Some(purpose) = session.files.picking.take() else { return };
-    match (path, session.files.dialog.clone()) {
-        (Some(path), Some(Dialog::Path(dialog))) => {
+pub fn take_path(session: &mut Session, serial: u64, path: Option<PathBuf>, at_once: bool) {
+    let Some(Picking { purpose, wanted, .. }) = session.files.picking.take_if(|picking| picking.serial == serial)
+    else {
+        return;
+    };
+    let dialog = match &session.files.dialog {
+        Some(Dialog::Path(dialog)) if dialog.purpose == purpose => Some(dialog.clone()),
+        _ => None,
+    };
+    match (path, dialog) {
+        (Some(path), Some(dialog)) => {
             let path = if purpose == Purpose::Export { path.join(session.document.folder_name()) } else { path };
             let path = path.to_string_lossy().into_owned();
             session.files.dialog = Some(Dialog::Path(PathDialog { path, trouble: None, ..dialog }));
         }
-        (Some(path), _) if purpose == Purpose::Open => ask(session, FileAction::Dropped(path)),
-        // The desktop has asked about a plushie that would be replaced.
-        (Some(path), _) => {
+        (Some(path), None) if wanted => take_answer(session, purpose, path),
+        // Nobody cancels that fast: there was no dialog.
+        (None, dialog) if at_once => {
+            session.files.native_dialogs = false;
+            match (dialog, &session.files.dialog) {
+                (Some(_), _) => session.messages.info("This desktop has no file dialogs; type the path instead."),
+                (None, None) if wanted => paths::show_path_dialog(session, purpose),
+                _ => session.files.take_back(),
+            }
+        }
+        // The dialog in the window is still there to be answered.
+        (None, Some(_)) => {}
+        (None, None) => session.files.take_back(),
+        (Some(path), None) => {
+            session.files.take_back();
+            let path = files::shown(&path);
+            session.messages.warning(format!("Nothing was saved to {path}: another plushie is open by now."));
+        }
+    }
+}
+
+/// A path from the desktop, with no dialog of the window's that it was for.
+fn take_answer(session: &mut Session, purpose: Purpose, path: PathBuf) {
+    match purpose {
+        Purpose::Open => ask(session, FileAction::Dropped(path)),
+        Purpose::SaveAs => {
+            // The desktop has asked about a plushie that would be replaced.
             let asked = path.extension().is_some() && is_design(&path);
             save_and_go_on(session, path, asked);
         }
-        // Nobody cancels that fast: there was no dialog.
-        (None, _) if at_once => {
-            session.files.native_dialogs = false;
-            if session.files.dialog.is_none() {
-                paths::show_path_dialog(session, purpose);
-            } else {
-                session.messages.info("This desktop has no file dialogs; type the path instead.");
-            }
-        }
-        (None, _) => {}
+        // Their dialog was closed in the meantime.
+        Purpose::Import | Purpose::Export => {}
     }
 }
 
@@ -163,5 +185,115 @@ fn save_and_go_on(session: &mut Session, path: PathBuf, replace: bool) {
         && let Some(next) = session.files.after_save.take()
     {
         go_on(session, next);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::{Design, file};
+    use crate::studio::acts::tick::tick;
+    use crate::studio::blank;
+
+    fn session() -> Session {
+        let mut session = Session::new(blank::design(), None, Arc::new(|| ()), crate::studio::services());
+        session.files.native_dialogs = true;
+        session
+    }
+
+    /// The desktop's dialog is open.
+    fn opened(session: &mut Session, purpose: Purpose, serial: u64) {
+        session.files.picking = Some(Picking { purpose, serial, wanted: true });
+    }
+
+    fn answered(session: &mut Session) {
+        session.files.granted = Some(session.design().clone());
+        session.files.after_save = Some(FileAction::Quit);
+    }
+
+    fn is_taken_back(session: &Session) -> bool {
+        session.files.granted.is_none() && session.files.after_save.is_none()
+    }
+
+    #[test]
+    fn a_second_file_dialog_is_refused_and_the_first_stays_what_it_is() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("other.plush");
+        file::write(&path, &Design { name: "other".into(), ..blank::design() }).unwrap();
+        let before = std::fs::read(&path).unwrap();
+        let mut session = session();
+        opened(&mut session, Purpose::Open, 7);
+        answered(&mut session);
+        ask(&mut session, FileAction::SaveAs);
+        assert!(session.messages.list().iter().any(|message| message.text.contains("open already")));
+        assert!(is_taken_back(&session), "the next save would close the window");
+        take_path(&mut session, 7, Some(path.clone()), false);
+        assert_eq!(session.design().name, "other");
+        assert!(std::fs::read(&path).unwrap() == before && session.files.picking.is_none());
+    }
+
+    #[test]
+    fn an_answer_is_for_its_own_dialog_and_only_one_about_saving_saves() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("pig.plush");
+        let mut session = session();
+        for purpose in [Purpose::Import, Purpose::Export] {
+            opened(&mut session, purpose, 1);
+            take_path(&mut session, 1, Some(path.clone()), false);
+        }
+        // That of a dialog which nobody waits for.
+        opened(&mut session, Purpose::SaveAs, 3);
+        take_path(&mut session, 2, Some(path.clone()), false);
+        assert!(!path.exists() && session.document.path.is_none() && session.files.picking.is_some());
+        // One in the window that asks for something else is left as it is.
+        opened(&mut session, Purpose::Open, 4);
+        paths::show_path_dialog(&mut session, Purpose::Import);
+        let dialog = session.files.dialog.clone();
+        take_path(&mut session, 4, Some(path.clone()), false);
+        assert_eq!(session.files.dialog, dialog);
+        // One that asks for the same takes it.
+        opened(&mut session, Purpose::Import, 5);
+        take_path(&mut session, 5, Some(path.clone()), false);
+        let taken = matches!(&session.files.dialog, Some(Dialog::Path(dialog)) if Path::new(&dialog.path) == path);
+        assert!(taken && !path.exists());
+        // The document that was to be saved gave way to another one.
+        session.files.dialog = None;
+        opened(&mut session, Purpose::SaveAs, 6);
+        replace::open(&mut session, Design { name: "other".into(), ..blank::design() }, None);
+        take_path(&mut session, 6, Some(path.clone()), false);
+        assert!(!path.exists());
+        opened(&mut session, Purpose::SaveAs, 7);
+        take_path(&mut session, 7, Some(path.clone()), false);
+        assert_eq!(file::read(&path).unwrap().name, "other");
+    }
+
+    #[test]
+    fn what_was_answered_before_a_file_dialog_ends_with_it() {
+        let mut session = session();
+        opened(&mut session, Purpose::SaveAs, 1);
+        answered(&mut session);
+        take_path(&mut session, 1, None, false);
+        assert!(is_taken_back(&session), "it was cancelled");
+        // Behind it the dialog in the window goes on.
+        paths::show_path_dialog(&mut session, Purpose::Open);
+        opened(&mut session, Purpose::Open, 2);
+        answered(&mut session);
+        take_path(&mut session, 2, None, false);
+        assert!(session.files.granted.is_some());
+        // There are no dialogs: the window asks.
+        session.files.dialog = None;
+        opened(&mut session, Purpose::SaveAs, 3);
+        take_path(&mut session, 3, None, true);
+        assert!(session.files.after_save.is_some() && session.files.dialog.is_some());
+        // They break: the window asks too.
+        session.files.dialog = None;
+        session.files.native_dialogs = true;
+        let serial = session.jobs.start("The file dialog", |_| panic!("no portal")).serial;
+        opened(&mut session, Purpose::SaveAs, serial);
+        while session.files.picking.is_some() {
+            tick(&mut session, 0.0, 0.0, true);
+        }
+        let asks = matches!(&session.files.dialog, Some(Dialog::Path(dialog)) if dialog.purpose == Purpose::SaveAs);
+        assert!(asks && session.files.after_save.is_some() && !session.files.native_dialogs);
     }
 }

@@ -38,7 +38,7 @@ pub fn open_imported(session: &mut Session) {
         session.messages.info(words::more_fibers(asked, count));
     }
     // It is nowhere but here.
-    session.document.history.mark_unsaved();
+    session.document.mark_unsaved();
 }
 
 /// The dialog with what was chosen, so that another choice is at hand.

@@ -5,10 +5,11 @@ use crate::files::shown;
 use crate::outline::Drawing;
 use crate::picture::palette::Theme;
 use crate::studio::canvas::Plushie;
-use crate::studio::keeper::{Abandoned, Facts, Keeper, Kept, Work};
+use crate::studio::keeper::{Abandoned, Keeper, Kept, Revision, Sources, Work};
 use crate::studio::session::{Dialog, Session};
-use crate::studio::store::{Settings, Store};
+use crate::studio::store::{Scribe, Settings, Store};
 use std::path::Path;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Raised when the system asks the program to end: at the end of a session, by a signal.
@@ -24,6 +25,7 @@ pub fn keep_in(session: &mut Session, store: Store) {
         .inspect_err(|error| session.messages.warning(format!("Work that is not saved cannot be kept: {error}")))
         .ok();
     session.safety.settings = store.settings();
+    session.safety.scribe = Some(Scribe::new(store.clone(), session.safety.settings.clone()));
     session.safety.store = Some(store);
     session.safety.abandoned = abandoned;
     take_settings(session);
@@ -54,6 +56,9 @@ pub fn opened(session: &mut Session, path: &Path) {
 
 /// Once a frame: keeps what is not saved. `drawing`: with what is only being drawn.
 pub fn keep(session: &mut Session, drawing: Option<Drawing>) {
+    if session.safety.keeper.is_none() {
+        return;
+    }
     let work = work(session, drawing);
     let Some(keeper) = &mut session.safety.keeper else { return };
     let wake = session.jobs.wake();
@@ -69,10 +74,9 @@ pub fn keep(session: &mut Session, drawing: Option<Drawing>) {
 
 /// The system ends the program: what is not saved is kept for the next start.
 pub fn end(session: &mut Session, drawing: Option<Drawing>) {
-    if let (Some(work), Some(keeper)) = (work(session, drawing), &mut session.safety.keeper) {
+    if let (Some(work), Some(mut keeper)) = (work(session, drawing), session.safety.keeper.take()) {
         // There is nobody left to be told.
         let _ = keeper.keep_now(&work);
-        session.safety.keeper = None;
     }
     session.files.quit = true;
 }
@@ -86,27 +90,33 @@ pub fn quit(session: &mut Session) {
     session.files.quit = true;
 }
 
-fn work(session: &Session, drawing: Option<Drawing>) -> Option<Work> {
-    if !session.document.history.is_modified() && drawing.is_none() {
-        return None;
-    }
-    let facts = Facts {
-        path: session.document.path.clone().and_then(|path| std::path::absolute(path).ok()),
-        origin: session.document.origin.clone().and_then(|path| std::path::absolute(path).ok()),
-        texture: session.design().texture.clone(),
+/// What is to be kept now, put together where something of it has changed.
+fn work(session: &mut Session, drawing: Option<Drawing>) -> Option<Arc<Work>> {
+    let document = &session.document;
+    let sources = Sources {
+        design: document.design(),
+        drawing: drawing.as_ref(),
+        path: document.path.as_deref(),
+        origin: document.origin.as_deref(),
         seen: session.safety.seen,
+        is_modified: document.is_modified(),
     };
-    Some(Work { design: session.design().clone(), drawing, facts })
+    if !session.safety.revision.as_ref().is_some_and(|known| known.is_of(&sources)) {
+        session.safety.revision = Some(Revision::of(&sources));
+    }
+    session.safety.revision.as_ref().and_then(Revision::work)
 }
 
 /// Opens the work that is offered; it counts as not saved.
 pub fn recover(session: &mut Session) {
     session.files.dialog = None;
-    let (Some(abandoned), Some(keeper)) = (session.safety.abandoned.pop(), session.safety.keeper.take()) else {
-        return;
-    };
+    let Some(abandoned) = session.safety.abandoned.pop() else { return };
+    // There may be none: its folder could not be made.
+    if let Some(own) = session.safety.keeper.take() {
+        own.end();
+    }
     let folder = abandoned.folder().to_owned();
-    let (keeper, design, facts) = keeper.adopt(abandoned);
+    let (keeper, design, facts) = Keeper::adopt(abandoned);
     let (design, origin) = Abandoned::homed(design, &facts, &folder);
     replace::open(session, design, None);
     session.safety.keeper = Some(keeper);
@@ -116,7 +126,7 @@ pub fn recover(session: &mut Session) {
     if let Some(path) = session.document.path.clone() {
         opened(session, &path);
     }
-    session.document.history.mark_unsaved();
+    session.document.mark_unsaved();
     if !session.safety.abandoned.is_empty() {
         let others = session.safety.abandoned.len();
         session.messages.info(format!("{others} more that were not saved are offered at the next start."));
@@ -148,7 +158,7 @@ pub fn sized(session: &mut Session, size: [f32; 2]) {
 
 /// Writes down how the window is set, where that has changed.
 pub fn remember(session: &mut Session) {
-    let Some(store) = &session.safety.store else { return };
+    let Some(scribe) = &mut session.safety.scribe else { return };
     let look = &session.look;
     let settings = Settings {
         dark: Some(look.theme == Theme::Dark),
@@ -158,9 +168,7 @@ pub fn remember(session: &mut Session) {
         layers: look.shown.clone(),
         ..session.safety.settings.clone()
     };
-    if settings != store.settings() && store.remember(&settings).is_ok() {
-        session.safety.settings = settings;
-    }
+    scribe.remember(settings);
 }
 
 fn take_settings(session: &mut Session) {
@@ -174,4 +182,28 @@ fn take_settings(session: &mut Session) {
 /// Whether the system has asked the program to end.
 pub fn is_ending() -> bool {
     ENDING.load(Ordering::SeqCst)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::Design;
+    use crate::studio::blank;
+
+    #[test]
+    fn work_is_recovered_where_the_window_has_no_folder_of_its_own() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::at(folder.path());
+        let design = Arc::new(Design { name: "lost".into(), ..blank::design() });
+        let sources =
+            Sources { design: &design, drawing: None, path: None, origin: None, seen: None, is_modified: true };
+        let work = Revision::of(&sources).work().unwrap();
+        Keeper::new(&store).unwrap().keep_now(&work).unwrap();
+        let mut session = Session::new(blank::design(), None, Arc::new(|| ()), crate::studio::services());
+        session.safety.abandoned = Abandoned::find(&store).0;
+        assert!(session.safety.keeper.is_none());
+        recover(&mut session);
+        assert_eq!(session.design().name, "lost");
+        assert!(session.document.is_modified() && session.safety.keeper.is_some());
+    }
 }

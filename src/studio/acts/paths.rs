@@ -2,7 +2,7 @@
 
 use crate::outline;
 use crate::studio::jobs::Outcome;
-use crate::studio::session::{Dialog, ImportChoice, PathDialog, Purpose, Session};
+use crate::studio::session::{Dialog, ImportChoice, PathDialog, Picking, Purpose, Session};
 use std::time::{Duration, Instant};
 
 /// Asks with the desktop's dialog, or in the window where there is none.
@@ -26,15 +26,18 @@ pub fn show_path_dialog(session: &mut Session, purpose: Purpose) {
     }));
 }
 
-/// Opens the desktop's dialog.
+/// Opens the desktop's dialog. One at a time: the answer to a second one could not be told from that to the first.
 pub fn pick(session: &mut Session, purpose: Purpose) {
     /// Faster than any human.
     const AT_ONCE: Duration = Duration::from_millis(400);
-    if session.files.picking.replace(purpose).is_some() {
-        return;
+    if let Some(open) = session.files.picking {
+        if open.purpose != purpose || !open.wanted {
+            session.files.take_back();
+        }
+        return session.messages.info("A file dialog is open already: answer or close that one first.");
     }
     let (folder, name) = (session.document.folder(), session.document.file_name());
-    session.jobs.start("The file dialog", move |_| {
+    let running = session.jobs.start("The file dialog", move |_| {
         let started = Instant::now();
         let dialog = rfd::FileDialog::new().set_title(purpose.title()).set_directory(folder);
         let path = match purpose {
@@ -45,4 +48,5 @@ pub fn pick(session: &mut Session, purpose: Purpose) {
         };
         Outcome::Picked { path, at_once: started.elapsed() < AT_ONCE }
     });
+    session.files.picking = Some(Picking { purpose, serial: running.serial, wanted: true });
 }

@@ -23,8 +23,7 @@ pub fn save(session: &mut Session, path: PathBuf, replace: bool) -> bool {
     }
     let path = full;
     let own = session.document.path.as_deref().is_some_and(|own| own == path || files::same(own, &path));
-    let there = std::fs::metadata(&path).is_ok_and(|found| found.is_file() && found.len() > 0);
-    if there && !own && !replace {
+    if files::is_taken(&path) && !own && !replace {
         let why = if file::is_design(&path) { Why::Exists } else { Why::Foreign };
         session.files.dialog = Some(Dialog::Replace(path, why));
         return false;
@@ -35,7 +34,7 @@ pub fn save(session: &mut Session, path: PathBuf, replace: bool) -> bool {
         saved.and_then(|_held| file::save(session.design(), session.document.origin.as_deref(), &path, seen.as_ref()));
     match saved {
         Ok(seen) => {
-            session.document.history.mark_saved();
+            session.document.mark_saved();
             session.messages.info(format!("Saved {}", files::shown(&path)));
             keep::opened(session, &path);
             session.safety.seen = Some(seen);

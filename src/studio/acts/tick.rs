@@ -18,6 +18,7 @@ pub fn tick(session: &mut Session, now_s: f64, passed_s: f64, hands_off: bool) {
     if hands_off {
         session.document.history.commit();
     }
+    sheet::give_body(session, hands_off);
     if session.playback.playing {
         session.playback.advance(passed_s, animation::duration_s(session.document.design()));
     }
@@ -55,7 +56,7 @@ fn take(session: &mut Session, Finished { serial, outcome }: Finished) {
         Outcome::Imported(result) => filing::take_import(session, result),
         Outcome::Exported { folder, result } => filing::take_export(session, &folder, result),
         Outcome::Textured { path, texture } => texture::take_texture(session, path, texture),
-        Outcome::Picked { path, at_once } => filing::take_path(session, path, at_once),
+        Outcome::Picked { path, at_once } => filing::take_path(session, serial, path, at_once),
         Outcome::Told { owner, told } => session.tasks.finish(owner, serial, told),
         Outcome::Broken { job, why } => {
             break_off(session, serial);
@@ -77,5 +78,7 @@ fn break_off(session: &mut Session, serial: u64) {
             *running = None;
         }
     }
+    // As if there were none: a path can be typed.
+    filing::take_path(session, serial, None, true);
     session.tasks.break_off(serial);
 }

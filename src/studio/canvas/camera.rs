@@ -39,6 +39,11 @@ impl Camera {
         [self.center[0] + f64::from(offset.x / self.scale), self.center[1] - f64::from(offset.y / self.scale)]
     }
 
+    /// Shows the same where everything was moved by so many mm.
+    pub fn moved(self, by: Point) -> Self {
+        Self { center: [self.center[0] + by[0], self.center[1] + by[1]], ..self }
+    }
+
     /// Moves what is shown by `delta` logical pixels.
     pub fn panned(self, delta: Vec2) -> Self {
         let center =

@@ -1,13 +1,12 @@
 //! Buttons of commands: what they are called, what they say and whether they can be pressed comes from the table.
 
-use super::widgets::WIDE;
+use super::widgets;
 use crate::studio::action::{Action, Actions};
 use crate::studio::canvas::Hit;
 use crate::studio::commands::command::Command;
 use crate::studio::commands::document::CANCEL_MESHING;
 use crate::studio::icons;
 use crate::studio::session::Session;
-use crate::studio::style;
 use eframe::egui::{Button, Response, RichText, Spinner, Ui};
 
 /// Side of an icon in lists and headings, logical pixels.
@@ -40,7 +39,7 @@ pub fn tick(ui: &mut Ui, session: &Session, command: &'static Command, actions: 
     show(ui, session, command, actions, |ui| ui.checkbox(&mut on, command.label(session)));
 }
 
-/// The one button of a panel that matters most. `ready`: whether what the panel knows allows it.
+/// [`widgets::primary`] of a command. `ready`: whether what the panel knows allows it.
 pub fn primary(
     ui: &mut Ui,
     session: &Session,
@@ -49,16 +48,14 @@ pub fn primary(
     width: f32,
     actions: &mut Actions,
 ) {
-    let theme = style::theme_of(ui.visuals());
-    let label = RichText::new(command.label(session)).strong().color(style::on_accent(theme));
-    let button = Button::new(label).fill(style::accent(theme));
-    ui.add_enabled_ui(ready, |ui| show(ui, session, command, actions, |ui| ui.add_sized([width, WIDE], button)));
+    let text = command.label(session);
+    ui.add_enabled_ui(ready, |ui| show(ui, session, command, actions, |ui| widgets::primary(ui, true, text, width)));
 }
 
 /// A button of a given width, its text in the middle.
 pub fn wide(ui: &mut Ui, session: &Session, command: &'static Command, width: f32, actions: &mut Actions) {
     let button = Button::new(command.label(session));
-    show(ui, session, command, actions, |ui| ui.add_sized([width, WIDE], button));
+    show(ui, session, command, actions, |ui| widgets::wide(ui, button, width));
 }
 
 /// A line of a menu; `at` is what the menu is about.

@@ -68,7 +68,8 @@ fn show(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actions
 }
 
 fn resolution(ui: &mut Ui, session: &Session, actions: &mut Actions) {
-    let mut wanted = session.resolution();
+    let before = session.resolution();
+    let mut wanted = before;
     Grid::new("resolution").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
         for (name, tip, value, range) in [
             ("Muscle fibres", "How many edges the mesh of the fibres shall have", &mut wanted.fibers, 3..=MAX_FIBERS),
@@ -86,7 +87,7 @@ fn resolution(ui: &mut Ui, session: &Session, actions: &mut Actions) {
             ui.end_row();
         }
     });
-    if wanted != session.resolution() {
+    if wanted != before {
         actions.push(Action::SetResolution(wanted));
     }
     ui.add_space(2.0);

@@ -22,7 +22,7 @@ pub mod toolbar;
 mod widgets;
 
 pub use panel::{Entry, Panel};
-pub use widgets::{frame, heading, name_field, primary, wide};
+pub use widgets::frame;
 
 /// The panels of the inspector, by their tabs; the first one is open at first.
 pub static ALL: [&Entry; 3] = [&networks::ENTRY, &mesh::ENTRY, &settings::ENTRY];

@@ -35,8 +35,8 @@ fn title(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     if response.double_clicked() {
         actions.push(Action::Typed(Some((Renamed::Plushie, name.clone()))));
     }
-    let design = session.design();
-    let body = format!("{} fibres, {:.0} mm", design.fiber_routings().len(), design.body_length_mm());
+    let figures = &session.document.figures;
+    let body = format!("{} fibres, {:.0} mm", figures.fibers, figures.body_length_mm);
     ui.label(RichText::new(body).small().weak());
 }
 

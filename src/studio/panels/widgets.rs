@@ -6,7 +6,7 @@ use crate::studio::style;
 use eframe::egui::{Button, Frame, Key, Margin, Response, RichText, TextEdit, Ui};
 
 /// Height of a button that takes the width of its panel, logical pixels.
-pub const WIDE: f32 = 30.0;
+const WIDE: f32 = 30.0;
 
 /// Of side panels: no fill, see [`style`].
 pub fn frame() -> Frame {
@@ -18,16 +18,17 @@ pub fn heading(ui: &mut Ui, text: &str) {
     ui.label(RichText::new(text).strong().size(13.5));
 }
 
-/// The one button of a panel that matters most.
+/// The one button of a panel or a dialog that matters most.
 pub fn primary(ui: &mut Ui, enabled: bool, text: &str, width: f32) -> Response {
     let theme = style::theme_of(ui.visuals());
     let label = RichText::new(text).strong().color(style::on_accent(theme));
-    wide(ui, enabled, Button::new(label).fill(style::accent(theme)), width)
+    let button = Button::new(label).fill(style::accent(theme));
+    ui.add_enabled_ui(enabled, |ui| wide(ui, button, width)).inner
 }
 
 /// A button of a given width, its text in the middle.
-pub fn wide(ui: &mut Ui, enabled: bool, button: Button<'_>, width: f32) -> Response {
-    ui.add_enabled_ui(enabled, |ui| ui.add_sized([width, WIDE], button)).inner
+pub fn wide(ui: &mut Ui, button: Button<'_>, width: f32) -> Response {
+    ui.add_sized([width, WIDE], button)
 }
 
 /// A text field that is taken with Enter or a click elsewhere and dropped with Escape. The name, once it is taken.

@@ -101,12 +101,38 @@ pub struct Files {
     pub(crate) running: Option<Running>,
     /// Waits for an answer about the document that it would replace.
     pub(crate) imported: Option<Box<New>>,
-    /// The path that the desktop's dialog was opened for.
-    pub(crate) picking: Option<Purpose>,
+    /// The desktop's dialog that is open.
+    pub(crate) picking: Option<Picking>,
     /// Whether the desktop has dialogs.
     pub native_dialogs: bool,
     /// The window should close.
     pub quit: bool,
+}
+
+/// A dialog of the desktop's, which is open until its job is over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Picking {
+    pub purpose: Purpose,
+    /// Of the job that waits for its answer.
+    pub serial: u64,
+    /// Whether the document that it was opened for is still there.
+    pub wanted: bool,
+}
+
+impl Files {
+    /// Drops what was answered about the document as it is: nothing follows the next save, and what replaces the document asks again.
+    pub(crate) fn take_back(&mut self) {
+        self.after_save = None;
+        self.granted = None;
+    }
+
+    /// Another document is in the place of the one that a dialog was opened for: it is not saved to the path of the other.
+    pub(crate) fn forget_document(&mut self) {
+        self.granted = None;
+        if let Some(picking) = &mut self.picking {
+            picking.wanted = picking.purpose != Purpose::SaveAs;
+        }
+    }
 }
 
 impl Purpose {

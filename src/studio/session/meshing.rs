@@ -1,6 +1,8 @@
 //! Another resolution of the mesh: what is wanted, and who works on it.
 
-use crate::design::Design;
+use super::document::Figures;
+use crate::operations::reshape::Reshaped;
+use crate::outline::Drawing;
 use crate::studio::jobs::{Running, cancel};
 
 /// Largest `finer`.
@@ -20,13 +22,16 @@ pub struct Meshing {
     /// What the controls say; `None`: that of the design.
     pub(crate) wanted: Option<Resolution>,
     pub running: Option<Running>,
+    /// What the body that is being made was drawn as.
+    pub(crate) drawn: Drawing,
+    /// That body, until the hand rests.
+    pub(crate) made: Option<Box<Reshaped>>,
 }
 
 impl Meshing {
     /// What is wanted, or else what the design has.
-    pub fn resolution(&self, design: &Design) -> Resolution {
+    pub(crate) fn resolution(&self, &Figures { fibers, edges, .. }: &Figures) -> Resolution {
         let present = || {
-            let (fibers, edges) = (design.fiber_routings().len(), design.mesh.edges().len());
             let finer = (edges as f64 / fibers.max(1) as f64).sqrt().round() as usize;
             Resolution { fibers, finer: finer.clamp(1, FINEST) }
         };
@@ -35,6 +40,7 @@ impl Meshing {
 
     pub fn cancel(&mut self) {
         cancel(&mut self.running);
+        self.made = None;
     }
 
     /// Whether the mesh that is waited for is there; it is not waited for any more then.

@@ -1,8 +1,8 @@
 //! What the window keeps beyond its life: work, settings, claims on files.
 
 use crate::files::Stamp;
-use crate::studio::keeper::{Abandoned, Keeper};
-use crate::studio::store::{Settings, Store};
+use crate::studio::keeper::{Abandoned, Keeper, Revision};
+use crate::studio::store::{Scribe, Settings, Store};
 use std::fs::File;
 use std::path::Path;
 use std::time::Duration;
@@ -12,6 +12,8 @@ use std::time::Duration;
 pub struct Safety {
     pub(crate) store: Option<Store>,
     pub(crate) keeper: Option<Keeper>,
+    /// What is to be kept.
+    pub(crate) revision: Option<Revision>,
     /// Says to other windows that the file is open here.
     pub(crate) claim: Option<File>,
     /// What the document's file held when it was read or written last.
@@ -19,6 +21,7 @@ pub struct Safety {
     /// What is still to be offered, the newest last.
     pub(crate) abandoned: Vec<Abandoned>,
     pub(crate) settings: Settings,
+    pub(crate) scribe: Option<Scribe>,
     /// The next look at the work that is kept is due after this long.
     pub(crate) due: Option<Duration>,
 }

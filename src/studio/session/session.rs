@@ -259,7 +259,7 @@ impl Session {
     }
 
     pub fn resolution(&self) -> Resolution {
-        self.meshing.resolution(self.design())
+        self.meshing.resolution(&self.document.figures)
     }
 
     pub fn rigging(&self) -> &Rigging {

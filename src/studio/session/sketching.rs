@@ -15,6 +15,8 @@ pub struct Sketching {
     /// What is picked out, and which point of a path or track.
     pub item: Option<Item>,
     pub point: Option<usize>,
+    /// Something is being drawn that is not in the drawing yet.
+    pub waits: bool,
     /// There is no body yet worth looking at.
     pub fresh: bool,
     /// `None`: fits the drawing.

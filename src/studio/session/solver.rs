@@ -6,6 +6,9 @@ use crate::engine::{NEAR_EQUILIBRIUM, Quality, Question, Request, Shape};
 use crate::studio::jobs::Wake;
 use std::sync::Arc;
 
+/// From the fastest to the most accurate.
+pub const QUALITIES: [Quality; 3] = [Quality::Draft, Quality::Balanced, Quality::Accurate];
+
 /// The newest good shapes.
 #[derive(Default)]
 pub struct Shapes {
@@ -68,11 +71,8 @@ impl Solver {
     }
 
     pub fn next_quality(&mut self) {
-        self.quality = match self.quality {
-            Quality::Draft => Quality::Balanced,
-            Quality::Balanced => Quality::Accurate,
-            Quality::Accurate => Quality::Draft,
-        };
+        let next = QUALITIES.into_iter().skip_while(|quality| *quality != self.quality).nth(1);
+        self.quality = next.unwrap_or(QUALITIES[0]);
     }
 
     /// Takes what the worker has found for a body of so many nodes.

@@ -33,9 +33,9 @@ impl Tasks {
         self.running.get(owner)
     }
 
-    /// Stops all of them.
-    pub fn cancel(&self) {
-        self.running.values().for_each(Running::cancel);
+    /// Stops all of them, and waits for none any more.
+    pub fn cancel(&mut self) {
+        std::mem::take(&mut self.running).values().for_each(Running::cancel);
     }
 
     /// A job has begun in the place of the one before.
@@ -96,5 +96,9 @@ mod tests {
         let third = start(&mut tasks, 3);
         tasks.break_off(third);
         assert!(tasks.running("panel.count").is_none());
+        let fourth = start(&mut tasks, 4);
+        tasks.cancel();
+        tasks.finish("panel.count", fourth, Arc::new(4_u32));
+        assert_eq!((tasks.told::<u32>("panel.count"), tasks.running("panel.count").is_none()), (Some(&2), true));
     }
 }

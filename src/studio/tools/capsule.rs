@@ -1,14 +1,10 @@
 //! A capsule, from one end to the other: a limb.
 
-use super::parts::{self, CLICKED, Span};
-use super::tool::{Drawn, Entry, Tool};
-use crate::outline::Point;
+use super::parts::{CLICKED, Span, Spanned};
+use super::tool::Entry;
 use crate::outline::drawing::Primitive;
-use crate::studio::action::Actions;
-use crate::studio::canvas::{Canvas, Hit};
 use crate::studio::commands::command::{Keys, Scope};
-use crate::studio::session::Session;
-use eframe::egui::{CursorIcon, Key, Painter, Pos2};
+use eframe::egui::Key;
 
 pub static ENTRY: Entry = Entry {
     id: "tool.capsule",
@@ -18,57 +14,9 @@ pub static ENTRY: Entry = Entry {
     keys: &[Keys::plain(Key::L)],
     canvas: Scope::Outline,
     hint: "drag from one end to the other",
-    make: || Box::new(Capsule::default()),
+    make: || Box::new(Spanned::new(capsule)),
 };
 
-#[derive(Default)]
-struct Capsule {
-    span: Option<Span>,
-}
-
-impl Capsule {
-    fn primitive(&self, mm_per_pixel: f64) -> Option<Primitive> {
-        let (from, to) = self.span?;
-        Some(Primitive::Capsule { ends: [from, to], radii: [CLICKED * mm_per_pixel; 2] })
-    }
-}
-
-impl Tool for Capsule {
-    fn press(&mut self, _canvas: &Canvas<'_>, at: Point, _actions: &mut Actions) {
-        self.span = Some((at, at));
-    }
-
-    fn drag(&mut self, _canvas: &Canvas<'_>, way: &[Point], _actions: &mut Actions) {
-        if let (Some((_, to)), Some(&at)) = (&mut self.span, way.last()) {
-            *to = at;
-        }
-    }
-
-    fn release(&mut self, canvas: &Canvas<'_>, _at: Option<Point>, actions: &mut Actions) {
-        actions.extend(self.pending(canvas.session, canvas.mm_per_pixel()).into_iter().flat_map(Drawn::actions));
-        self.span = None;
-    }
-
-    fn click(&mut self, canvas: &Canvas<'_>, at: Point, _twice: bool, actions: &mut Actions) {
-        self.span = Some((at, at));
-        self.release(canvas, Some(at), actions);
-    }
-
-    fn key(&mut self, _session: &Session, key: Key, _actions: &mut Actions) -> bool {
-        key == Key::Escape && self.span.take().is_some()
-    }
-
-    fn pending(&self, session: &Session, mm_per_pixel: f64) -> Option<Drawn> {
-        Some(parts::with(session, self.primitive(mm_per_pixel)?))
-    }
-
-    fn cursor(&self, _canvas: &Canvas<'_>, _under: Hit) -> CursorIcon {
-        CursorIcon::Crosshair
-    }
-
-    fn paint(&self, canvas: &Canvas<'_>, painter: &Painter, _pointer: Option<Pos2>) {
-        if let Some(primitive) = self.primitive(canvas.mm_per_pixel()) {
-            parts::paint(canvas, painter, &primitive);
-        }
-    }
+fn capsule((from, to): Span, mm_per_pixel: f64) -> Primitive {
+    Primitive::Capsule { ends: [from, to], radii: [CLICKED * mm_per_pixel; 2] }
 }

@@ -59,6 +59,10 @@ impl Tool for Freehand {
         Some(parts::with(session, Primitive::along(&self.line, STRAY * mm_per_pixel)?))
     }
 
+    fn is_drawing(&self) -> bool {
+        !self.line.is_empty()
+    }
+
     fn cursor(&self, _canvas: &Canvas<'_>, _under: Hit) -> CursorIcon {
         CursorIcon::Crosshair
     }

@@ -1,11 +1,13 @@
-//! A hold on the body, a target, or the picture itself.
+//! A hold on the body, a target, or the picture itself, and the tools that have one.
 
+use super::tool::Tool;
 use crate::design::Target;
 use crate::outline::Point;
 use crate::studio::action::{Action, Actions};
 use crate::studio::canvas::{Canvas, Ground, Hit};
 use crate::studio::change::Change;
-use crate::studio::session::Selection;
+use crate::studio::session::{Selection, Session};
+use eframe::egui::{CursorIcon, Key};
 
 /// What the hand holds in a view.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -51,6 +53,59 @@ impl Grip {
             Self::Nothing => {}
             Self::Target { offset } => actions.push(Action::DragTarget([at[0] + offset[0], at[1] + offset[1]])),
             Self::Picture { at: held } => actions.push(canvas.pan(held, at)),
+        }
+    }
+}
+
+/// A tool whose drags pull at a [`Grip`].
+pub struct Gripping {
+    grip: Grip,
+    /// Whether any point of the body can be held.
+    body: bool,
+    /// Over the body.
+    cursor: CursorIcon,
+    /// What a click on that does.
+    click: fn(Hit) -> Action,
+}
+
+impl Gripping {
+    pub fn new(body: bool, cursor: CursorIcon, click: fn(Hit) -> Action) -> Self {
+        Self { grip: Grip::Nothing, body, cursor, click }
+    }
+}
+
+impl Tool for Gripping {
+    fn press(&mut self, canvas: &Canvas<'_>, at: Point, actions: &mut Actions) {
+        self.grip = Grip::take(canvas, at, self.body, actions);
+    }
+
+    fn drag(&mut self, canvas: &Canvas<'_>, way: &[Point], actions: &mut Actions) {
+        if let Some(&at) = way.last() {
+            self.grip.pull(canvas, at, actions);
+        }
+    }
+
+    fn release(&mut self, _canvas: &Canvas<'_>, _at: Option<Point>, _actions: &mut Actions) {
+        self.grip = Grip::Nothing;
+    }
+
+    fn click(&mut self, canvas: &Canvas<'_>, at: Point, _twice: bool, actions: &mut Actions) {
+        actions.push((self.click)(canvas.hit(at)));
+    }
+
+    fn key(&mut self, _session: &Session, key: Key, _actions: &mut Actions) -> bool {
+        if key == Key::Escape {
+            self.grip = Grip::Nothing;
+        }
+        false
+    }
+
+    fn cursor(&self, _canvas: &Canvas<'_>, under: Hit) -> CursorIcon {
+        match (self.grip, under) {
+            (Grip::Target { .. }, _) => CursorIcon::Grabbing,
+            (_, Hit::Body(_)) => self.cursor,
+            (_, Hit::Nothing) => CursorIcon::Default,
+            _ => CursorIcon::Grab,
         }
     }
 }

@@ -57,6 +57,11 @@ pub trait Tool {
         false
     }
 
+    /// Whether something is being drawn that is not in the drawing yet.
+    fn is_drawing(&self) -> bool {
+        self.waits()
+    }
+
     /// What can be done next, where that is not the hint of its entry.
     fn hint(&self, _session: &Session) -> Option<&'static str> {
         None

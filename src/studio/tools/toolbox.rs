@@ -93,9 +93,14 @@ impl Toolbox {
         }
     }
 
+    /// Whether something is being drawn on the sheet that is not in the drawing yet.
+    pub fn is_drawing(&self, session: &Session) -> bool {
+        session.sketching().open && self.outline.tool.is_drawing()
+    }
+
     /// The drawing with what is only being drawn, if anything is.
     pub fn unfinished(&self, session: &Session) -> Option<Drawing> {
-        if !session.sketching().open {
+        if !self.is_drawing(session) {
             return None;
         }
         self.outline.tool.pending(session, 1.0).map(|drawn| drawn.drawing)

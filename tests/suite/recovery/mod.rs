@@ -1,20 +1,18 @@
 //! The window loses nothing: closing asks, work that is not saved comes back, files of others are not replaced without a question.
 
+mod hostile;
+
+use crate::support::window::{Window, enter_path, open, session};
 use eframe::egui::{self, Key, Modifiers, ViewportEvent, ViewportId, vec2};
-use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use plushwright::design::{Design, bundled, edit, file};
-use plushwright::studio::app::Studio;
-use plushwright::studio::session::{Services, Session};
+use plushwright::studio::session::Services;
 use plushwright::studio::store::Store;
 use std::fs;
-use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-
-type Window = Harness<'static, Option<Studio>>;
 
 fn pig() -> Design {
     bundled::ALL[0].design().unwrap()
@@ -26,24 +24,10 @@ fn services() -> Services {
 
 /// A window on a design, and on a file where it has one, that keeps its state in `state`.
 fn window(design: Design, path: Option<&Path>, state: &Path) -> Window {
-    let mut given = Some((design, path.map(Path::to_path_buf), Store::at(state)));
-    let mut window = Harness::builder().with_max_steps(32).with_size(vec2(1280.0, 800.0)).build_ui_state(
-        move |ui, studio: &mut Option<Studio>| {
-            let studio = studio.get_or_insert_with(|| {
-                let (design, path, store) = given.take().expect("made once");
-                Studio::new(ui.ctx(), design, path, services()).with_store(ui.ctx(), store)
-            });
-            studio.update(ui);
-        },
-        None,
-    );
+    let mut window = open(design, path.map(Path::to_path_buf), services(), Some(Store::at(state)));
     // The views need not be solved for any of this.
     steps(&mut window);
     window
-}
-
-fn session(window: &Window) -> &Session {
-    window.state().as_ref().expect("made in the first frame").session()
 }
 
 fn steps(window: &mut Window) {
@@ -61,11 +45,7 @@ fn press(window: &mut Window, modifiers: Modifiers, key: Key) {
 }
 
 fn type_path(window: &mut Window, path: &Path) {
-    window.get_by_label("Path").focus();
-    window.step();
-    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
-    window.step();
-    window.get_by_label("Path").type_text(&path.to_string_lossy());
+    enter_path(window, path);
     steps(window);
 }
 
@@ -230,6 +210,38 @@ fn work_that_was_not_saved_is_offered_by_the_next_window() {
 }
 
 #[test]
+fn a_texture_that_was_recovered_goes_with_every_copy_that_is_saved() {
+    let (state, folder) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    let at = |name: &str| folder.path().join(name);
+    let skin = at("skin.png");
+    image::RgbImage::from_pixel(4, 4, image::Rgb([200, 30, 30])).save(&skin).unwrap();
+    let picture = fs::read(&skin).unwrap();
+    let design = Design { texture: Some("skin.png".into()), ..pig() };
+    file::write(&at("pig.plush"), &design).unwrap();
+    let mut first = window(design, Some(&at("pig.plush")), state.path());
+    change(&mut first);
+    kept(&mut first, state.path());
+    drop(first);
+    // Its own folder is gone by then: the picture that was kept is the only one.
+    fs::remove_file(&skin).unwrap();
+    fs::remove_file(at("pig.plush")).unwrap();
+    let mut second = window(pig(), None, state.path());
+    click(&mut second, "Recover");
+    for (name, texture) in [("one.plush", "one.texture.png"), ("two.plush", "two.texture.png")] {
+        press(&mut second, Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
+        type_path(&mut second, &at(name));
+        press(&mut second, Modifiers::NONE, Key::Enter);
+        assert_eq!(file::read(&at(name)).unwrap().texture.as_deref(), Some(texture), "{}", messages(&second));
+        assert!(fs::read(at(texture)).unwrap() == picture);
+        assert!(!session(&second).history().is_modified());
+    }
+    close(&mut second);
+    assert!(session(&second).is_closing());
+    drop(second);
+    assert_eq!(fs::read_dir(state.path().join("work")).unwrap().count(), 0);
+}
+
+#[test]
 fn a_line_that_is_only_being_drawn_is_kept_too() {
     let state = tempfile::tempdir().unwrap();
     let mut first = window(pig(), None, state.path());
@@ -342,110 +354,4 @@ fn two_windows_on_one_file_are_told_and_settings_are_remembered() {
     assert_ne!(session(&third).look().theme, theme);
     assert!(!session(&third).look().shown.shows("fibers"));
     assert_eq!(session(&third).recent(), [path]);
-}
-
-/// Files that are no designs, or mean harm.
-const HOSTILE: [&str; 8] = [
-    "late.plush",
-    "name.plush",
-    "lines.plush",
-    "long.plush",
-    "deep.plush",
-    "large.plush",
-    "pipe.plush",
-    "device.plush",
-];
-
-fn hostile_files() -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    let at = |name: &str| folder.path().join(name);
-    let text = bundled::ALL[0].text;
-    fs::write(at("late.plush"), text.replacen("time_s: 2.0", "time_s: 1e9", 1)).unwrap();
-    fs::write(at("name.plush"), text.replacen("ear-and-leg", "a\\u{1b}[2J", 1)).unwrap();
-    fs::write(at("lines.plush"), text.replacen("ear-and-leg", "a\\nplushwright: done", 1)).unwrap();
-    fs::write(at("long.plush"), text.replacen("ear-and-leg", &"x".repeat(65_536), 1)).unwrap();
-    fs::write(at("deep.plush"), format!("(version: 1, name: {}", "[".repeat(1_000_000))).unwrap();
-    fs::File::create(at("large.plush")).unwrap().set_len(1 << 30).unwrap();
-    Command::new("mkfifo").arg(at("pipe.plush")).status().unwrap();
-    symlink("/dev/zero", at("device.plush")).unwrap();
-    folder
-}
-
-#[test]
-fn a_hostile_file_is_refused_and_the_document_stays() {
-    let (state, folder) = (tempfile::tempdir().unwrap(), hostile_files());
-    let mut window = window(pig(), None, state.path());
-    for name in HOSTILE {
-        press(&mut window, Modifiers::COMMAND, Key::O);
-        type_path(&mut window, &folder.path().join(name));
-        press(&mut window, Modifiers::NONE, Key::Enter);
-        let said = messages(&window);
-        assert!(said.contains(name) && said.len() < 4000 && !said.contains('\u{1b}'), "{name}: {said}");
-        assert_eq!(**session(&window).design(), pig());
-        click(&mut window, "Cancel");
-    }
-    // By its size, before a byte of it is read.
-    assert!(messages(&window).contains("larger than"));
-}
-
-#[test]
-fn a_hostile_file_on_the_command_line_is_refused_before_a_window_opens() {
-    let folder = hostile_files();
-    for name in HOSTILE {
-        // Less memory, in KiB, than any of them would take that is read whole and worked on.
-        let shell = ["ulimit -v 500000; exec \"$0\" \"$@\"", env!("CARGO_BIN_EXE_plushwright"), name];
-        let mut program = Command::new("sh");
-        program.arg("-c").args(shell).current_dir(folder.path()).env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
-        let output = program.output().unwrap();
-        let line = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(2), "{name}: {line}");
-        assert!(line.lines().count() == 1 && line.contains(name) && line.len() < 300, "{line}");
-        assert!(!line.contains('\u{1b}'), "{line}");
-    }
-}
-
-/// A PNG of a few bytes that claims to be of that many pixels each way.
-fn bomb(pixels: u32) -> Vec<u8> {
-    let mut bytes = std::io::Cursor::new(Vec::new());
-    image::RgbImage::new(1, 1).write_to(&mut bytes, image::ImageFormat::Png).unwrap();
-    let mut bytes = bytes.into_inner();
-    bytes[16..20].copy_from_slice(&pixels.to_be_bytes());
-    bytes[20..24].copy_from_slice(&pixels.to_be_bytes());
-    let crc = !bytes[12..29].iter().fold(u32::MAX, |crc, &byte| {
-        (0..8).fold(crc ^ u32::from(byte), |crc, _| if crc & 1 == 1 { 0xedb8_8320 ^ (crc >> 1) } else { crc >> 1 })
-    });
-    bytes[29..33].copy_from_slice(&crc.to_be_bytes());
-    bytes
-}
-
-#[test]
-fn a_hostile_texture_is_left_out_and_said() {
-    let (state, folder) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
-    let at = |name: &str| folder.path().join(name);
-    Command::new("mkfifo").arg(at("pipe.png")).status().unwrap();
-    symlink("/dev/zero", at("device.png")).unwrap();
-    fs::write(at("bomb.png"), bomb(60_000)).unwrap();
-    fs::File::create(at("large.png")).unwrap().set_len(1 << 30).unwrap();
-    let mut window = window(bundled::ALL[1].design().unwrap(), None, state.path());
-    let textures =
-        ["pipe.png", "device.png", "bomb.png", "large.png", "/dev/zero", "../../../../../../etc/passwd", "none.png"];
-    for (k, texture) in textures.into_iter().enumerate() {
-        let mut design = pig();
-        design.texture = Some(texture.into());
-        let path = at(&format!("{k}.plush"));
-        fs::write(&path, file::to_text(&design).unwrap()).unwrap();
-        press(&mut window, Modifiers::COMMAND, Key::O);
-        type_path(&mut window, &path);
-        press(&mut window, Modifiers::NONE, Key::Enter);
-        let started = Instant::now();
-        let is_told = |window: &Window| {
-            messages(window).lines().any(|line| line.contains(texture) && line.contains("cannot be shown"))
-        };
-        while !is_told(&window) {
-            assert!(started.elapsed() < Duration::from_secs(30), "{texture}: {}", messages(&window));
-            window.step();
-            std::thread::sleep(Duration::from_millis(20));
-        }
-        assert!(session(&window).texture().is_none() && session(&window).design().name == "pig", "{texture}");
-    }
 }

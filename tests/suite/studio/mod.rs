@@ -1,0 +1,7 @@
+//! The window, driven by accessible names. No display and no graphics adapter are needed.
+
+mod files;
+mod looks;
+mod networks;
+mod outline;
+mod posing;

@@ -1,0 +1,146 @@
+//! Networks and the animation: proposals, keyframes, playing.
+
+use crate::support::window::{
+    bar, click, drag, pose, press, proposal, services, session, settle, wait, window, window_with, with_network,
+};
+use eframe::egui::{Key, Modifiers, pos2, vec2};
+use egui_kittest::kittest::Queryable;
+use plushwright::design::animation;
+use plushwright::studio::session::{Propose, Services};
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+#[test]
+fn networks_are_proposed_previewed_rejected_and_accepted() {
+    let mut window = window(bar());
+    assert!(session(&window).cannot_propose().is_some());
+    pose(&mut window, "Idealized view");
+    click(&mut window, "Propose networks");
+    assert_eq!(session(&window).discovery().proposals.len(), 2);
+    assert!(session(&window).shown_proposal().is_some());
+    for stage in ["Activity", "Seeds", "Tree", "Result"] {
+        click(&mut window, stage);
+    }
+    click(&mut window, "Proposal 2");
+    assert_eq!(session(&window).discovery().shown, Some(1));
+    click(&mut window, "Reject");
+    assert_eq!(session(&window).discovery().proposals.len(), 1);
+    click(&mut window, "Accept");
+    assert_eq!(session(&window).design().networks.len(), 1);
+    assert!(session(&window).discovery().proposals.is_empty());
+    click(&mut window, "Delete network winch 1");
+    click(&mut window, "Undo");
+    click(&mut window, "Undo");
+    assert!(session(&window).design().networks.is_empty());
+}
+
+#[test]
+fn discovery_can_be_cancelled() {
+    let propose: Propose = Arc::new(|design, _, _, cancel| {
+        while !cancel.load(Ordering::Relaxed) {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        vec![proposal(design, 0.1)]
+    });
+    let mut window = window_with(bar(), Services { propose, ..services() });
+    pose(&mut window, "Idealized view");
+    window.get_by_label("Propose networks").click();
+    wait(&mut window, |s| s.discovery().running.is_some());
+    window.step();
+    window.get_by_label("Cancel").click();
+    settle(&mut window);
+    assert!(session(&window).discovery().proposals.is_empty());
+    window.get_by_label("Propose networks");
+}
+
+#[test]
+fn a_keyframe_can_be_made_of_the_animation() {
+    let mut window = with_network();
+    click(&mut window, "Add keyframe");
+    click(&mut window, "Rest");
+    click(&mut window, "Add keyframe");
+    let rect = window.get_by_label("Timeline").rect();
+    let between = pos2(rect.left() + 0.3 * rect.width(), rect.top() + 8.0);
+    drag(&mut window, between, between);
+    let time_s = session(&window).playback().time_s;
+    assert!(time_s > 0.0 && time_s != 1.0, "at {time_s} s");
+    let shown = animation::activations_at(session(&window).design(), time_s);
+    click(&mut window, "Add keyframe");
+    let keyframes = &session(&window).design().keyframes;
+    let added = keyframes.iter().find(|k| (k.time_s - time_s).abs() < 1e-9).expect("at the playhead");
+    assert_eq!((keyframes.len(), &added.activations_mm, &added.pose), (3, &shown, &None));
+    // What was wanted of a pose that the eye has left does not turn up later.
+    click(&mut window, "Pose 1");
+    assert_eq!(session(&window).design().keyframes.len(), 3);
+}
+
+#[test]
+fn keyframes_are_added_dragged_eased_deleted() {
+    let mut window = with_network();
+    click(&mut window, "Add keyframe");
+    click(&mut window, "Rest");
+    click(&mut window, "Add keyframe");
+    let keyframes = session(&window).design().keyframes.clone();
+    assert_eq!(keyframes.len(), 2);
+    assert_eq!((keyframes[0].time_s, keyframes[1].time_s), (0.0, 1.0));
+    assert!(keyframes[0].activations_mm[0] > 0.0, "{keyframes:?}");
+    assert_eq!(keyframes[0].pose.as_deref(), Some("Pose 1"));
+    let (first, second) = (window.get_by_label("Keyframe 1").rect(), window.get_by_label("Keyframe 2").rect());
+    let second_long = second.center().x - first.center().x;
+    drag(&mut window, second.center(), second.center() + vec2(second_long, 0.0));
+    assert!((session(&window).design().keyframes[1].time_s - 2.0).abs() < 1e-9);
+    assert_eq!(session(&window).history().undo_label(), Some("Move keyframe"));
+    // Past the other one: they change places, and the drag stays with the one in hand.
+    drag(&mut window, first.center(), first.center() + vec2(second_long * 3.0, 0.0));
+    let times: Vec<f64> = session(&window).design().keyframes.iter().map(|k| k.time_s).collect();
+    assert!((times[0] - 2.0).abs() < 1e-9 && (times[1] - 3.0).abs() < 1e-9, "{times:?}");
+    assert_eq!(session(&window).design().keyframes[1].pose.as_deref(), Some("Pose 1"));
+    press(&mut window, Modifiers::NONE, Key::Delete);
+    assert_eq!(session(&window).design().keyframes.len(), 1);
+    for _ in 0..5 {
+        press(&mut window, Modifiers::COMMAND, Key::Z);
+    }
+    assert!(session(&window).design().keyframes.is_empty());
+}
+
+#[test]
+fn the_animation_plays_and_can_be_scrubbed() {
+    let mut window = with_network();
+    click(&mut window, "Add keyframe");
+    click(&mut window, "Rest");
+    click(&mut window, "Add keyframe");
+    window.get_by_label("Play").click();
+    window.run_steps(6);
+    let (time, playing) = (session(&window).playback().time_s, session(&window).playback().playing);
+    assert!(playing && time > 0.0, "{time}");
+    window.get_by_label("Pause").click();
+    settle(&mut window);
+    let rect = window.get_by_label("Timeline").rect();
+    let (first, second) = (window.get_by_label("Keyframe 1").rect(), window.get_by_label("Keyframe 2").rect());
+    let middle = pos2((first.center().x + second.center().x) / 2.0, rect.center().y);
+    window.drag_at(middle);
+    window.step();
+    window.drop_at(middle);
+    settle(&mut window);
+    assert!((session(&window).playback().time_s - 0.5).abs() < 0.01);
+    let keyframes = &session(&window).design().keyframes;
+    let halfway = keyframes[0].activations_mm[0] / 2.0;
+    let wound = session(&window).shapes().realizable.as_ref().unwrap().activations_mm[0];
+    assert!((wound - halfway).abs() < 0.05 * halfway, "{wound} {halfway}");
+}
+
+#[test]
+fn a_keyframe_is_made_of_the_newest_activations_even_where_they_are_hidden() {
+    let mut window = with_network();
+    let wound = session(&window).shapes().realizable.as_ref().unwrap().activations_mm[0];
+    click(&mut window, "Rest");
+    click(&mut window, "Show realizable view");
+    press(&mut window, Modifiers::NONE, Key::Num2);
+    press(&mut window, Modifiers::NONE, Key::Num2);
+    click(&mut window, "Pose 1");
+    click(&mut window, "Add keyframe");
+    let keyframe = &session(&window).design().keyframes[0];
+    assert!((keyframe.activations_mm[0] - wound).abs() < 0.1 * wound, "{keyframe:?} {wound}");
+    assert!(!session(&window).request().unwrap().show_realizable);
+}
