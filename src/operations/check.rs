@@ -5,6 +5,8 @@ use super::{Cancelled, Context, NoSuchPose, Unbalanced, View};
 use crate::design::{Design, Pose};
 use crate::engine::target_error;
 use crate::engine::{Question, Warning};
+use crate::fabrication::{judge_design, judge_pose};
+use crate::sewing::Breach;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -58,8 +60,29 @@ pub struct Figures {
     pub tendons: usize,
     pub body_length_mm: f64,
     pub poses: Vec<PoseFigures>,
+    /// Rules of sewing that the design breaks, at rest and then pose by pose.
+    pub sewing: Vec<Unsewable>,
     #[serde(skip)]
     pub notes: Vec<Note>,
+}
+
+/// A rule of sewing that is broken.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Unsewable {
+    /// The pose in which the realizable plushie breaks it; none for the rest shape.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pose: Option<String>,
+    #[serde(flatten)]
+    pub breach: Breach,
+}
+
+impl fmt::Display for Unsewable {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match &self.pose {
+            Some(pose) => write!(f, "{pose}: {}", self.breach),
+            None => self.breach.fmt(f),
+        }
+    }
 }
 
 /// How close both plushies come to a pose, and what that took.
@@ -104,10 +127,12 @@ pub fn run(design: &Design, options: &Options, context: &Context) -> Result<Figu
         tendons: design.networks.iter().map(|n| n.tendons.len()).sum(),
         body_length_mm: design.body_length_mm(),
         poses: Vec::new(),
+        sewing: judge_design(design).into_iter().map(|breach| Unsewable { pose: None, breach }).collect(),
         notes: Vec::new(),
     };
     for solved in solved {
-        let (pose, notes) = solved?;
+        let Posed { figures: pose, outside, notes } = solved?;
+        figures.sewing.extend(outside.into_iter().map(|breach| Unsewable { pose: Some(pose.name.clone()), breach }));
         figures.poses.push(pose);
         figures.notes.extend(notes);
     }
@@ -144,7 +169,15 @@ fn every_pose<T: Send>(poses: &[&Pose], solve: impl Fn(&Pose) -> T + Sync) -> Ve
     done.into_iter().map(|(_, value)| value).collect()
 }
 
-fn pose_figures(design: &Design, pose: &Pose, context: &Context) -> Result<(PoseFigures, Vec<Note>), Cancelled> {
+/// A pose that was solved.
+struct Posed {
+    figures: PoseFigures,
+    /// Pieces of cable outside of the realizable plushie.
+    outside: Vec<Breach>,
+    notes: Vec<Note>,
+}
+
+fn pose_figures(design: &Design, pose: &Pose, context: &Context) -> Result<Posed, Cancelled> {
     let shapes = solve(design, Question::Targets(pose.targets.clone()), [true, true], context)?;
     let mut notes: Vec<Note> = Unbalanced::of(&pose.name, &shapes).into_iter().map(Note::Unbalanced).collect();
     for (view, shape) in [View::Idealized, View::Realizable].into_iter().zip(&shapes) {
@@ -165,7 +198,7 @@ fn pose_figures(design: &Design, pose: &Pose, context: &Context) -> Result<(Pose
         imbalance_idealized: idealized.distance_from_equilibrium(),
         imbalance_realizable: realizable.distance_from_equilibrium(),
     };
-    Ok((figures, notes))
+    Ok(Posed { figures, outside: judge_pose(design, &realizable.nodes), notes })
 }
 
 #[cfg(test)]
