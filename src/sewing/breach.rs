@@ -4,6 +4,9 @@ use super::facts::Facts;
 use serde::Serialize;
 use std::fmt;
 
+/// A hole no farther than this outside of the seam is told as on it, mm: what a tenth is rounded by.
+const ON_SEAM_MM: f64 = 0.05;
+
 /// A cable of a rig, both counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Place {
@@ -97,11 +100,13 @@ impl fmt::Display for Place {
 impl fmt::Display for Breach {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match *self {
-            Self::NearSeam { at, hole, distance_mm, least_mm } if distance_mm < 0.0 => {
-                write!(f, "{at}: hole {hole} is outside of the body ({least_mm:.0} mm inside the seam is the rule)")
+            Self::NearSeam { at, hole, distance_mm, least_mm } if distance_mm < -ON_SEAM_MM => {
+                let out = -distance_mm;
+                write!(f, "{at}: hole {hole} is {out:.1} mm outside of the body, not {least_mm:.1} inside the seam")
             }
             Self::NearSeam { at, hole, distance_mm, least_mm } => {
-                write!(f, "{at}: hole {hole} is {distance_mm:.1} mm from the seam, less than {least_mm:.1}")
+                let distance = distance_mm.max(0.0);
+                write!(f, "{at}: hole {hole} is {distance:.1} mm from the seam, less than {least_mm:.1}")
             }
             Self::Crowded { at, hole, other, other_hole, distance_mm, least_mm } => write!(
                 f,

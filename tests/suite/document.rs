@@ -7,6 +7,7 @@ use plushwright::design::{Pin, Pose, edit};
 use plushwright::outline::Drawing;
 use plushwright::physics::terms::GRAVITY;
 use plushwright::physics::{NeoHookean, StVenantKirchhoff};
+use plushwright::sewing::Rules;
 use std::fs;
 use std::sync::Arc;
 
@@ -19,7 +20,7 @@ fn bits(design: &Design) -> String {
 fn random_edit(random: &mut Random, design: &mut Design) -> Result<(), EditError> {
     let index = random.below(4);
     let name = format!("name {}", random.below(6));
-    match random.below(18) {
+    match random.below(19) {
         0 => {
             let position = (random.below(2) == 0).then(|| [random.unit(), random.unit()]);
             let stiffness = random.between(-1.0, 30.0);
@@ -46,6 +47,10 @@ fn random_edit(random: &mut Random, design: &mut Design) -> Result<(), EditError
         14 => edit::move_keyframe(design, index, 0.25 * random.below(20) as f64).map(drop),
         15 => edit::remove_keyframe(design, index).map(drop),
         16 => edit::set_material(design, NeoHookean { mu: random.between(-0.1, 1.0), kappa: random.unit() }.into()),
+        17 => edit::set_sewing(
+            design,
+            Rules { hole_to_seam_mm: random.between(-1.0, 9.0), most_holes: random.below(9), ..design.sewing },
+        ),
         _ => {
             let (up, surface_density) = (-random.unit(), random.between(-1e-7, 1e-6));
             edit::set_term(design, GRAVITY, Some(Gravity { acceleration: [0.0, up], surface_density }.into()))
@@ -160,6 +165,20 @@ fn the_text_is_made_for_people() {
         assert!(lines.contains(&line), "no line {line:?} in\n{text}");
     }
     assert!(lines.iter().all(|line| line.chars().count() < 110), "{text}");
+}
+
+#[test]
+fn rules_of_sewing_are_written_where_they_are_not_the_usual_ones() {
+    let mut design = rigged();
+    assert!(!bits(&design).contains("sewing"));
+    design.sewing.housing_mm = 1.0 / 3.0;
+    let text = bits(&design);
+    assert!(text.contains("    sewing: (\n        hole_to_seam_mm: 5.0,\n"), "{text}");
+    assert_eq!(file::parse(&text), Ok(design));
+    let some = bits(&rigged()).replacen("    pins:", "    sewing: (most_holes: 3),\n    pins:", 1);
+    assert_eq!(file::parse(&some).expect("a design").sewing, Rules { most_holes: 3, ..Rules::default() });
+    let unknown = some.replacen("most_holes", "most_hoels", 1);
+    assert!(file::parse(&unknown).unwrap_err().to_string().contains("most_hoels"));
 }
 
 #[test]
@@ -306,6 +325,16 @@ fn validation_says_what_and_where() {
             "drawing.tracks[0]: a track needs at least two points",
         ),
         (|d| d.fabrication.spool_radius_mm = 0.0, "fabrication.spool_radius_mm: 0 is not greater than zero"),
+        (|d| d.sewing.hole_to_seam_mm = -1.0, "sewing.hole_to_seam_mm: -1 is negative"),
+        (|d| d.sewing.hole_to_hole_mm = f64::NAN, "sewing.hole_to_hole_mm: NaN is not a finite number"),
+        (|d| d.sewing.most_holes = usize::MAX, "sewing.most_holes: 1.8446744073709552e19 is out of range: 0 to 10000"),
+        (|d| d.sewing.turn_degrees = 181.0, "sewing.turn_degrees: 181 is out of range: 0 to 180 degrees"),
+        (|d| d.sewing.turning_degrees = f64::INFINITY, "sewing.turning_degrees: inf is not a finite number"),
+        (|d| d.sewing.beside_mm = 1e4, "sewing.beside_mm: 10000 is out of range: 0 to 1000 mm"),
+        (|d| d.sewing.along_mm = 1e5, "sewing.along_mm: 100000 is out of range: 0 to 10000 mm"),
+        (|d| d.sewing.lead_mm = -0.5, "sewing.lead_mm: -0.5 is negative"),
+        (|d| d.sewing.housing_mm = 1e300, "sewing.housing_mm: 1e300 is out of range: 0 to 1000 mm"),
+        (|d| d.sewing.between_housings_mm = -3.0, "sewing.between_housings_mm: -3 is negative"),
         (|d| d.controller.encoder_lines = 0, "controller.encoder_lines: 0 is not greater than zero"),
     ];
     rigged().validate().expect("the starting point is sound");
