@@ -55,6 +55,7 @@ mod tests {
     fn cornered() -> Design {
         let mut design = testing::sample();
         design.networks.truncate(1);
+        design.keyframes.clear();
         design.networks[0].tendons.truncate(1);
         design.sewing = Rules { hole_to_seam_mm: 0.0, ..Rules::default() };
         design

@@ -1,7 +1,5 @@
 //! What a breach of a rule says.
 
-use super::facts::Facts;
-use serde::Serialize;
 use std::fmt;
 
 /// A hole no farther than this outside of the seam is told as on it, mm: what a tenth is rounded by.
@@ -15,8 +13,7 @@ pub struct Place {
 }
 
 /// A rule that is broken, and where. Figures in mm and degrees; holes counted from the winch, which is number 0.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[serde(into = "Facts")]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Breach {
     /// A hole too near to the seam; a negative distance is outside of the body.
     NearSeam { at: Place, hole: usize, distance_mm: f64, least_mm: f64 },

@@ -1,7 +1,7 @@
 //! A breach as figures, for other programs.
 
 use super::{Breach, Place};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 /// A breach as a record: the rule, where it is broken, the figure and its limit (mm, degrees, or a count). Winches, tendons and pieces are
 /// counted from 1 as in words; holes from the winch, which is number 0.
@@ -43,6 +43,12 @@ impl Facts {
 
     fn with(self, Place { winch, cable }: Place) -> Self {
         Self { other_winch: Some(winch + 1), other_tendon: Some(cable + 1), ..self }
+    }
+}
+
+impl Serialize for Breach {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        Facts::from(*self).serialize(serializer)
     }
 }
 

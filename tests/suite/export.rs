@@ -186,8 +186,8 @@ fn what_no_hand_can_sew_is_remarked_the_worst_first_and_counted() {
         let (_, manifest) = blueprint(design, &Options::default()).expect("a blueprint");
         manifest.remarks.into_iter().filter(|r| r.starts_with("Hard to sew: ")).collect::<Vec<_>>()
     };
-    // The one tendon turns by 135 degrees at node 11.
-    assert_eq!(remarks(&design), ["Hard to sew: winch 2, tendon 1: turns by 135 degrees at hole 1, more than 75."]);
+    // The one tendon turns by 90 degrees at node 11.
+    assert_eq!(remarks(&design), ["Hard to sew: winch 2, tendon 1: turns by 90 degrees at hole 1, more than 75."]);
     design.sewing.hole_to_seam_mm = 30.0;
     let told = remarks(&design);
     let holes = design.networks.iter().flat_map(|n| &n.tendons).map(|t| t.routing.len()).sum::<usize>() - 1;

@@ -577,7 +577,7 @@ fn networks_that_no_hand_can_sew_are_marked() {
             window.step();
         }
     };
-    // The tendon of the right one turns by 135 degrees.
+    // The tendon of the right one turns by 90 degrees.
     marked(&mut window, "right", true);
     marked(&mut window, "left", false);
     click(&mut window, "Settings");
