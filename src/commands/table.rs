@@ -84,6 +84,7 @@ fn sewing(figures: &Figures, out: &mut dyn Write) -> Result<(), CommandError> {
     if figures.sewing.is_empty() {
         return Ok(());
     }
-    say(out, &format!("\nhard to sew ({}):", figures.sewing.len()))?;
+    say(out, "")?;
+    say(out, &format!("hard to sew ({}):", figures.sewing.len()))?;
     figures.sewing.iter().try_for_each(|broken| say(out, &format!("  {broken}")))
 }

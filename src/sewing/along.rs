@@ -15,7 +15,9 @@ pub fn shared_mm(p: &[Point], q: &[Point], beside: f64, lead: f64) -> f64 {
         let first = (lead - start).clamp(0.0, whole);
         start += whole;
         near.clear();
-        near.extend(q.windows(2).filter_map(|s| interval(piece[0], piece[1], s[0], s[1], beside)));
+        let own = bounding_box(piece);
+        let close = q.windows(2).filter(|s| !apart(&own, &bounding_box(s), beside));
+        near.extend(close.filter_map(|s| interval(piece[0], piece[1], s[0], s[1], beside)));
         near.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut end = first;
         for &(from, to) in &near {

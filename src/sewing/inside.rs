@@ -29,19 +29,20 @@ pub fn judge_pieces<'a>(rings: impl Iterator<Item = &'a [Point]> + Clone, rigs: 
 /// Length of the piece from `a` to `b` that lies outside of the body, mm; `rings` are its polygons (outer, and holes the other way around)
 /// in the same pose. A body that overlaps itself there is inside where any of it is.
 ///
-/// The piece is cut where it crosses the rings, and the middle of each part is inside or outside: exact but for parts whose middle is no
-/// more than one and a half millimetres beside the rim, which count as inside.
+/// The piece is cut where it crosses the rings, and the middle of each part is inside or outside: exact but for parts that are no more than one
+/// and a half millimetres beside the rim (in their middle and halfway from there to their ends), which count as inside.
 pub fn outside<'a>(rings: impl Iterator<Item = &'a [Point]> + Clone, a: Point, b: Point) -> f64 {
     let mut cuts = vec![0.0, 1.0];
     for (p, q) in rings.clone().flat_map(polygon::sides) {
         cuts.extend(crossing(a, b, p, q));
     }
     cuts.sort_by(f64::total_cmp);
-    let inside = |p: Point| {
-        rings.clone().map(|ring| winding(ring, p)).sum::<i32>() != 0
-            || rings.clone().any(|ring| polygon::distance(ring, p) <= GRAZING_MM)
-    };
-    let parts = cuts.windows(2).filter(|c| c[1] > c[0] && !inside(polygon::lerp(a, b, 0.5 * (c[0] + c[1]))));
+    let at = |c: &[f64], part: f64| polygon::lerp(a, b, c[0] + part * (c[1] - c[0]));
+    let inside = |p: Point| rings.clone().map(|ring| winding(ring, p)).sum::<i32>() != 0;
+    let grazes = |p: Point| rings.clone().any(|ring| polygon::distance(ring, p) <= GRAZING_MM);
+    let parts = cuts
+        .windows(2)
+        .filter(|c| c[1] > c[0] && !inside(at(c, 0.5)) && [0.25, 0.5, 0.75].iter().any(|&part| !grazes(at(c, part))));
     // From 0, as a sum of nothing is -0.
     parts.fold(0.0, |sum, c| sum + (c[1] - c[0])) * polygon::length(a, b)
 }
