@@ -256,6 +256,33 @@ fn truncated_and_garbled_texts_are_errors_or_designs_never_panics() {
 
 type Spoil = fn(&mut Design);
 
+/// Spoils a sound design and sees what is said of it.
+fn refused(cases: &[(Spoil, &str)]) {
+    rigged().validate().expect("the starting point is sound");
+    for (spoil, message) in cases {
+        let mut design = rigged();
+        spoil(&mut design);
+        let error = design.validate().expect_err(message).to_string();
+        assert!(error.starts_with(message), "{error:?} instead of {message:?}");
+    }
+}
+
+#[test]
+fn rules_of_sewing_have_their_ranges() {
+    refused(&[
+        (|d| d.sewing.hole_to_seam_mm = -1.0, "sewing.hole_to_seam_mm: -1 is negative"),
+        (|d| d.sewing.hole_to_hole_mm = f64::NAN, "sewing.hole_to_hole_mm: NaN is not a finite number"),
+        (|d| d.sewing.most_holes = usize::MAX, "sewing.most_holes: 1.8446744073709552e19 is out of range: 0 to 10000"),
+        (|d| d.sewing.turn_degrees = 181.0, "sewing.turn_degrees: 181 is out of range: 0 to 180 degrees"),
+        (|d| d.sewing.turning_degrees = f64::INFINITY, "sewing.turning_degrees: inf is not a finite number"),
+        (|d| d.sewing.beside_mm = 1e4, "sewing.beside_mm: 10000 is out of range: 0 to 1000 mm"),
+        (|d| d.sewing.along_mm = 1e5, "sewing.along_mm: 100000 is out of range: 0 to 10000 mm"),
+        (|d| d.sewing.lead_mm = -0.5, "sewing.lead_mm: -0.5 is negative"),
+        (|d| d.sewing.housing_mm = 1e300, "sewing.housing_mm: 1e300 is out of range: 0 to 1000 mm"),
+        (|d| d.sewing.between_housings_mm = -3.0, "sewing.between_housings_mm: -3 is negative"),
+    ]);
+}
+
 #[test]
 fn validation_says_what_and_where() {
     let cases: &[(Spoil, &str)] = &[
@@ -325,25 +352,9 @@ fn validation_says_what_and_where() {
             "drawing.tracks[0]: a track needs at least two points",
         ),
         (|d| d.fabrication.spool_radius_mm = 0.0, "fabrication.spool_radius_mm: 0 is not greater than zero"),
-        (|d| d.sewing.hole_to_seam_mm = -1.0, "sewing.hole_to_seam_mm: -1 is negative"),
-        (|d| d.sewing.hole_to_hole_mm = f64::NAN, "sewing.hole_to_hole_mm: NaN is not a finite number"),
-        (|d| d.sewing.most_holes = usize::MAX, "sewing.most_holes: 1.8446744073709552e19 is out of range: 0 to 10000"),
-        (|d| d.sewing.turn_degrees = 181.0, "sewing.turn_degrees: 181 is out of range: 0 to 180 degrees"),
-        (|d| d.sewing.turning_degrees = f64::INFINITY, "sewing.turning_degrees: inf is not a finite number"),
-        (|d| d.sewing.beside_mm = 1e4, "sewing.beside_mm: 10000 is out of range: 0 to 1000 mm"),
-        (|d| d.sewing.along_mm = 1e5, "sewing.along_mm: 100000 is out of range: 0 to 10000 mm"),
-        (|d| d.sewing.lead_mm = -0.5, "sewing.lead_mm: -0.5 is negative"),
-        (|d| d.sewing.housing_mm = 1e300, "sewing.housing_mm: 1e300 is out of range: 0 to 1000 mm"),
-        (|d| d.sewing.between_housings_mm = -3.0, "sewing.between_housings_mm: -3 is negative"),
         (|d| d.controller.encoder_lines = 0, "controller.encoder_lines: 0 is not greater than zero"),
     ];
-    rigged().validate().expect("the starting point is sound");
-    for (spoil, message) in cases {
-        let mut design = rigged();
-        spoil(&mut design);
-        let error = design.validate().expect_err(message).to_string();
-        assert!(error.starts_with(message), "{error:?} instead of {message:?}");
-    }
+    refused(cases);
     let mut edge = rigged();
     edge.networks[0].tendons[0].routing = vec![10, 9, 10];
     edge.pins[0].at.weights = [1.0 + 5e-10, -5e-10, 5e-7];
