@@ -3,6 +3,7 @@
 use super::cables::points;
 use super::products::seam;
 use crate::design::Design;
+use crate::motion::winch_labels;
 use crate::outline::Point;
 use crate::sewing::{self, Body, Breach, Rig};
 
@@ -29,7 +30,8 @@ pub fn judge_pose(design: &Design, nodes: &[Point]) -> Vec<Breach> {
 /// What the maker of a blueprint should know of the rules that it breaks, the most severe breaches first.
 pub(super) fn remarks(design: &Design) -> Vec<String> {
     let breaches = judge_design(design);
-    let sentence = |breach: &Breach| format!("Hard to sew: {breach}.");
+    let names = winch_labels(design);
+    let sentence = |breach: &Breach| format!("Hard to sew: {}.", breach.words(&names));
     let mut remarks: Vec<String> = sewing::most_severe(&breaches, TOLD).iter().map(sentence).collect();
     match breaches.len().saturating_sub(TOLD) {
         0 => {}

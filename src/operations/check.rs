@@ -6,9 +6,11 @@ use crate::design::{Design, Pose};
 use crate::engine::target_error;
 use crate::engine::{Question, Warning};
 use crate::fabrication::{judge_design, judge_pose};
+use crate::motion::winch_labels;
 use crate::sewing::Breach;
 use serde::{Deserialize, Serialize};
 use std::fmt;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// What is checked.
@@ -74,13 +76,16 @@ pub struct Unsewable {
     pub pose: Option<String>,
     #[serde(flatten)]
     pub breach: Breach,
+    /// What winches are called in words, network by network.
+    #[serde(skip)]
+    names: Arc<[String]>,
 }
 
 impl fmt::Display for Unsewable {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match &self.pose {
-            Some(pose) => write!(f, "{pose}: {}", self.breach),
-            None => self.breach.fmt(f),
+            Some(pose) => write!(f, "{pose}: {}", self.breach.words(&self.names)),
+            None => self.breach.words(&self.names).fmt(f),
         }
     }
 }
@@ -118,6 +123,9 @@ pub fn run(design: &Design, options: &Options, context: &Context) -> Result<Figu
     // A context belongs to one thread; what tells it to stop does not.
     let cancel = context.cancel();
     let solved = every_pose(&wanted, |pose| pose_figures(design, pose, &Context::new(cancel)));
+    let names: Arc<[String]> = winch_labels(design).into();
+    let unsewable =
+        |pose: Option<&str>, breach: Breach| Unsewable { pose: pose.map(str::to_owned), breach, names: names.clone() };
     let mut figures = Figures {
         name: design.name.clone(),
         fibers: design.fiber_routings().len(),
@@ -127,12 +135,12 @@ pub fn run(design: &Design, options: &Options, context: &Context) -> Result<Figu
         tendons: design.networks.iter().map(|n| n.tendons.len()).sum(),
         body_length_mm: design.body_length_mm(),
         poses: Vec::new(),
-        sewing: judge_design(design).into_iter().map(|breach| Unsewable { pose: None, breach }).collect(),
+        sewing: judge_design(design).into_iter().map(|breach| unsewable(None, breach)).collect(),
         notes: Vec::new(),
     };
     for solved in solved {
         let Posed { figures: pose, outside, notes } = solved?;
-        figures.sewing.extend(outside.into_iter().map(|breach| Unsewable { pose: Some(pose.name.clone()), breach }));
+        figures.sewing.extend(outside.into_iter().map(|breach| unsewable(Some(&pose.name), breach)));
         figures.poses.push(pose);
         figures.notes.extend(notes);
     }
@@ -234,6 +242,16 @@ mod tests {
         // Nothing holds the body.
         assert!(figures.notes.iter().any(|note| note.to_string().contains("free to move")), "{:?}", figures.notes);
         assert!(matches!(of("none"), Err(Error::NoSuchPose(NoSuchPose { name, .. })) if name == "none"));
+        // Both tendons of the left winch end in corners.
+        let told = figures.sewing.iter().find(|broken| broken.pose.is_none()).unwrap();
+        assert_eq!(told.to_string(), "left, tendon 1: hole 1 from the winch is 0.0 mm from the seam, less than 5.0");
+        let record = serde_json::json!({
+            "rule": "hole_to_seam", "winch": 1, "tendon": 1, "hole": 1, "value": 0.0, "limit": 5.0, "severity": 2.0
+        });
+        assert_eq!(serde_json::to_value(told).unwrap(), record);
+        let posed = Unsewable { pose: Some(first.clone()), ..told.clone() };
+        assert_eq!(serde_json::to_value(&posed).unwrap()["pose"], *first);
+        assert!(posed.to_string().starts_with(&format!("{first}: left, ")));
         let stop = AtomicBool::new(true);
         let stopped = run(&design, &Options::default(), &Context::new(&stop));
         assert!(matches!(stopped, Err(Error::Cancelled(_))));

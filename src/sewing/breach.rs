@@ -1,9 +1,4 @@
-//! What a breach of a rule says.
-
-use std::fmt;
-
-/// A hole no farther than this outside of the seam is told as on it, mm: what a tenth is rounded by.
-const ON_SEAM_MM: f64 = 0.05;
+//! A broken rule: which, where, and by how much.
 
 /// A cable of a rig, both counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -86,68 +81,4 @@ pub fn most_severe(breaches: &[Breach], count: usize) -> Vec<Breach> {
     sorted.sort_by(|a, b| b.severity().total_cmp(&a.severity()));
     sorted.truncate(count);
     sorted
-}
-
-impl fmt::Display for Place {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "winch {}, tendon {}", self.winch + 1, self.cable + 1)
-    }
-}
-
-impl fmt::Display for Breach {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        match *self {
-            Self::NearSeam { at, hole, distance_mm, least_mm } if distance_mm < -ON_SEAM_MM => {
-                let out = -distance_mm;
-                write!(f, "{at}: hole {hole} is {out:.1} mm outside of the body, not {least_mm:.1} inside the seam")
-            }
-            Self::NearSeam { at, hole, distance_mm, least_mm } => {
-                let distance = distance_mm.max(0.0);
-                write!(f, "{at}: hole {hole} is {distance:.1} mm from the seam, less than {least_mm:.1}")
-            }
-            Self::Crowded { at, hole, other, other_hole, distance_mm, least_mm } => write!(
-                f,
-                "{at}: hole {hole} is {distance_mm:.1} mm from hole {other_hole} of {other}, less than {least_mm:.1}"
-            ),
-            Self::ManyHoles { at, holes, most } => {
-                write!(f, "{at}: {holes} holes between winch and end, more than {most}")
-            }
-            Self::SharpTurn { at, hole, degrees, most } => {
-                write!(f, "{at}: turns by {degrees:.0} degrees at hole {hole}, more than {most:.0}")
-            }
-            Self::Turning { at, degrees, most } => {
-                write!(f, "{at}: turns by {degrees:.0} degrees in all, more than {most:.0}")
-            }
-            Self::Along { at, other, length_mm, most_mm } => {
-                write!(f, "{at}: runs along {other} for {length_mm:.0} mm, more than {most_mm:.0}")
-            }
-            Self::ThroughWinch { at, piece, winch, distance_mm, least_mm } => write!(
-                f,
-                "{at}: piece {} passes the middle of winch {} at {distance_mm:.1} mm, through its housing ({least_mm:.1})",
-                piece + 1,
-                winch + 1
-            ),
-            Self::Outside { at, piece, length_mm, .. } => {
-                write!(f, "{at}: piece {} is outside of the body for {length_mm:.0} mm", piece + 1)
-            }
-            Self::ThinBody { room_mm, housing_mm } => write!(
-                f,
-                "the body is too thin for housings of {housing_mm:.0} mm: there is room for {room_mm:.1} mm at most, by which winches are judged"
-            ),
-            Self::HousingOutside { winch, room_mm, housing_mm } => write!(
-                f,
-                "winch {}: there is room for {:.0} mm inside the seam, the housing is {housing_mm:.0} mm wide",
-                winch + 1,
-                room_mm.max(0.0)
-            ),
-            Self::HousingAtGap { winch, gap_mm, housing_mm } => write!(
-                f,
-                "winch {}: a housing of {housing_mm:.0} mm does not pass the turning gap of {gap_mm:.0} mm",
-                winch + 1
-            ),
-            Self::HousingsClose { winch, other, distance_mm, least_mm } => {
-                write!(f, "winches {} and {}: {distance_mm:.0} mm apart, less than {least_mm:.0}", winch + 1, other + 1)
-            }
-        }
-    }
 }

@@ -6,7 +6,7 @@
 //!
 //! The figures of the rules are settings of a design. `fabrication::judge_design` asks whether its networks keep them; the check, the
 //! blueprint's remarks and the studio's list of networks tell. A new rule is one file with its function, a line in [`judge`], a kind of
-//! [`Breach`] with its words, and its [`Facts`] for other programs.
+//! [`Breach`] with its [`Words`], and its [`Facts`] for other programs.
 
 mod along;
 mod breach;
@@ -17,6 +17,7 @@ mod housing;
 mod inside;
 mod layout;
 mod rules;
+mod words;
 
 pub use along::shared_mm;
 pub use breach::{Breach, Place, most_severe};
@@ -26,6 +27,7 @@ pub use housing::largest_housing;
 pub use inside::{OUTSIDE_MM, judge_pieces, outside};
 pub use layout::{Body, Rig};
 pub use rules::Rules;
+pub use words::Words;
 
 /// Every breach of the rules at rest, rule by rule, winch by winch, cable by cable. Empty where all are kept. `gap_mm` is the turning gap's width, 0 for none.
 ///

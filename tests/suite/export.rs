@@ -187,7 +187,10 @@ fn what_no_hand_can_sew_is_remarked_the_worst_first_and_counted() {
         manifest.remarks.into_iter().filter(|r| r.starts_with("Hard to sew: ")).collect::<Vec<_>>()
     };
     // The one tendon turns by 90 degrees at node 11.
-    assert_eq!(remarks(&design), ["Hard to sew: winch 2, tendon 1: turns by 90 degrees at hole 1, more than 75."]);
+    assert_eq!(
+        remarks(&design),
+        ["Hard to sew: right, tendon 1: turns by 90.0 degrees at hole 1 from the winch, more than 75.0."]
+    );
     design.sewing.hole_to_seam_mm = 30.0;
     let told = remarks(&design);
     let holes = design.networks.iter().flat_map(|n| &n.tendons).map(|t| t.routing.len()).sum::<usize>() - 1;

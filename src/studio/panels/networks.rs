@@ -71,7 +71,7 @@ fn rows(ui: &mut Ui, session: &Session, breaches: &[Breach], actions: &mut Actio
                 if icons::small_button(ui, Icon::Trash, &name, &tip).clicked() {
                     actions.push(Action::Change(Change::RemoveNetwork(index)));
                 }
-                sewable::mark(ui, &network.name, index, breaches);
+                sewable::mark(ui, session.design(), index, breaches);
                 // Both plushies have the same; a hidden one is not kept up to date.
                 let views = session.look.views;
                 let shapes = &session.solver.shapes;

@@ -2,6 +2,7 @@
 
 use crate::design::Design;
 use crate::fabrication::judge_design;
+use crate::motion::winch_labels;
 use crate::sewing::{Breach, most_severe};
 use crate::studio::action::{Action, Actions};
 use crate::studio::icons::{self, Icon};
@@ -68,17 +69,20 @@ fn task(owner: &'static str, design: Arc<Design>) -> Task {
 }
 
 /// A sign beside a network that breaks rules, with all of them in its tip. Nothing where it keeps them.
-pub fn mark(ui: &mut Ui, name: &str, index: usize, breaches: &[Breach]) {
+pub fn mark(ui: &mut Ui, design: &Design, index: usize, breaches: &[Breach]) {
     let own: Vec<Breach> = breaches.iter().filter(|b| b.winches().any(|winch| winch == index)).copied().collect();
     if own.is_empty() {
         return;
     }
     let (rect, response) = ui.allocate_exact_size(vec2(MARK, ROW), Sense::hover());
-    let label = format!("Network {name} is hard to sew");
+    let label = format!("Network {} is hard to sew", design.networks[index].name);
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &label));
     let square = Rect::from_center_size(rect.center(), Vec2::splat(MARK));
     ui.painter().extend(icons::draw(Icon::Warning, square, ui.visuals().warn_fg_color));
-    response.on_hover_text(format!("Hard to sew:\n{}", lines(&own)));
+    // Asked for while the pointer is there alone.
+    response.on_hover_ui(|ui| {
+        ui.label(format!("Hard to sew:\n{}", lines(&own, &winch_labels(design))));
+    });
 }
 
 /// A line above the list where it is the body that no winch fits into.
@@ -89,8 +93,8 @@ pub fn body(ui: &mut Ui, breaches: &[Breach]) {
 }
 
 /// The most severe breaches, a line each, and how many others there are.
-fn lines(breaches: &[Breach]) -> String {
-    let mut lines: Vec<String> = most_severe(breaches, TOLD).iter().map(Breach::to_string).collect();
+fn lines(breaches: &[Breach], names: &[String]) -> String {
+    let mut lines: Vec<String> = most_severe(breaches, TOLD).iter().map(|b| b.words(names).to_string()).collect();
     if breaches.len() > TOLD {
         lines.push(format!("and {} more", breaches.len() - TOLD));
     }
