@@ -8,6 +8,7 @@
 //! | room | holds |
 //! | --- | --- |
 //! | [`defaults`] | every default figure of the tool, with unit, source or reason |
+//! | [`random`] | repeatable random numbers |
 //! | [`files`] | the one way to write files and folders; what they hold before and after |
 //! | [`outline`] | a silhouette: reading, clean-up, polygons |
 //! | [`mesh`] | outline to triangle mesh, points of the body, quality |
@@ -64,6 +65,7 @@ pub mod outline;
 pub mod physics;
 pub mod picture;
 pub mod problem;
+pub mod random;
 pub mod rigging;
 pub mod sewing;
 pub mod soft_ik;

@@ -5,11 +5,11 @@
 use super::drags::{places, points, positions, towards};
 use super::plot::{Plot, Series};
 use super::posing::{at_rest, free_fibers, optimum};
-use super::random::Random;
 use super::shapes::{Field, Subject, original};
 use super::statistics::Summary;
 use super::{BenchError, Cell, Report, Session, Table};
 use crate::physics::Model;
+use crate::random::Random;
 use crate::soft_ik::tension::AllAtOnce;
 use crate::soft_ik::{Budget, Method, Posture, Question};
 

@@ -7,10 +7,10 @@ use super::figures::significant;
 use super::linear::Unit;
 use super::plot::{Plot, Series};
 use super::posing::{at_rest, distance_from_equilibrium, free_fibers, may_be_shown, optimum};
-use super::random::Random;
 use super::shapes::Subject;
 use super::statistics::{Summary, growth_exponent};
 use super::{BenchError, Cell, Quality, Report, Session, Table, Tracker};
+use crate::random::Random;
 use crate::soft_ik::Question;
 use std::time::Instant;
 

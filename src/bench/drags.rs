@@ -4,13 +4,13 @@
 //! all resolutions are asked the same. A *reachable* path is read off equilibria under a smooth random contraction that is
 //! swept sinusoidally; an *unreachable* one leads a body length away and back.
 
-use super::random::Random;
 use super::shapes::{Field, Subject, carry, original};
 use super::{BenchError, Session};
 use crate::design::{Design, Target};
 use crate::engine::compile::objective;
 use crate::mesh::BodyPoint;
 use crate::outline::Point;
+use crate::random::Random;
 use crate::soft_ik::Objective;
 use std::f64::consts::TAU;
 

@@ -5,13 +5,13 @@
 
 use super::ordering::nested_dissection;
 use super::plot::{Plot, Series};
-use super::random::Random;
 use super::shapes::{Field, Subject};
 use super::statistics::{Summary, growth_exponent};
 use super::{BenchError, Report, Session, Table};
 use crate::physics::HessianForm;
 use crate::physics::cholesky::{Cholesky, Kernel, Ordering, Variant};
 use crate::physics::pattern::Pattern;
+use crate::random::Random;
 use std::time::Instant;
 
 /// Measurements go on for this long, s, for every variant, and for at least [`LEAST_ROUNDS`] rounds.

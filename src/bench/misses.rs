@@ -8,10 +8,10 @@
 use super::drags::{places_on, points, positions, towards};
 use super::figures::significant;
 use super::posing::{at_rest, free_fibers, optimum};
-use super::random::Random;
 use super::shapes::{Field, Subject, design, names};
 use super::statistics::{Summary, wilson};
 use super::{BenchError, Cell, Quality, Report, Session, Table, Tracker, silhouettes};
+use crate::random::Random;
 use crate::soft_ik::gradient::Gradient;
 use crate::soft_ik::tension::AllAtOnce;
 use crate::soft_ik::{self, Budget, Method, Posture, Question};

@@ -32,7 +32,6 @@ pub mod ordering;
 pub mod plot;
 pub mod posing;
 pub mod properties;
-pub mod random;
 pub mod report;
 pub mod resolution;
 pub mod scene;

@@ -169,7 +169,7 @@ impl Resolution {
         let targets = &subject.design.poses.first()?.targets;
         let best =
             rigging::propose(&subject.design, targets, &Parameters::default(), session.cancel).into_iter().next()?;
-        let winch = subject.design.mesh.nodes[best.network.winch_node()?];
+        let winch = best.network.winch()?.place(&subject.design.mesh.nodes);
         Some(Network { score: best.stages.score, before: best.error_before, after: best.error_after, winch })
     }
 }
@@ -187,7 +187,7 @@ fn coarse_fibers(shape: &str, coarse: usize, fine: Design) -> Result<Design, Ben
 
 /// The mean relative contraction of the pulling fibres around every common place.
 fn activation_field(subject: &Subject, posture: &Posture, common: &Common, radius: f64) -> Vec<f64> {
-    let (design, plushie) = (&subject.design, &subject.plushie);
+    let plushie = &subject.plushie;
     let elements = &plushie.model.contractile.elements;
     let tension = |k: usize| {
         let (e, ratio) = plushie.fibers[k].members[0];
@@ -198,8 +198,8 @@ fn activation_field(subject: &Subject, posture: &Posture, common: &Common, radiu
     let fibers: Vec<(Point, f64, f64)> = (0..plushie.fibers.len())
         .map(|k| {
             let (e, ratio) = plushie.fibers[k].members[0];
-            let ends = [elements[e].routing[0], elements[e].routing[elements[e].routing.len() - 1]];
-            let [a, b] = ends.map(|n| design.mesh.nodes[n]);
+            let (routing, rest) = (&elements[e].routing, &plushie.model.rest);
+            let (a, b) = (routing[0].at(rest), routing[routing.len() - 1].at(rest));
             let relative = (ratio * posture.beta[k] / elements[e].alpha0).max(0.0);
             let pulls = tensions[k] > PULLING * largest;
             ([0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])], elements[e].alpha0, if pulls { relative } else { 0.0 })

@@ -5,7 +5,6 @@
 
 use super::drags::{Path, goals, places, points, towards};
 use super::posing::{at_rest, free_fibers};
-use super::random::Random;
 use super::shapes::{Subject, original};
 use super::statistics::Summary;
 use super::{BenchError, Quality, Report, Session, Table, Tracker};
@@ -14,6 +13,7 @@ use crate::engine::{self, Request, Solver};
 use crate::mesh::BodyPoint;
 use crate::outline::Point;
 use crate::physics::{StVenantKirchhoff, StaticsSettings, statics};
+use crate::random::Random;
 use crate::soft_ik::{Actuation, Question};
 use std::sync::Arc;
 use std::time::Instant;

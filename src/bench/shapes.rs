@@ -1,7 +1,6 @@
 //! The bundled designs at any number of fibres, ready to be solved.
 
 use super::BenchError;
-use super::random::Random;
 use super::silhouettes;
 use crate::defaults;
 use crate::design::{Design, Target, bundled};
@@ -9,6 +8,7 @@ use crate::engine::compile::{Plushie, View, compile};
 use crate::mesh::{self, BodyPoint, Mesh, MeshError};
 use crate::outline::Point;
 use crate::physics::{StaticsSettings, statics};
+use crate::random::Random;
 
 /// A mesh may have this part more or fewer fibres than asked for, where the outline does not permit the exact count.
 const COUNT_TOLERANCE: f64 = 0.03;
@@ -131,7 +131,8 @@ impl Subject {
         for fiber in &self.plushie.fibers {
             for &(element, ratio) in &fiber.members {
                 let routing = &self.plushie.model.contractile.elements[element].routing;
-                let (a, b) = (self.design.mesh.nodes[routing[0]], self.design.mesh.nodes[routing[routing.len() - 1]]);
+                let rest = &self.plushie.model.rest;
+                let (a, b) = (routing[0].at(rest), routing[routing.len() - 1].at(rest));
                 let middle = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
                 out[element] = ratio * fiber.upper * strength * field.at(middle);
             }

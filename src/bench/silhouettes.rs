@@ -1,12 +1,12 @@
 //! Designs whose outlines are made from random numbers: limbs, spirals, hands and stars. Shapes that no solver was tuned on.
 
 use super::BenchError;
-use super::random::Random;
 use crate::defaults::PIN_STIFFNESS;
 use crate::design::{Design, Pin};
 use crate::mesh::{self, MeshError};
 use crate::outline::polygon::{bounding_box, length, sides, signed_area};
 use crate::outline::{Outline, Point};
+use crate::random::Random;
 use std::f64::consts::{PI, TAU};
 
 pub const FAMILIES: [&str; 4] = ["limb", "spiral", "hand", "star"];

@@ -7,7 +7,6 @@ use super::drags::towards;
 use super::locking;
 use super::plot::{Plot, Series};
 use super::posing::{at_rest, free_fibers, optimum};
-use super::random::Random;
 use super::shapes::{Field, Subject, original};
 use super::statistics::{Summary, pareto_front};
 use super::{BenchError, Quality, Report, Session, Table, Tracker};
@@ -15,6 +14,7 @@ use crate::design::{Design, Target};
 use crate::mesh::BodyPoint;
 use crate::outline::Point;
 use crate::physics::{StaticsSettings, statics};
+use crate::random::Random;
 use crate::soft_ik::Question;
 use std::time::Instant;
 

@@ -5,9 +5,9 @@
 use super::drags::{places, points, positions, towards};
 use super::figures::significant;
 use super::posing::{at_rest, distance_from_equilibrium, free_fibers, may_be_shown};
-use super::random::Random;
 use super::shapes::Subject;
 use super::{BenchError, Cell, Quality, Report, Session, Table, Tracker};
+use crate::random::Random;
 use crate::soft_ik::{Actuation, Objective, Posture, Question};
 
 /// Frames in which the targets jump, frames between jumps, and frames in which they rest.

@@ -1,6 +1,6 @@
 //! How a fault in a document is reported, and the small checks that report it.
 
-use super::FORMAT_VERSION;
+use super::{FORMAT_VERSION, MaterialPoint};
 use crate::mesh::MeshError;
 use thiserror::Error;
 
@@ -50,8 +50,12 @@ pub enum Fault {
     Mesh(#[from] MeshError),
     #[error("node {0} stands twice in a row")]
     RepeatedNode(usize),
-    #[error("starts at node {found}, the network's winch is at node {winch}")]
-    OtherWinch { found: usize, winch: usize },
+    #[error("{0} stands twice in a row")]
+    RepeatedPoint(MaterialPoint),
+    #[error("starts at {found}, the network's winch is at {winch}")]
+    OtherWinch { found: MaterialPoint, winch: MaterialPoint },
+    #[error("nodes {}, {} and {} are not a triangle of the mesh", .0[0], .0[1], .0[2])]
+    NoTriangle([usize; 3]),
     #[error("{} s does not come after {} s", short(*time), short(*before))]
     NotAscending { time: f64, before: f64 },
     #[error("is empty")]

@@ -86,8 +86,10 @@ pub fn parse(text: &str) -> Result<Design, TextError> {
     {
         return Err(TextError::FutureVersion { found });
     }
-    let design: Design = ron::from_str(text).map_err(syntax)?;
+    let mut design: Design = ron::from_str(text).map_err(syntax)?;
     design.validate()?;
+    // What an older version could say, this one can: it is written so from now on.
+    design.version = FORMAT_VERSION;
     Ok(design)
 }
 

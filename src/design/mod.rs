@@ -36,6 +36,7 @@ use crate::defaults;
 use crate::mesh::{BodyPoint, Mesh};
 use crate::outline::drawing::Track;
 use crate::outline::{Drawing, Outline, Point};
+pub use crate::physics::MaterialPoint;
 use crate::sewing::Rules;
 use serde::{Deserialize, Serialize};
 
@@ -125,7 +126,7 @@ pub struct Target {
 #[serde(deny_unknown_fields)]
 pub struct Network {
     pub name: String,
-    /// Each routing starts at the winch's node.
+    /// Each routing starts at the winch.
     pub tendons: Vec<Tendon>,
 }
 
@@ -133,8 +134,8 @@ pub struct Network {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tendon {
-    /// Mesh nodes from the winch outward.
-    pub routing: Vec<usize>,
+    /// The winch, the holes and the end: points of the body, from the winch outward.
+    pub routing: Vec<MaterialPoint>,
     /// Its entry of `Z`: contraction per unit of winch activation (relative spool radius).
     #[serde(default = "one", skip_serializing_if = "is_one")]
     pub ratio: f64,
@@ -170,9 +171,9 @@ pub enum Easing {
 }
 
 impl Network {
-    /// The mesh node at which the winch sits.
-    pub fn winch_node(&self) -> Option<usize> {
-        self.tendons.first().and_then(|t| t.routing.first().copied())
+    /// The point of the body at which the winch sits.
+    pub fn winch(&self) -> Option<&MaterialPoint> {
+        self.tendons.first().and_then(|t| t.routing.first())
     }
 }
 

@@ -4,7 +4,7 @@
 //! new nodes that can be reached from there in a straight line inside the body, so that none jumps a gap to the next limb;
 //! where the straight way between two of them would leave the body, the shortest way along mesh edges is put between.
 
-use super::{Design, FiberSet, Tendon};
+use super::{Design, FiberSet, MaterialPoint, Tendon};
 use crate::mesh::{self, BodyPoint, Mesh, MeshError, Request};
 use crate::outline::{Outline, Point, polygon};
 use serde::Serialize;
@@ -137,32 +137,39 @@ impl<'a> Carrier<'a> {
         }
     }
 
-    /// Carries a routing over; whether two different nodes are left.
+    /// Carries a routing over; whether two different points are left.
     fn tendon(&mut self, tendon: &mut Tendon, what: &str) -> bool {
-        let mut routing: Vec<usize> = Vec::with_capacity(tendon.routing.len());
-        for (k, &node) in tendon.routing.iter().enumerate() {
-            let place = self.old.nodes[node];
-            let found = self.node(place);
-            self.note(format!("{what}.routing[{k}]"), polygon::length(place, self.new.nodes[found]));
+        let mut routing: Vec<(MaterialPoint, Point)> = Vec::with_capacity(tendon.routing.len());
+        for (k, point) in tendon.routing.iter().enumerate() {
+            let place = point.place(&self.old.nodes);
+            let Some((at, distance)) = self.new.locate_nearest(place, &self.new.nodes) else { return false };
+            self.note(format!("{what}.routing[{k}]"), distance);
+            let found = MaterialPoint::of_triangle(self.new.triangles[at.triangle], at.weights);
+            let there = found.place(&self.new.nodes);
             match routing.last() {
-                Some(&last) if last == found => self.report.merged += 1,
-                Some(&last) => {
-                    let way = self.way(last, found);
-                    self.report.added += way.len().saturating_sub(1);
-                    routing.extend(way);
+                Some((_, last)) if *last == there => self.report.merged += 1,
+                Some(&(_, last)) => {
+                    for n in self.way(last, there) {
+                        let at = self.new.nodes[n];
+                        if at != there && routing.last().is_some_and(|(_, last)| *last != at) {
+                            self.report.added += 1;
+                            routing.push((MaterialPoint::Node(n), at));
+                        }
+                    }
+                    routing.push((found, there));
                 }
-                None => routing.push(found),
+                None => routing.push((found, there)),
             }
         }
         let whole = routing.len() >= 2;
-        if !whole && let Some(&only) = routing.first() {
-            // Too short for the new mesh: to the neighbour nearest to where it ended.
-            let end = tendon.routing.last().map_or(self.new.nodes[only], |&n| self.old.nodes[n]);
-            let distance = |&n: &usize| polygon::length(self.new.nodes[n], end);
-            let next = self.neighbours[only].iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b)));
-            routing.extend(next);
+        if !whole && let Some((only, there)) = routing.first() {
+            // Too short for the new mesh: to the node nearest by.
+            let distance = |n: &usize| polygon::length(self.new.nodes[*n], *there);
+            let others = (0..self.new.nodes.len()).filter(|n| *only != MaterialPoint::Node(*n));
+            let next = others.min_by(|a, b| distance(a).total_cmp(&distance(b)));
+            routing.extend(next.map(|n| (MaterialPoint::Node(n), self.new.nodes[n])));
         }
-        tendon.routing = routing;
+        tendon.routing = routing.into_iter().map(|(point, _)| point).collect();
         whole
     }
 
@@ -187,12 +194,12 @@ impl<'a> Carrier<'a> {
         })
     }
 
-    /// The nodes after `from` on the way to `to`: `to` alone if the straight way is inside the body, or else the shortest way
-    /// along edges.
-    fn way(&self, from: usize, to: usize) -> Vec<usize> {
-        if self.neighbours[from].contains(&to) || self.is_inside(self.new.nodes[from], self.new.nodes[to]) {
-            return vec![to];
+    /// The nodes between two places: none if the straight way is inside the body, or else those of the shortest way along edges.
+    fn way(&self, from: Point, to: Point) -> Vec<usize> {
+        if self.is_inside(from, to) {
+            return Vec::new();
         }
+        let (from, to) = (self.node(from), self.node(to));
         let mut best: Vec<Option<(f64, usize)>> = vec![None; self.new.nodes.len()];
         let mut open = BinaryHeap::from([(Reverse(Length(0.0)), from)]);
         best[from] = Some((0.0, from));
@@ -214,7 +221,6 @@ impl<'a> Carrier<'a> {
         let mut way = vec![to];
         let mut node = to;
         while let Some((_, before)) = best[node]
-            && before != from
             && before != node
         {
             way.push(before);
@@ -318,15 +324,15 @@ mod tests {
         let mut design = Design::new("horseshoe", outline, fine.clone());
         design.networks.push(super::super::Network {
             name: "winch".into(),
-            tendons: vec![Tendon { routing, ratio: 1.0, slack_mm: 0.0 }],
+            tendons: vec![Tendon { routing: MaterialPoint::through(routing), ratio: 1.0, slack_mm: 0.0 }],
         });
         let report = remesh(&mut design, &Request::fibers(250), 1).unwrap();
         design.validate().unwrap();
         let routing = &design.networks[0].tendons[0].routing;
-        let at = |k: usize| design.mesh.nodes[routing[k]];
+        let at = |k: usize| routing[k].place(&design.mesh.nodes);
         assert!(at(0)[0] <= 30.0 && at(routing.len() - 1)[0] >= 34.0 && report.added > 0, "{routing:?}");
         for pair in routing.windows(2) {
-            let middle = polygon::lerp(design.mesh.nodes[pair[0]], design.mesh.nodes[pair[1]], 0.5);
+            let middle = polygon::lerp(pair[0].place(&design.mesh.nodes), pair[1].place(&design.mesh.nodes), 0.5);
             assert!(design.mesh.locate_nearest(middle, &design.mesh.nodes).unwrap().1 < 0.5);
         }
     }

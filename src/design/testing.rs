@@ -8,7 +8,11 @@ pub(crate) fn sample() -> Design {
     nodes.push([30.0, 30.0]);
     let triangles = vec![[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]];
     let mut design = Design::new("sample", Outline { outer: corners, holes: vec![] }, Mesh { nodes, triangles });
-    let tendon = |routing: &[usize]| Tendon { routing: routing.to_vec(), ratio: 1.0, slack_mm: 0.0 };
+    let tendon = |routing: &[usize]| Tendon {
+        routing: MaterialPoint::through(routing.iter().copied()),
+        ratio: 1.0,
+        slack_mm: 0.0,
+    };
     design.pins = vec![Pin {
         at: BodyPoint { triangle: 0, weights: [1.0, 0.0, 0.0] },
         position: None,

@@ -6,7 +6,7 @@
 
 use super::fault::{Check, DesignError, Fault, at_least, fail, finite, require, same_length};
 use super::ranges::{self, Range, at_most};
-use super::{Design, FORMAT_VERSION, FiberSet, Keyframe, Network, Pin, Pose, Target, Tendon, Term};
+use super::{Design, FORMAT_VERSION, FiberSet, Keyframe, MaterialPoint, Network, Pin, Pose, Target, Tendon, Term};
 use crate::files::is_hidden;
 use crate::mesh::{BodyPoint, Mesh};
 use crate::outline::{Point, polygon::signed_area};
@@ -230,11 +230,14 @@ pub(super) fn network(at: &str, mesh: &Mesh, network: &Network) -> Check {
     at_least(&format!("{at}.tendons"), network.tendons.len(), 1, "tendons")?;
     at_most(&format!("{at}.tendons"), network.tendons.len(), ranges::MAX_TENDONS, "tendons")?;
     let mut winch = None;
-    for (i, Tendon { routing: nodes, ratio, slack_mm }) in network.tendons.iter().enumerate() {
+    for (i, Tendon { routing: points, ratio, slack_mm }) in network.tendons.iter().enumerate() {
         let at = format!("{at}.tendons[{i}]");
-        routing(&format!("{at}.routing"), mesh, nodes)?;
-        let (found, winch) = (nodes[0], *winch.get_or_insert(nodes[0]));
-        require(found == winch, &format!("{at}.routing"), || Fault::OtherWinch { found, winch })?;
+        cable(&format!("{at}.routing"), mesh, points)?;
+        let (found, winch) = (&points[0], *winch.get_or_insert(&points[0]));
+        require(found == winch, &format!("{at}.routing"), || Fault::OtherWinch {
+            found: found.clone(),
+            winch: winch.clone(),
+        })?;
         ranges::RATIO.check(&format!("{at}.ratio"), *ratio)?;
         ranges::SLACK.check(&format!("{at}.slack_mm"), *slack_mm)?;
     }
@@ -261,6 +264,35 @@ pub(super) fn keyframe(at: &str, design: &Design, keyframe: &Keyframe) -> Check 
     }
 }
 
+fn cable(at: &str, mesh: &Mesh, points: &[MaterialPoint]) -> Check {
+    at_least(at, points.len(), 2, "points")?;
+    at_most(at, points.len(), ranges::MAX_ROUTING, "points")?;
+    for (i, point) in points.iter().enumerate() {
+        material_point(&format!("{at}[{i}]"), mesh, point)?;
+    }
+    let repeated = |i: &usize| points[*i].place(&mesh.nodes) == points[i - 1].place(&mesh.nodes);
+    match (1..points.len()).find(repeated) {
+        Some(i) => fail(format!("{at}[{i}]"), Fault::RepeatedPoint(points[i].clone())),
+        None => Ok(()),
+    }
+}
+
+fn material_point(at: &str, mesh: &Mesh, point: &MaterialPoint) -> Check {
+    match point {
+        MaterialPoint::Node(n) => node(at, mesh, *n),
+        MaterialPoint::Inside(carriers) => {
+            for (i, &n) in carriers.nodes.iter().enumerate() {
+                node(&format!("{at}.nodes[{i}]"), mesh, n)?;
+            }
+            // From any corner, in the order of the mesh.
+            let turns = |t: &[usize; 3]| (0..3).any(|k| [t[k], t[(k + 1) % 3], t[(k + 2) % 3]] == carriers.nodes);
+            let known = mesh.triangles.iter().any(turns);
+            require(known, &format!("{at}.nodes"), || Fault::NoTriangle(carriers.nodes))?;
+            weights(at, &carriers.weights)
+        }
+    }
+}
+
 fn routing(at: &str, mesh: &Mesh, nodes: &[usize]) -> Check {
     at_least(at, nodes.len(), 2, "nodes")?;
     at_most(at, nodes.len(), ranges::MAX_ROUTING, "nodes")?;
@@ -280,12 +312,16 @@ fn body_point(at: &str, mesh: &Mesh, p: &BodyPoint) -> Check {
         len,
         what: "triangles",
     })?;
-    for (i, &w) in p.weights.iter().enumerate() {
+    weights(at, &p.weights)
+}
+
+fn weights(at: &str, weights: &[f64; 3]) -> Check {
+    for (i, &w) in weights.iter().enumerate() {
         let at = format!("{at}.weights[{i}]");
         finite(&at, w)?;
         require(w >= -WEIGHT_TOLERANCE, &at, || Fault::Negative(w))?;
     }
-    let sum: f64 = p.weights.iter().sum();
+    let sum: f64 = weights.iter().sum();
     require((sum - 1.0).abs() <= WEIGHT_SUM_TOLERANCE, &format!("{at}.weights"), || Fault::WeightSum(sum))
 }
 

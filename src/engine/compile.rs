@@ -5,7 +5,7 @@ use super::patch;
 use crate::defaults;
 use crate::design::Target;
 use crate::design::{Design, Network};
-use crate::physics::{Body, Contractile, Element, Energy, Ground, Model, ModelError, PinSpring, Pins};
+use crate::physics::{Body, Contractile, Element, Energy, Ground, MaterialPoint, Model, ModelError, PinSpring, Pins};
 use crate::soft_ik::{Objective, PointTarget, Winch};
 use std::ops::Range;
 
@@ -40,18 +40,27 @@ pub fn compile(design: &Design, view: View) -> Result<Plushie, ModelError> {
     compile_body(&BodySpec::of(design), view)
 }
 
+/// The realizable plushie of a design with other networks than its own.
+///
+/// # Errors
+/// As [`compile`].
+pub fn compile_with(design: &Design, networks: &[Network]) -> Result<Plushie, ModelError> {
+    compile_body(&BodySpec { networks, ..BodySpec::of(design) }, View::Realizable)
+}
+
 fn compile_body(spec: &BodySpec, view: View) -> Result<Plushie, ModelError> {
     let mesh = spec.mesh;
     let law = spec.material.build();
     let body = Body::new(&mesh.nodes, &mesh.triangles, law, spec.stiffness_map).map_err(ModelError::Triangle)?;
-    let rest_length =
-        |routing: &[usize]| -> f64 { routing.windows(2).map(|s| distance(mesh.nodes[s[0]], mesh.nodes[s[1]])).sum() };
+    let rest_length = |routing: &[MaterialPoint]| -> f64 {
+        routing.windows(2).map(|s| distance(s[0].place(&mesh.nodes), s[1].place(&mesh.nodes))).sum()
+    };
     let mut elements = Vec::new();
     let winches = spec.networks.iter().map(|n| winch(spec, n, &mut elements, &rest_length)).collect();
     let tendons = 0..elements.len();
     let mut fibers = Vec::new();
     if view == View::Idealized {
-        let routings = spec.fibers.routings(mesh);
+        let routings: Vec<_> = spec.fibers.routings(mesh).into_iter().map(MaterialPoint::through).collect();
         let lengths: Vec<f64> = routings.iter().map(|r| rest_length(r)).collect();
         let mean = lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
         let epsilon = spec.fibers.epsilon_fraction * mean;
@@ -83,7 +92,7 @@ fn winch(
     spec: &BodySpec,
     network: &Network,
     elements: &mut Vec<Element>,
-    rest_length: &dyn Fn(&[usize]) -> f64,
+    rest_length: &dyn Fn(&[MaterialPoint]) -> f64,
 ) -> Winch {
     let epsilon = spec.tendons.epsilon_mm;
     let mut out = Winch { members: Vec::new(), lower: 0.0, upper: f64::INFINITY };

@@ -4,12 +4,12 @@ use crate::design::{Design, Tendon};
 use crate::outline::{Point, polygon};
 use std::collections::HashSet;
 
-/// The mesh nodes at which cables pass the felt, each once, in the order in which routings reach them. The hole of
+/// The places at rest where cables pass the felt, mm, each once, in the order in which routings reach them. The hole at
 /// `holes[i]` has the number `i + 1` on every sheet.
-pub fn holes(design: &Design) -> Vec<usize> {
+pub fn holes(design: &Design) -> Vec<Point> {
     let mut seen = HashSet::new();
     let tendons = design.networks.iter().flat_map(|n| &n.tendons);
-    tendons.flat_map(|t| &t.routing).copied().filter(|&node| seen.insert(node)).collect()
+    tendons.flat_map(|t| points(design, t)).filter(|p| seen.insert(p.map(f64::to_bits))).collect()
 }
 
 /// Length of a tendon at assembly, mm: the polyline of its routing and its slack, from the winch to its end.
@@ -20,5 +20,5 @@ pub fn tendon_length_mm(design: &Design, tendon: &Tendon) -> f64 {
 
 /// The places of a tendon's routing at rest, from the winch to its end, mm.
 pub fn points(design: &Design, tendon: &Tendon) -> Vec<Point> {
-    tendon.routing.iter().map(|&node| design.mesh.nodes[node]).collect()
+    tendon.routing.iter().map(|point| point.place(&design.mesh.nodes)).collect()
 }

@@ -1,6 +1,6 @@
 //! A contractile element: a muscle fibre or a tendon (sections 4.2 and 4.3).
 //!
-//! An element of routing `r_0 ... r_n` has the length `l(x) = sum |x_{r_i} - x_{r_{i+1}}|` (eq. 6) and, as a spring of rest
+//! An element through the points `r_0 ... r_n` of the body has the length `l(x) = sum |r_i(x) - r_{i+1}(x)|` (eq. 6) and, as a spring of rest
 //! length `alpha`, the unilateral energy `U(Gamma)`, `Gamma = l - alpha` (eq. 8, whose cubic is a perfect cube):
 //!
 //! ```text
@@ -13,6 +13,7 @@
 //! Segments are convex in `x` and `tau >= 0`, so the Hessian `U'' G^T G + tau d2l` is always positive semi-definite.
 
 use super::energy::{ROUNDING, Scales};
+use super::material_point::MaterialPoint;
 
 /// Width of a point, as a fraction of the element's initial rest length: a segment of coordinate difference `d` counts as
 /// `sqrt(d^2 + w^2)` long. Where its ends meet, it has no direction and the plain length has a kink, at which no Newton method
@@ -22,8 +23,8 @@ const POINT: f64 = 1e-9;
 /// An element: its routing and its spring. Continuation in stiffness changes the spring while it lasts, nothing else does.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Element {
-    /// Mesh nodes: attachment point, via points, attachment point.
-    pub routing: Vec<usize>,
+    /// Attachment point, via points, attachment point.
+    pub routing: Vec<MaterialPoint>,
     /// `K` of eq. 8, force per length.
     pub stiffness: f64,
     /// `epsilon` of eq. 8, length.
@@ -113,16 +114,17 @@ impl Element {
         if tau == 0.0 && tangent == 0.0 {
             return;
         }
-        for &n in &self.routing {
-            scales.add_force(n, [tau; 2]);
+        for (n, w) in self.routing.iter().flat_map(MaterialPoint::parts) {
+            scales.add_force(n, [w * tau; 2]);
         }
         // The tension changes with the length, and the direction of a segment the more, the shorter it is.
         let along = tangent * length;
         for s in self.routing.windows(2) {
-            let size = s.iter().fold(0.0, |m: f64, n| m.max(x[2 * n].abs()).max(x[2 * n + 1].abs()));
+            let nodes = || s.iter().flat_map(MaterialPoint::parts);
+            let size = nodes().fold(0.0, |m: f64, (n, _)| m.max(x[2 * n].abs()).max(x[2 * n + 1].abs()));
             let force = ROUNDING * (along + tau / segment(x, s, self.point()).2 * size);
-            for &n in s {
-                scales.add_rounding(n, [force; 2]);
+            for (n, w) in nodes() {
+                scales.add_rounding(n, [w * force; 2]);
             }
         }
     }
@@ -131,7 +133,7 @@ impl Element {
     pub fn add_length_gradient(&self, x: &[f64], factor: f64, out: &mut [f64]) {
         let point = self.point();
         for s in self.routing.windows(2) {
-            add_direction([s[0], s[1]], segment(x, s, point), factor, out);
+            add_direction([&s[0], &s[1]], segment(x, s, point), factor, out);
         }
     }
 
@@ -140,7 +142,7 @@ impl Element {
         let (mut rate, point) = (0.0, self.point());
         for s in self.routing.windows(2) {
             let (dx, dy, length) = segment(x, s, point);
-            let (vx, vy) = (v[2 * s[1]] - v[2 * s[0]], v[2 * s[1] + 1] - v[2 * s[0] + 1]);
+            let (vx, vy) = difference(v, s);
             rate += (dx * vx + dy * vy) / length;
         }
         rate
@@ -148,18 +150,24 @@ impl Element {
 }
 
 /// Adds `factor` times the unit vector of a segment (`dx`, `dy`, length) at its second end, and the opposite at its first.
-fn add_direction([a, b]: [usize; 2], (dx, dy, length): (f64, f64, f64), factor: f64, out: &mut [f64]) {
+fn add_direction([a, b]: [&MaterialPoint; 2], (dx, dy, length): (f64, f64, f64), factor: f64, out: &mut [f64]) {
     let (fx, fy) = (factor * dx / length, factor * dy / length);
-    out[2 * a] -= fx;
-    out[2 * a + 1] -= fy;
-    out[2 * b] += fx;
-    out[2 * b + 1] += fy;
+    a.add([-fx, -fy], out);
+    b.add([fx, fy], out);
 }
 
 /// Coordinate differences of a segment, and its length between points of this width.
-pub(super) fn segment(x: &[f64], s: &[usize], point: f64) -> (f64, f64, f64) {
-    let (dx, dy) = (x[2 * s[1]] - x[2 * s[0]], x[2 * s[1] + 1] - x[2 * s[0] + 1]);
+#[inline]
+pub(super) fn segment(x: &[f64], s: &[MaterialPoint], point: f64) -> (f64, f64, f64) {
+    let (dx, dy) = difference(x, s);
     (dx, dy, (dx * dx + dy * dy + point * point).sqrt())
+}
+
+/// Difference of a field between the two ends of a segment.
+#[inline]
+pub(super) fn difference(field: &[f64], s: &[MaterialPoint]) -> (f64, f64) {
+    let (a, b) = (s[0].at(field), s[1].at(field));
+    (b[0] - a[0], b[1] - a[1])
 }
 
 impl Law {
@@ -193,7 +201,7 @@ mod tests {
     use super::*;
 
     fn element() -> Element {
-        Element { routing: vec![0, 1], stiffness: 3.0, epsilon: 0.02, alpha0: 1.0 }
+        Element { routing: vec![0.into(), 1.into()], stiffness: 3.0, epsilon: 0.02, alpha0: 1.0 }
     }
 
     #[test]

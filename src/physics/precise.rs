@@ -9,6 +9,7 @@
 use super::double_double::DoubleDouble;
 use super::element::{Element, Law};
 use super::energy::{Energy, Scales};
+use super::material_point::MaterialPoint;
 use super::model::Model;
 use super::statics::norm;
 
@@ -93,9 +94,9 @@ fn evaluate(model: &Model, state: &[DoubleDouble], x: &[f64], gradient: &mut [f6
     let mut tensions = Vec::with_capacity(model.contractile.elements.len());
     for (element, law) in model.contractile.elements.iter().zip(&model.contractile.laws) {
         let tau = add_pull(element, law, state, gradient);
-        for &n in &element.routing {
-            scale[2 * n] += tau;
-            scale[2 * n + 1] += tau;
+        for (n, w) in element.routing.iter().flat_map(MaterialPoint::parts) {
+            scale[2 * n] += w * tau;
+            scale[2 * n + 1] += w * tau;
         }
         tensions.push(tau);
     }
@@ -124,7 +125,8 @@ fn evaluate(model: &Model, state: &[DoubleDouble], x: &[f64], gradient: &mut [f6
 fn add_pull(element: &Element, law: &Law, state: &[DoubleDouble], gradient: &mut [f64]) -> f64 {
     let point = DoubleDouble::from(element.point()).square();
     let segments = element.routing.windows(2).map(|s| {
-        let [dx, dy] = [0, 1].map(|axis| state[2 * s[1] + axis] - state[2 * s[0] + axis]);
+        let (a, b) = (s[0].at_precisely(state), s[1].at_precisely(state));
+        let [dx, dy] = [0, 1].map(|axis| b[axis] - a[axis]);
         ([dx, dy], (dx.square() + dy.square() + point).sqrt())
     });
     let length = segments.clone().fold(DoubleDouble::ZERO, |sum, (_, length)| sum + length);
@@ -134,11 +136,9 @@ fn add_pull(element: &Element, law: &Law, state: &[DoubleDouble], gradient: &mut
     };
     if tau != 0.0 {
         for (s, (d, length)) in element.routing.windows(2).zip(segments) {
-            for axis in 0..2 {
-                let pull = tau * (d[axis] / length).value();
-                gradient[2 * s[0] + axis] -= pull;
-                gradient[2 * s[1] + axis] += pull;
-            }
+            let pull = d.map(|d| tau * (d / length).value());
+            s[0].add(pull.map(|f| -f), gradient);
+            s[1].add(pull, gradient);
         }
     }
     tau

@@ -7,6 +7,7 @@
 
 use super::element::{Element, Law};
 use super::energy::{ROUNDING, Scales};
+use super::material_point::MaterialPoint;
 use super::pattern::Scatter;
 use super::wide::{self, CHUNK, Lanes, Work, multiply_add};
 use std::ops::Range;
@@ -35,9 +36,9 @@ impl Segments {
     pub fn new(elements: &[Element]) -> Self {
         let mut out = Self::default();
         for (k, element) in elements.iter().enumerate() {
-            if is_straight(element) {
+            if let Some(ends) = straight(element) {
                 out.elements.push(k as u32);
-                out.ends.push([element.routing[0] as u32, element.routing[1] as u32]);
+                out.ends.push(ends.map(|n| n as u32));
             }
         }
         out
@@ -151,9 +152,12 @@ impl Segments {
     }
 }
 
-/// Whether an element is one segment between different nodes.
-pub(super) fn is_straight(element: &Element) -> bool {
-    matches!(element.routing[..], [a, b] if a != b)
+/// The ends of an element that is one segment between different nodes.
+pub(super) fn straight(element: &Element) -> Option<[usize; 2]> {
+    match element.routing[..] {
+        [MaterialPoint::Node(a), MaterialPoint::Node(b)] if a != b => Some([a, b]),
+        _ => None,
+    }
 }
 
 struct Gradient<'a, 's> {
@@ -276,7 +280,8 @@ mod tests {
         let nodes = 90;
         let x: Vec<f64> = (0..2 * nodes).map(|d| (d / 2) as f64 * 0.3 + (1.3 * d as f64).sin()).collect();
         let element = |k: usize| {
-            let routing = if k.is_multiple_of(2) { vec![k, k + 1] } else { vec![k + 3, k] };
+            let routing =
+                if k.is_multiple_of(2) { vec![k.into(), (k + 1).into()] } else { vec![(k + 3).into(), k.into()] };
             Element { routing, stiffness: 0.5 + (k % 7) as f64, epsilon: 0.2, alpha0: 1.0 }
         };
         let mut contractile = Contractile::new((0..nodes - 3).map(element).collect());
@@ -316,7 +321,7 @@ mod tests {
             e.add_length_gradient(&x, tau, &mut expected);
             // Along and across the segment.
             e.add_length_gradient(&x, (tangent - tau / lengths[k]) * e.length_rate(&x, &v), &mut right);
-            let [a, b] = [e.routing[0], e.routing[1]];
+            let [a, b] = straight(e).unwrap();
             for axis in 0..2 {
                 let bend = tau / lengths[k] * (v[2 * b + axis] - v[2 * a + axis]);
                 right[2 * a + axis] -= bend;

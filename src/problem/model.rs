@@ -2,7 +2,9 @@
 
 use super::error::ProblemError;
 use super::file::Problem;
-use crate::physics::{Body, Contractile, Element, Energy, Gravity, Ground, Model, ModelError, PinSpring, Pins};
+use crate::physics::{
+    Body, Contractile, Element, Energy, Gravity, Ground, MaterialPoint, Model, ModelError, PinSpring, Pins,
+};
 
 /// The physics model of a problem, at its `contractions` (zero if absent).
 ///
@@ -18,7 +20,7 @@ pub(super) fn take_model(problem: &mut Problem) -> Result<Model, ProblemError> {
     let body = Body::new(&problem.mesh.nodes, &problem.mesh.triangles, problem.material.build(), None)
         .map_err(|k| content(format!("mesh.triangles[{k}]"), "has no area"))?;
     let elements = problem.elements.iter_mut().map(|e| Element {
-        routing: std::mem::take(&mut e.routing),
+        routing: MaterialPoint::through(std::mem::take(&mut e.routing)),
         stiffness: e.stiffness,
         epsilon: e.epsilon,
         alpha0: e.alpha0,

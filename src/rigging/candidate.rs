@@ -1,7 +1,7 @@
 //! A network that might be accepted, and what it is compared with.
 
 use super::trial::Reached;
-use crate::design::{Design, Network, Target, Tendon};
+use crate::design::{Design, MaterialPoint, Network, Target, Tendon};
 use crate::discovery::{Parameters, Stages};
 
 /// A network that is tried out, and where it came from.
@@ -22,7 +22,11 @@ pub struct Baseline<'a> {
 /// The design with one more network, under a name that is not in use.
 pub fn with_network(design: &Design, tendons: &[Vec<usize>]) -> Design {
     let mut with = design.clone();
-    let tendons = tendons.iter().map(|routing| Tendon { routing: routing.clone(), ratio: 1.0, slack_mm: 0.0 });
+    let tendons = tendons.iter().map(|routing| Tendon {
+        routing: MaterialPoint::through(routing.iter().copied()),
+        ratio: 1.0,
+        slack_mm: 0.0,
+    });
     with.networks.push(Network { name: unused_name(design), tendons: tendons.collect() });
     with
 }

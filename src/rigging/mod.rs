@@ -19,11 +19,17 @@ pub mod criteria;
 pub mod criterion;
 pub mod generator;
 pub mod generators;
+pub mod joint;
+pub mod layout;
+pub mod moves;
 mod options;
 mod polish;
 mod propose;
 mod rank;
+pub mod refine;
 mod search;
+pub mod sewable;
+mod threads;
 mod trial;
 
 pub use candidate::{Baseline, Candidate, with_network};

@@ -68,8 +68,8 @@ pub(super) fn least_tense(question: &mut Question, start: &Posture, budget: &Bud
 /// Activations that rise smoothly across the body in a direction, within their bounds.
 fn wave(question: &Question, direction: [f64; 2]) -> Vec<f64> {
     let (rest, elements) = (&question.model.rest, &question.model.contractile.elements);
-    let along = |n: usize| rest[2 * n] * direction[0] + rest[2 * n + 1] * direction[1];
-    let nodes = 0..rest.len() / 2;
+    let along = |[x, y]: [f64; 2]| x * direction[0] + y * direction[1];
+    let nodes = rest.chunks_exact(2).map(|p| [p[0], p[1]]);
     let (low, high) = nodes.map(along).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
     let mut beta: Vec<f64> = question
         .actuation
@@ -78,7 +78,7 @@ fn wave(question: &Question, direction: [f64; 2]) -> Vec<f64> {
         .map(|w| {
             let (e, ratio) = w.members[0];
             let range = if w.upper.is_finite() { w.upper } else { UNBOUNDED_RANGE * elements[e].alpha0 / ratio };
-            let part = (along(elements[e].routing[0]) - low) / (high - low).max(f64::MIN_POSITIVE);
+            let part = (along(elements[e].routing[0].at(rest)) - low) / (high - low).max(f64::MIN_POSITIVE);
             WAVE_STRENGTH * range * 0.5 * (1.0 - (std::f64::consts::PI * part).cos())
         })
         .collect();

@@ -267,13 +267,13 @@ fn a_time_budget_ends_with_the_best_so_far_and_code_3() {
 /// A body that falls has no equilibrium: what there is to say is said, what there is to write is written.
 #[test]
 fn a_shape_without_equilibrium_is_code_3() {
-    use plushwright::design::{Gravity, Network, Pose, Tendon, file};
+    use plushwright::design::{Gravity, MaterialPoint, Network, Pose, Tendon, file};
     let folder = bar();
     let f = folder.path();
     let mut design = file::read(&f.join("bar.plush")).unwrap();
     design.gravity = Some(Gravity { acceleration: [0.0, -9.81], surface_density: 1e-6 });
     let top: Vec<usize> = (0..design.mesh.nodes.len()).filter(|&n| design.mesh.nodes[n][1] > 39.9).collect();
-    let tendon = Tendon { routing: top, ratio: 1.0, slack_mm: 0.0 };
+    let tendon = Tendon { routing: MaterialPoint::through(top), ratio: 1.0, slack_mm: 0.0 };
     design.networks.push(Network { name: "winch 1".into(), tendons: vec![tendon] });
     design.poses.push(Pose { name: "fall".into(), targets: Vec::new() });
     file::write(&f.join("falling.plush"), &design).unwrap();

@@ -3,7 +3,7 @@
 use crate::support::{Random, rectangle, rigged};
 use plushwright::design::file::{self, TextError};
 use plushwright::design::{Design, Easing, EditError, FORMAT_VERSION, FiberSet, Gravity, History, Keyframe};
-use plushwright::design::{Pin, Pose, edit};
+use plushwright::design::{MaterialPoint, Pin, Pose, edit};
 use plushwright::outline::Drawing;
 use plushwright::physics::terms::GRAVITY;
 use plushwright::physics::{NeoHookean, StVenantKirchhoff};
@@ -153,7 +153,7 @@ fn the_text_is_made_for_people() {
     let text = bits(&rigged());
     let lines: Vec<&str> = text.lines().collect();
     for line in [
-        "    version: 1,",
+        "    version: 2,",
         "    name: \"rectangle\",",
         "            (20.0, 0.0),",
         "            (0, 1, 8),",
@@ -197,15 +197,42 @@ fn a_short_file_by_hand_is_enough() {
 }
 
 #[test]
+fn tendons_pass_points_of_the_body_and_files_of_version_1_read() {
+    let mut design = rigged();
+    let inside = MaterialPoint::of_triangle(design.mesh.triangles[3], [0.1, 0.2, 0.7]);
+    design.networks[0].tendons[0].routing.insert(1, inside.clone());
+    design.validate().unwrap();
+    let text = bits(&design);
+    let [a, b, c] = design.mesh.triangles[3];
+    assert!(text.contains(&format!("(nodes: ({a}, {b}, {c}), weights: (0.1, 0.2, 0.7))")), "{text}");
+    assert_eq!(file::parse(&text), Ok(design.clone()));
+    let old = bits(&rigged()).replacen("version: 2", "version: 1", 1);
+    assert_eq!(file::parse(&old), Ok(rigged()));
+    for (from, to, why) in [
+        (format!("({a}, {b}, {c})"), format!("({b}, {a}, {c})"), "routing[1].nodes: nodes"),
+        ("(0.1, 0.2, 0.7)".into(), "(0.1, 0.2, 0.8)".into(), "routing[1].weights: "),
+        ("(0.1, 0.2, 0.7)".into(), "(-0.1, 0.4, 0.7)".into(), "routing[1].weights[0]: "),
+        (format!("nodes: ({a}, "), "nodes: (999, ".into(), "routing[1].nodes[0]: 999"),
+        (", weights: (0.1".into(), ", wieghts: (0.1".into(), "wieghts"),
+    ] {
+        // The last one: triangles of the mesh may look the same.
+        let at = text.rfind(&from).unwrap();
+        let broken = format!("{}{to}{}", &text[..at], &text[at + from.len()..]);
+        let error = file::parse(&broken).unwrap_err().to_string();
+        assert!(error.contains(why), "{why}: {error}");
+    }
+}
+
+#[test]
 fn future_versions_are_refused_as_such() {
     let text = "(version: 7, name: \"x\", soul: Immortal(since: 3), mesh: Implicit)";
     assert_eq!(file::parse(text), Err(TextError::FutureVersion { found: 7 }));
     assert!(file::parse(text).unwrap_err().to_string().contains("version 7 is newer"));
-    let far = bits(&rigged()).replacen("version: 1", "version: 5000000000", 1);
+    let far = bits(&rigged()).replacen("version: 2", "version: 5000000000", 1);
     assert_eq!(file::parse(&far), Err(TextError::FutureVersion { found: 5_000_000_000 }));
-    let none = bits(&rigged()).replacen("version: 1", "version: 0", 1);
+    let none = bits(&rigged()).replacen("version: 2", "version: 0", 1);
     assert!(file::parse(&none).unwrap_err().to_string().starts_with("version: 0 is not a version"));
-    assert_eq!(FORMAT_VERSION, 1);
+    assert_eq!(FORMAT_VERSION, 2);
 }
 
 #[test]
@@ -307,11 +334,17 @@ fn validation_says_what_and_where() {
         (|d| d.fibers.set = FiberSet::Routings(vec![vec![1]]), "fibers.set[0]: has 1 nodes, needs at least 2"),
         (|d| d.tendons.epsilon_mm = f64::NAN, "tendons.epsilon_mm: NaN is not a finite number"),
         (
-            |d| d.networks[0].tendons[1].routing = vec![10, 9, 9],
+            |d| d.networks[0].tendons[1].routing = MaterialPoint::through([10, 9, 9]),
             "networks[0].tendons[1].routing[2]: node 9 stands twice",
         ),
-        (|d| d.networks[0].tendons[1].routing = vec![10, 35], "networks[0].tendons[1].routing[1]: 35 is out of range"),
-        (|d| d.networks[0].tendons[1].routing = vec![9, 8], "networks[0].tendons[1].routing: starts at node 9, the"),
+        (
+            |d| d.networks[0].tendons[1].routing = MaterialPoint::through([10, 35]),
+            "networks[0].tendons[1].routing[1]: 35 is out of range",
+        ),
+        (
+            |d| d.networks[0].tendons[1].routing = MaterialPoint::through([9, 8]),
+            "networks[0].tendons[1].routing: starts at node 9, the",
+        ),
         (|d| d.networks[1].tendons.clear(), "networks[1].tendons: has 0 tendons, needs at least 1"),
         (|d| d.networks[1].tendons[0].ratio = 0.0, "networks[1].tendons[0].ratio: 0 is not greater than zero"),
         (|d| d.networks.truncate(1), "keyframes[0].activations_mm: has 2 entries for 1 networks"),
@@ -356,7 +389,7 @@ fn validation_says_what_and_where() {
     ];
     refused(cases);
     let mut edge = rigged();
-    edge.networks[0].tendons[0].routing = vec![10, 9, 10];
+    edge.networks[0].tendons[0].routing = MaterialPoint::through([10, 9, 10]);
     edge.pins[0].at.weights = [1.0 + 5e-10, -5e-10, 5e-7];
     edge.validate().expect("there and back is legal, rounding too");
 }

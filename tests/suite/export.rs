@@ -1,7 +1,7 @@
 //! The blueprint, read back with other parsers and compared with closed forms.
 
 use crate::support::{Random, rectangle, rigged};
-use plushwright::design::{Design, Easing, Keyframe, Network, Tendon, animation};
+use plushwright::design::{Design, Easing, Keyframe, MaterialPoint, Network, Tendon, animation};
 use plushwright::fabrication::{self, ExportError, Manifest, Options, blueprint, export};
 use plushwright::motion::{MotionError, Plan, TooFast, winch_labels};
 use roxmltree::{Document, Node};
@@ -116,12 +116,11 @@ fn the_pattern_has_two_pieces_in_the_order_of_the_laser() {
         assert!((points[0][1] - bottom).abs() < 1e-9 && (points[points.len() - 1][1] - bottom).abs() < 1e-9);
     }
 
-    // Front: a hole lies where its node is. Back: its mirror image.
+    // Front: a hole lies where its point of the body is. Back: its mirror image.
     let low = |points: &[[f64; 2]], k: usize| points.iter().map(|p| p[k]).fold(f64::INFINITY, f64::min);
     let high = |points: &[[f64; 2]], k: usize| points.iter().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max);
     let (front, back) = (&seams[0].0, &seams[1].0);
-    for (i, node) in fabrication::holes(&design).into_iter().enumerate() {
-        let [x, y] = design.mesh.nodes[node];
+    for (i, [x, y]) in fabrication::holes(&design).into_iter().enumerate() {
         let (a, b) = (holes[i], holes[i + 7]);
         assert!((figure(a, "cx") - low(front, 0) - x).abs() < 1e-3);
         assert!((high(back, 0) - figure(b, "cx") - x).abs() < 1e-3);
@@ -173,7 +172,7 @@ fn holes_on_the_seam_are_remarked() {
     let mut design = rigged();
     let (_, manifest) = blueprint(&design, &Options::default()).expect("a blueprint");
     assert!(!manifest.remarks.iter().any(|r| r.contains("seam or next")), "{:?}", manifest.remarks);
-    design.networks[0].tendons[0].routing = vec![10, 0];
+    design.networks[0].tendons[0].routing = MaterialPoint::through([10, 0]);
     let (_, manifest) = blueprint(&design, &Options::default()).expect("a blueprint");
     assert!(manifest.remarks.iter().any(|r| r.contains("next to it: hole 2.")), "{:?}", manifest.remarks);
 }
@@ -418,7 +417,7 @@ fn a_drive_that_plays_the_motion_stays_on_its_track_however_often_it_is_sent() {
 #[test]
 fn winch_names_cannot_break_a_table() {
     let mut design = rigged();
-    let tendon = Tendon { routing: vec![3, 4], ratio: 1.0, slack_mm: 0.0 };
+    let tendon = Tendon { routing: MaterialPoint::through([3, 4]), ratio: 1.0, slack_mm: 0.0 };
     design.networks = ["left", "left", " a,b\"c|d;#é ", "", "-1+cmd", "left (2)"]
         .map(|name| Network { name: name.into(), tendons: vec![tendon.clone()] })
         .to_vec();
@@ -499,7 +498,7 @@ fn the_folder_appears_whole_or_not_at_all() {
     let parent = tempfile::tempdir().expect("a folder");
     let dir = parent.path().join("blueprint");
     let mut design = rigged();
-    design.networks[0].tendons[0].routing = vec![10, 10];
+    design.networks[0].tendons[0].routing = MaterialPoint::through([10, 10]);
     assert!(export(&design, &dir, &Options::default()).is_err());
     assert!(listing(parent.path()).is_empty(), "a refused design leaves nothing");
 

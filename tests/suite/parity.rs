@@ -157,7 +157,11 @@ fn rigged() -> (tempfile::TempDir, Window) {
     let mut design = file::read(&path).unwrap();
     let mut routing: Vec<usize> = (0..design.mesh.nodes.len()).filter(|&n| design.mesh.nodes[n][1] > 39.9).collect();
     routing.sort_by(|&a, &b| design.mesh.nodes[a][0].total_cmp(&design.mesh.nodes[b][0]));
-    let tendon = plushwright::design::Tendon { routing, ratio: 1.0, slack_mm: 0.0 };
+    let tendon = plushwright::design::Tendon {
+        routing: plushwright::design::MaterialPoint::through(routing),
+        ratio: 1.0,
+        slack_mm: 0.0,
+    };
     design.networks.push(plushwright::design::Network { name: "winch 1".into(), tendons: vec![tendon] });
     file::write(&path, &design).unwrap();
     let window = window(design, Some(path));

@@ -6,7 +6,7 @@ use nalgebra::Matrix2;
 use plushwright::physics::pattern::{Pattern, Scatter};
 use plushwright::physics::{
     Body, Cause, Contractile, Element, Energy, Gravity, Ground, HessianForm, Hyperelastic, Kind, Law, MaterialKind,
-    Model, NeoHookean, PinSpring, Pins, StVenantKirchhoff, StaticsSettings, TermKind, statics,
+    MaterialPoint, Model, NeoHookean, PinSpring, Pins, StVenantKirchhoff, StaticsSettings, TermKind, statics,
 };
 
 /// A smooth, uninverted deformation of unit-sized bodies: turned, stretched and bent.
@@ -36,8 +36,12 @@ fn mesh() -> Mesh {
     bar(1.5, 1.0, 6, 4).jittered(0.2, &mut Random(3))
 }
 
+fn through(nodes: &[usize]) -> Vec<MaterialPoint> {
+    MaterialPoint::through(nodes.iter().copied())
+}
+
 /// An element on `routing` whose deformation `Gamma` at `x` is the given part of `epsilon`.
-fn stretched(routing: &[usize], epsilon: f64, part: f64, x: &[f64]) -> Element {
+fn stretched(routing: &[MaterialPoint], epsilon: f64, part: f64, x: &[f64]) -> Element {
     let mut e = Element { routing: routing.to_vec(), stiffness: 2.5, epsilon, alpha0: 1.0 };
     e.alpha0 = e.length(x) - part * epsilon;
     e
@@ -53,19 +57,23 @@ fn terms() -> Vec<NamedTerm> {
         terms.push((format!("body, {name}"), Box::new(mesh.body(material(), None))));
         terms.push((format!("body with a stiffness map, {name}"), Box::new(mesh.body(material(), Some(&map)))));
     }
-    let routings: [(&str, &[usize]); 5] = [
-        ("fibre", &[3, 4]),
-        ("fibre, nodes descending", &[18, 10]),
-        ("tendon with via points", &[0, 9, 17, 25, 34]),
-        ("there and back (a-b-a)", &[5, 20, 5]),
-        ("a loop that crosses a node twice", &[2, 10, 18, 10, 4]),
+    let inside = |t: usize, a: f64, b: f64| MaterialPoint::of_triangle(mesh.triangles[t], [a, b, 1.0 - a - b]);
+    let routings = [
+        ("fibre", through(&[3, 4])),
+        ("fibre, nodes descending", through(&[18, 10])),
+        ("tendon with via points", through(&[0, 9, 17, 25, 34])),
+        ("there and back (a-b-a)", through(&[5, 20, 5])),
+        ("a loop that crosses a node twice", through(&[2, 10, 18, 10, 4])),
+        ("tendon through triangles", vec![inside(3, 0.2, 0.5), inside(17, 0.6, 0.3), 25.into(), inside(40, 0.1, 0.8)]),
+        ("between points of one triangle", vec![inside(20, 0.8, 0.1), inside(20, 0.1, 0.7)]),
+        ("along an edge, from a node", vec![mesh.triangles[9][0].into(), inside(9, 0.4, 0.6), inside(30, 0.3, 0.3)]),
     ];
     for (name, routing) in routings {
         for (zone, part) in [("slack", -1.6), ("between", 0.3), ("just slack side", -0.7), ("taut", 2.0)] {
-            let element = stretched(routing, 0.05, part, &x);
+            let element = stretched(&routing, 0.05, part, &x);
             terms.push((format!("{name}, {zone}"), Box::new(Contractile::new(vec![element]))));
         }
-        let mut cable = Contractile::new(vec![stretched(routing, 0.05, 0.0, &x)]);
+        let mut cable = Contractile::new(vec![stretched(&routing, 0.05, 0.0, &x)]);
         cable.laws = vec![Law::Tension(0.8)];
         terms.push((format!("{name}, given tension"), Box::new(cable)));
     }
@@ -201,9 +209,11 @@ fn whole(material: Box<dyn Hyperelastic>) -> Model {
     let x = deformed(&mesh.flat());
     let parts = [-1.5, 0.2, 3.0];
     let mut elements: Vec<Element> =
-        mesh.edges().iter().enumerate().map(|(k, e)| stretched(e, 0.03, parts[k % 3], &x)).collect();
-    elements.push(stretched(&[0, 9, 17, 25, 34], 0.04, 4.0, &x));
-    elements.push(stretched(&[5, 20, 5], 0.04, 0.5, &x));
+        mesh.edges().iter().enumerate().map(|(k, e)| stretched(&through(e), 0.03, parts[k % 3], &x)).collect();
+    elements.push(stretched(&through(&[0, 9, 17, 25, 34]), 0.04, 4.0, &x));
+    elements.push(stretched(&through(&[5, 20, 5]), 0.04, 0.5, &x));
+    let inside = MaterialPoint::of_triangle(mesh.triangles[21], [0.2, 0.5, 0.3]);
+    elements.push(stretched(&[through(&[3, 12]), vec![inside]].concat(), 0.04, 2.0, &x));
     let mut pins = mesh.left_pins(30.0);
     pins.pins.push(PinSpring {
         nodes: vec![9, 16, 10],
@@ -508,7 +518,7 @@ fn bent(mesh: &Mesh) -> Vec<Element> {
     // Short fibres along the upper side bend the bar.
     let mut elements = mesh.fibers(3.0);
     for e in &mut elements {
-        if e.routing.iter().all(|n| *n >= mesh.at(0, mesh.rows)) {
+        if e.routing.iter().all(|n| n.last_node() >= mesh.at(0, mesh.rows)) {
             e.alpha0 *= 0.7;
         }
     }
@@ -594,7 +604,7 @@ fn loose_pieces_each_come_to_rest() {
     let body = Body::new(&nodes, &triangles, neo_hookean(), None).unwrap();
     let elements = vec![mesh.element(&[0, 4], 3.0, 0.01), {
         let mut e = mesh.element(&[0, 4], 3.0, 0.01);
-        e.routing = vec![n, n + 4];
+        e.routing = MaterialPoint::through([n, n + 4]);
         e.alpha0 *= 0.8;
         e
     }];

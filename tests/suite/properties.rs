@@ -3,9 +3,9 @@
 
 use plushwright::bench::Session;
 use plushwright::bench::properties::{End, Properties};
-use plushwright::bench::random::Random;
 use plushwright::design::file;
 use plushwright::problem::{Options, read, solve};
+use plushwright::random::Random;
 use serde_json::Value;
 use std::fs;
 use std::path::Path;

@@ -3,13 +3,15 @@
 use crate::support::Random;
 use crate::support::bodies::{self, Mesh, bar, dot, largest, largest_difference, neo_hookean};
 use plushwright::physics::{
-    Energy, HessianForm, Hyperelastic, Model, NeoHookean, PinSpring, Pins, StVenantKirchhoff, StaticsSettings, statics,
+    Element, Energy, HessianForm, Hyperelastic, MaterialPoint, Model, NeoHookean, PinSpring, Pins, StVenantKirchhoff,
+    StaticsSettings, statics,
 };
 use plushwright::soft_ik::contraction::GaussNewton;
 use plushwright::soft_ik::gradient::Gradient;
 use plushwright::soft_ik::tension::AllAtOnce;
 use plushwright::soft_ik::{
-    self, Actuation, Answer, Budget, Method, Objective, PointTarget, Posture, Question, Winch, sensitivity,
+    self, Actuation, Answer, Budget, Method, Objective, PointTarget, Posture, Question, Winch, routing,
+    routing::RoutingPoint, sensitivity,
 };
 
 const NEVER: &dyn Fn() -> bool = &|| false;
@@ -320,7 +322,7 @@ fn reachable_pose(mesh: &Mesh, model: &mut Model, strength: f64, random: &mut Ra
         .elements
         .iter()
         .map(|e| {
-            let [p, q] = [e.routing[0], e.routing[1]].map(|n| mesh.nodes[n]);
+            let [p, q] = [&e.routing[0], &e.routing[1]].map(|point| point.place(&mesh.nodes));
             let (x, y) = (0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1]) - 0.125);
             let along = ((q[0] - p[0]) / e.alpha0).powi(2);
             let wave = (a * x + b).sin() * 8.0 * y + 0.5 * (c * x + d).cos();
@@ -508,4 +510,109 @@ fn a_free_body_is_posed_up_to_its_rigid_motion() {
     assert!(answer.posture.objective <= objective.position_value(&mesh.flat()) + 1e-12);
     assert!(question.model.energy(&answer.posture.x).is_finite());
     assert!(question.model.contractile.value(&answer.posture.x) >= 0.0);
+}
+
+/// A body pulled by two tendons of one winch whose points lie inside triangles, and what moves one of its points.
+struct Threaded {
+    mesh: Mesh,
+    /// Triangle of the point that moves, and its place at rest.
+    triangle: usize,
+    rest: [f64; 2],
+}
+
+impl Threaded {
+    fn new() -> Self {
+        let mesh = bar(2.0, 1.0, 8, 4).jittered(0.2, &mut Random(5));
+        let triangle = 25;
+        let corners = mesh.triangles[triangle].map(|n| mesh.nodes[n]);
+        let rest = [0, 1].map(|axis| 0.3 * corners[0][axis] + 0.3 * corners[1][axis] + 0.4 * corners[2][axis]);
+        Self { mesh, triangle, rest }
+    }
+
+    /// The model with the point moved by `by`, and where elements pass it.
+    fn model(&self, by: [f64; 2]) -> (Model, RoutingPoint) {
+        let place = [self.rest[0] + by[0], self.rest[1] + by[1]];
+        let nodes = self.mesh.triangles[self.triangle];
+        let mut point = RoutingPoint::new(self.triangle, nodes, &self.mesh.flat(), vec![(0, 1), (1, 0), (1, 3)]);
+        let first = self.mesh.nodes[nodes[0]];
+        let weight = |k: usize| {
+            let start = if k == 0 { 1.0 } else { 0.0 };
+            let gradient = point.gradients[k];
+            start + gradient[0] * (place[0] - first[0]) + gradient[1] * (place[1] - first[1])
+        };
+        let moving = MaterialPoint::of_triangle(nodes, [weight(0), weight(1), weight(2)]);
+        let inside = |t: usize| MaterialPoint::of_triangle(self.mesh.triangles[t], [0.2, 0.5, 0.3]);
+        let routings = [
+            vec![inside(3), moving.clone(), inside(44)],
+            // There and back, as the loop of a sling.
+            vec![moving.clone(), inside(12), inside(50), moving],
+        ];
+        let elements = routings.into_iter().map(|routing| {
+            let mut element = Element { routing, stiffness: 6.0, epsilon: 0.01, alpha0: 1.0 };
+            element.alpha0 = element.length(&self.mesh.flat()) + element.epsilon;
+            element
+        });
+        point.passes.sort_unstable();
+        let model = self.mesh.model(neo_hookean(), elements.collect(), self.mesh.left_pins(80.0), Vec::new());
+        (model, point)
+    }
+}
+
+/// `dx/dP` and `dO/dP` against differences of whole equilibria.
+#[test]
+fn derivatives_by_routing_points_are_exact() {
+    let scene = Threaded::new();
+    let actuation = Actuation {
+        winches: vec![Winch { members: vec![(0, 1.0), (1, 0.7)], lower: -1.0, upper: 1.0 }],
+        fixed: vec![0.0; 2],
+    };
+    let rest = scene.mesh.flat();
+    let tip = scene.mesh.at(8, 4);
+    let target = PointTarget { nodes: vec![tip], weights: vec![1.0], goal: [1.2, 0.3], weight: 1.0 };
+    let objective = Objective {
+        targets: vec![target],
+        rest_weights: vec![1e-3; rest.len() / 2],
+        rest: rest.clone(),
+        contraction_weight: 0.0,
+        tension_weight: 1e-2,
+    };
+    let posture = |by: [f64; 2]| {
+        let (mut model, _) = scene.model(by);
+        let mut question = Question { model: &mut model, actuation: &actuation, objective: &objective };
+        let settings = StaticsSettings { tolerance: 1e-13, stagnation_tolerance: 1e-11, ..StaticsSettings::default() };
+        let (zero, _) = question.settle_to(&[0.0], &rest, &settings, &|| false);
+        question.settle_to(&[0.2], &zero.x, &settings, &|| false).0
+    };
+    let at = posture([0.0; 2]);
+    assert!(at.in_equilibrium());
+    let (mut model, point) = scene.model([0.0; 2]);
+    let contractions = actuation.contractions(&[0.2]);
+    model.contractile.set_contractions(&contractions);
+    model.factorize(&at.x, HessianForm::Exact).unwrap();
+    let laws: Vec<(f64, f64)> = model
+        .contractile
+        .elements
+        .iter()
+        .zip(&model.contractile.laws)
+        .map(|(e, law)| law.tension_and_tangent(e, e.length(&at.x)))
+        .collect();
+    assert!(laws.iter().all(|(tension, _)| *tension > 0.01), "all pull: {laws:?}");
+    let mut question = Question { model: &mut model, actuation: &actuation, objective: &objective };
+    let gradient = routing::gradient_with_factor(&mut question, &at.x, std::slice::from_ref(&point))[0];
+    let mut columns = routing::force_columns(&question, &at.x, &laws, &[point]);
+    question.model.solve_many(&mut columns, 2);
+    for axis in 0..2 {
+        let step = |h: f64| posture(if axis == 0 { [h, 0.0] } else { [0.0, h] });
+        let h = 1e-4;
+        let (up, down) = (step(h), step(-h));
+        let slope = (up.objective - down.objective) / (2.0 * h);
+        assert!((gradient[axis] - slope).abs() < 1e-6 * slope.abs().max(0.1), "{axis}: {} and {slope}", gradient[axis]);
+        let column = &columns[axis * rest.len()..(axis + 1) * rest.len()];
+        let largest = column.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+        for (d, c) in column.iter().enumerate() {
+            let quotient = (up.x[d] - down.x[d]) / (2.0 * h);
+            assert!((c - quotient).abs() < 1e-6 * largest.max(1.0), "{axis}, {d}: {c} and {quotient}");
+        }
+        assert!(largest > 0.01, "the point matters: {largest}");
+    }
 }

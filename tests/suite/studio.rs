@@ -45,7 +45,7 @@ pub fn bar() -> Design {
 
 /// A winch at the left end with a tendon along the top, as discovery might propose.
 fn network() -> Network {
-    let tendon = Tendon { routing: vec![14, 15, 16, 17, 18, 19], ratio: 1.0, slack_mm: 0.0 };
+    let tendon = Tendon { routing: plushwright::design::MaterialPoint::through(14..20), ratio: 1.0, slack_mm: 0.0 };
     Network { name: "winch 1".to_owned(), tendons: vec![tendon] }
 }
 

@@ -1,14 +1,15 @@
 //! Random designs under random edits: what is undone comes back bit for bit, what is shown is a body.
 
-use crate::bench::random::Random;
 use crate::design::{
-    Design, Easing, EditError, Gravity, History, Keyframe, Material, Network, Pin, Pose, Target, Tendon, edit, file,
+    Design, Easing, EditError, Gravity, History, Keyframe, Material, MaterialPoint, Network, Pin, Pose, Target, Tendon,
+    edit, file,
 };
 use crate::engine::{Question, Request, Shape, Solver};
 use crate::mesh::{BodyPoint, Mesh};
 use crate::outline::Outline;
 use crate::physics::terms::GRAVITY;
 use crate::physics::{NeoHookean, StVenantKirchhoff};
+use crate::random::Random;
 use crate::soft_ik::Quality;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -164,7 +165,10 @@ fn change(random: &mut Random, design: &mut Design) -> Result<(), EditError> {
         8 => edit::add_target(design, index, target(random, &design.mesh)).map(drop),
         9 => edit::move_target(design, index, random.index(3), target(random, &design.mesh).to),
         10 => edit::remove_target(design, index, random.index(3)).map(drop),
-        11 | 12 => edit::accept_network(design, network(random, design.mesh.nodes.len())).map(drop),
+        11 | 12 => {
+            let network = network(random, &design.mesh);
+            edit::accept_network(design, network).map(drop)
+        }
         13 => edit::remove_network(design, index).map(drop),
         14 => {
             let activations_mm = design.networks.iter().map(|_| random.between(0.0, 20.0)).collect();
@@ -222,13 +226,20 @@ fn target(random: &mut Random, mesh: &Mesh) -> Target {
     Target { at: point(random, mesh), to, weight: random.between(0.0, 3.0) }
 }
 
-fn network(random: &mut Random, nodes: usize) -> Network {
+fn network(random: &mut Random, mesh: &Mesh) -> Network {
+    let nodes = mesh.nodes.len();
     let winch = random.index(nodes);
     let tendons = (0..1 + random.index(3)).map(|_| {
-        let mut routing = vec![winch];
+        let mut last = winch;
+        let mut routing = vec![MaterialPoint::Node(winch)];
         for _ in 0..1 + random.index(4) {
-            let last = routing[routing.len() - 1];
-            routing.push((last + 1 + random.index(nodes - 1)) % nodes);
+            last = (last + 1 + random.index(nodes - 1)) % nodes;
+            routing.push(if random.index(3) == 0 {
+                let at = point(random, mesh);
+                MaterialPoint::of_triangle(mesh.triangles[at.triangle], at.weights)
+            } else {
+                MaterialPoint::Node(last)
+            });
         }
         Tendon { routing, ratio: random.between(0.5, 2.0), slack_mm: random.between(0.0, 5.0) }
     });

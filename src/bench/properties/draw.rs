@@ -1,10 +1,10 @@
 //! Random problems: meshes, materials, elements, pins, weights, targets, starts; most are sound, some are not.
 
 use crate::bench::extremes::scenes;
-use crate::bench::random::Random;
 use crate::physics::NeoHookean;
 use crate::problem::Problem;
 use crate::problem::file::{DragData, ElementData, MeshData, ObjectiveData, PinData, SoftIkData, TargetData};
+use crate::random::Random;
 
 /// The problem with this number. One in sixteen is broken on purpose ([`Drawn::broken`]).
 pub fn problem(seed: u64, number: u64) -> Drawn {

@@ -1,11 +1,11 @@
 //! Seeded rigs: bundled bodies with tendons along random shortest paths, and poses for them.
 
-use crate::bench::random::Random;
 use crate::bench::{BenchError, drags, shapes};
-use crate::design::{Design, Network, Target, Tendon};
+use crate::design::{Design, MaterialPoint, Network, Target, Tendon};
 use crate::engine::compile::{View, compile};
 use crate::mesh::Mesh;
 use crate::outline::Point;
+use crate::random::Random;
 use crate::soft_ik::{Actuation, Objective, Question};
 use std::collections::VecDeque;
 
@@ -86,6 +86,7 @@ fn network(design: &Design, neighbours: &[Vec<usize>], name: String, random: &mu
         let tip = tips[random.index(tips.len())];
         let slack_mm = if random.unit() < 0.3 { random.between(0.5, 5.0) } else { 0.0 };
         if let Some(routing) = path(neighbours, root, tip) {
+            let routing = MaterialPoint::through(routing);
             tendons.push(Tendon { routing, ratio: 1.0, slack_mm });
         }
     }

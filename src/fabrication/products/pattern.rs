@@ -71,7 +71,7 @@ fn sheet(design: &Design) -> (Sheet, Vec<String>) {
     let mut cut = Group::new("cut", Style::hairline(RED));
     let mut stitch = Group::new("stitch", Style::line(BLUE, STITCH_MM));
     let mut note = Group::new("note", Style::line(GREEN, NOTE_MM));
-    let nodes: Vec<Point> = holes(design).iter().map(|&n| design.mesh.nodes[n]).collect();
+    let holes = holes(design);
     let pins: Vec<Point> = design.pins.iter().map(|p| design.mesh.position(&p.at, &design.mesh.nodes)).collect();
     let seam = seam::of(design);
     let pieces = [(&front, "FRONT"), (&back, "BACK (mirrored)")];
@@ -79,7 +79,7 @@ fn sheet(design: &Design) -> (Sheet, Vec<String>) {
     // Small holes first, then cut-outs, then the outlines: what is cut free may shift.
     for (piece, _) in pieces {
         let hole = |&p: &Point| Entity::Circle { center: piece.point(p), radius: 0.5 * made.tendon_hole_mm };
-        cut.entities.extend(nodes.iter().map(hole));
+        cut.entities.extend(holes.iter().map(hole));
     }
     for (piece, _) in pieces {
         cut.entities.extend(shapes.iter().flat_map(|s| s.iter().skip(1)).map(|c| Entity::Polygon(piece.points(c))));
@@ -90,7 +90,7 @@ fn sheet(design: &Design) -> (Sheet, Vec<String>) {
         stitch.entities.extend(design.outline.holes.iter().map(|h| Entity::Polygon(piece.points(h))));
         let top = piece.point([0.5 * (low[0] + high[0]), high[1] + 3.0]);
         note.text(top, TEXT_MM, Anchor::Middle, format!("{label}: {}", design.name));
-        number_holes(&mut note, piece, &nodes);
+        number_holes(&mut note, piece, &holes);
         mark_pins(&mut note, piece, &pins);
         mark_gap(&mut note, piece, &seam.gap, seam.gap_mm);
     }
@@ -109,9 +109,9 @@ fn remarks(design: &Design, shapes: &[Vec<Vec<Point>>], gap_mm: f64) -> Vec<Stri
     if cut_outs > design.outline.holes.len() {
         remarks.push("Seam allowances meet in a narrow notch: snip between the seams after sewing.".into());
     }
-    let near = |&(_, &node): &(usize, &usize)| design.outline.distance(design.mesh.nodes[node]) < SEAM_CLEARANCE_MM;
+    let near = |(_, hole): &(usize, Point)| design.outline.distance(*hole) < SEAM_CLEARANCE_MM;
     let on_seam: Vec<String> =
-        holes(design).iter().enumerate().filter(near).map(|(i, _)| (i + 1).to_string()).collect();
+        holes(design).into_iter().enumerate().filter(near).map(|(i, _)| (i + 1).to_string()).collect();
     if !on_seam.is_empty() {
         let which = on_seam.join(", ");
         remarks
@@ -120,9 +120,9 @@ fn remarks(design: &Design, shapes: &[Vec<Vec<Point>>], gap_mm: f64) -> Vec<Stri
     remarks
 }
 
-fn number_holes(note: &mut Group, piece: &Placement, nodes: &[Point]) {
-    for (i, &node) in nodes.iter().enumerate() {
-        let p = piece.point(node);
+fn number_holes(note: &mut Group, piece: &Placement, holes: &[Point]) {
+    for (i, &hole) in holes.iter().enumerate() {
+        let p = piece.point(hole);
         note.text([p[0] + 1.5, p[1] + 1.5], 3.0, Anchor::Start, (i + 1).to_string());
     }
 }

@@ -88,16 +88,16 @@ fn sheet(design: &Design) -> Sheet {
             lines.push(line);
             note.text([legend_x + 12.0, row], 3.5, Anchor::Start, legend(design, t, tendon));
         }
-        if let Some(node) = network.winch_node() {
-            let center = place(design.mesh.nodes[node]);
+        if let Some(winch) = network.winch() {
+            let center = place(winch.place(&design.mesh.nodes));
             winches.entities.push(Entity::Circle { center, radius: WINCH_RADIUS_MM });
             note.text([center[0], center[1] + WINCH_RADIUS_MM + 1.5], 4.0, Anchor::Middle, label);
         }
     }
     let mut marks =
         Group::new("holes", Style { stroke: Some(BLACK), stroke_mm: 0.2, fill: Some(Color(255, 255, 255)) });
-    for (i, &node) in holes(design).iter().enumerate() {
-        let center = place(design.mesh.nodes[node]);
+    for (i, &hole) in holes(design).iter().enumerate() {
+        let center = place(hole);
         marks.entities.push(Entity::Circle { center, radius: 0.5 * design.fabrication.tendon_hole_mm });
         note.text([center[0] + 1.5, center[1] + 1.5], 3.0, Anchor::Start, (i + 1).to_string());
     }
@@ -112,8 +112,8 @@ fn sheet(design: &Design) -> Sheet {
 /// One line of the list: number, length, holes from the winch outward, and what departs from the plain cable.
 fn legend(design: &Design, index: usize, tendon: &Tendon) -> String {
     let holes = holes(design);
-    let number = |node: &usize| holes.iter().position(|h| h == node).map_or(0, |i| i + 1).to_string();
-    let through: Vec<String> = tendon.routing.iter().map(number).collect();
+    let number = |p: Point| holes.iter().position(|h| *h == p).map_or(0, |i| i + 1).to_string();
+    let through: Vec<String> = points(design, tendon).into_iter().map(number).collect();
     let mut text = format!("{}: {:.1} mm, holes {}", index + 1, tendon_length_mm(design, tendon), through.join("-"));
     if tendon.ratio != 1.0 {
         text += &format!(", spool x {:.3}", tendon.ratio);

@@ -1,7 +1,7 @@
 //! The seam: where the felt is cut around it, and where it is left open to turn and stuff the body.
 
 use crate::design::Design;
-use crate::fabrication::cables::points;
+use crate::fabrication::cables::holes;
 use crate::outline::polygon::{bounding_box, distance_to_segment, length, lerp};
 use crate::outline::{Outline, Point};
 use i_overlay::mesh::float::outline::offset::OutlineOffset;
@@ -43,10 +43,8 @@ pub struct Seam {
 
 /// The seam of a design, its turning gap away from the holes of its cables and from its pins.
 pub fn of(design: &Design) -> Seam {
-    let tendons = design.networks.iter().flat_map(|n| &n.tendons);
-    let holes = tendons.flat_map(|tendon| points(design, tendon));
     let pins = design.pins.iter().map(|p| design.mesh.position(&p.at, &design.mesh.nodes));
-    let obstacles: Vec<Point> = holes.chain(pins).collect();
+    let obstacles: Vec<Point> = holes(design).into_iter().chain(pins).collect();
     seam(&design.outline.outer, design.fabrication.turning_gap_mm, &obstacles)
 }
 

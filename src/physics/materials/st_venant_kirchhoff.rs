@@ -143,14 +143,19 @@ fn barrier(j: f64) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::physics::{Body, Contractile, Element, Model, PinSpring, Pins, StaticsSettings, statics};
+    use crate::physics::{Body, Contractile, Element, MaterialPoint, Model, PinSpring, Pins, StaticsSettings, statics};
 
     /// A square of two triangles, held at its lower side; cables draw its upper corners down to the lower ones.
     fn pressed(lambda: f64, stiffness: f64) -> Model {
         let nodes = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
         let material = Box::new(StVenantKirchhoff { mu: 1.0, lambda });
         let body = Body::new(&nodes, &[[0, 1, 2], [0, 2, 3]], material, None).unwrap();
-        let cable = |routing: [usize; 2]| Element { routing: routing.to_vec(), stiffness, epsilon: 1e-3, alpha0: 1.0 };
+        let cable = |routing: [usize; 2]| Element {
+            routing: MaterialPoint::through(routing),
+            stiffness,
+            epsilon: 1e-3,
+            alpha0: 1.0,
+        };
         let mut cables = Contractile::new(vec![cable([0, 3]), cable([1, 2])]);
         cables.set_contractions(&[0.999; 2]);
         let pins = Pins { pins: vec![PinSpring::node(0, nodes[0], 1e3), PinSpring::node(1, nodes[1], 1e3)] };

@@ -1,5 +1,6 @@
 //! Lines and discs that several layers draw, and their sizes in logical pixels.
 
+use crate::design::MaterialPoint;
 use crate::engine::Shape;
 use crate::outline::Point;
 use crate::picture::scene::{Color, Item};
@@ -14,6 +15,17 @@ pub const WINCH: f32 = 8.5;
 pub const PIN: f32 = 6.0;
 pub const TARGET: f32 = 5.0;
 pub const GOAL: f32 = 7.0;
+
+/// Where a point of the body is in a shape; `None` where the shape is of another mesh.
+pub fn place(point: &MaterialPoint, shape: &Shape) -> Option<Point> {
+    (point.last_node() < shape.nodes.len()).then(|| point.place(&shape.nodes))
+}
+
+/// A line through points of the body; those that the shape does not have are left out.
+pub fn cable(routing: &[MaterialPoint], shape: &Shape, width: f32, color: Color) -> Item {
+    let points = routing.iter().filter_map(|point| place(point, shape)).collect();
+    Item::Line { points, width, color, closed: false }
+}
 
 /// A line through nodes of a shape; those that it does not have are left out.
 pub fn path(routing: &[usize], shape: &Shape, width: f32, color: Color) -> Item {

@@ -1,7 +1,7 @@
 //! Winches and their tendons.
 
 use super::layer::{Layer, Shared, Stroke, Switch};
-use super::marks::{self, disc, path};
+use super::marks::{self, cable, disc, place};
 use super::subject::Subject;
 use crate::design::{Network, Tendon};
 use crate::engine::Shape;
@@ -41,22 +41,22 @@ impl Layer for Tendons {
     fn draw(&self, items: &mut Vec<Item>) {
         let (palette, shape) = (Palette::of(self.theme), &*self.shape);
         for (_, tendon) in self.tendons() {
-            items.push(path(&tendon.routing, shape, marks::CASING, palette.casing));
+            items.push(cable(&tendon.routing, shape, marks::CASING, palette.casing));
         }
         for (index, (winch, tendon)) in self.tendons().enumerate() {
             let slack = shape.tendon_tensions.get(index).is_some_and(|&t| t <= 0.0);
             let color = palette.winch(winch);
             let color = if slack { with_alpha(color, 170) } else { color };
-            items.push(path(&tendon.routing, shape, marks::TENDON, color));
-            for &node in tendon.routing.iter().skip(1).filter(|&&n| n < shape.nodes.len()) {
-                items.push(disc(shape.nodes[node], marks::VIA, color, None));
+            items.push(cable(&tendon.routing, shape, marks::TENDON, color));
+            for via in tendon.routing.iter().skip(1).filter_map(|point| place(point, shape)) {
+                items.push(disc(via, marks::VIA, color, None));
             }
         }
         for (winch, network) in self.networks.iter().enumerate() {
-            if let Some(node) = network.winch_node().filter(|&n| n < shape.nodes.len()) {
+            if let Some(center) = network.winch().and_then(|point| place(point, shape)) {
                 let stroke = Some((2.0, palette.winch_stroke));
-                items.push(disc(shape.nodes[node], marks::WINCH, palette.winch_fill, stroke));
-                items.push(disc(shape.nodes[node], 3.0, palette.winch(winch), None));
+                items.push(disc(center, marks::WINCH, palette.winch_fill, stroke));
+                items.push(disc(center, 3.0, palette.winch(winch), None));
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Items that the layers draw, and pictures that are the same.
 
 use super::*;
-use crate::design::{Design, Network, Pin, Target, Tendon};
+use crate::design::{Design, MaterialPoint, Network, Pin, Target, Tendon};
 use crate::discovery::Stages;
 use crate::engine::Shape;
 use crate::mesh::{BodyPoint, Mesh};
@@ -18,7 +18,7 @@ fn design() -> Arc<Design> {
     let outline = Outline { outer: mesh.nodes.clone(), holes: Vec::new() };
     let mut design = Design::new("square", outline, mesh);
     design.pins.push(Pin { at, position: None, stiffness: 1.0 });
-    let tendon = Tendon { routing: vec![0, 2], ratio: 1.0, slack_mm: 0.0 };
+    let tendon = Tendon { routing: MaterialPoint::through([0, 2]), ratio: 1.0, slack_mm: 0.0 };
     design.networks.push(Network { name: "A".to_owned(), tendons: vec![tendon] });
     Arc::new(design)
 }

@@ -159,22 +159,24 @@ fn add_row(
 ) {
     let point = element.point();
     for s in element.routing.windows(2) {
-        let (a, b) = (s[0], s[1]);
-        let d = [x[2 * b] - x[2 * a], x[2 * b + 1] - x[2 * a + 1]];
+        let difference = |field: &[f64]| {
+            let (a, b) = (s[0].at(field), s[1].at(field));
+            [b[0] - a[0], b[1] - a[1]]
+        };
+        let (d, v) = (difference(x), difference(p));
         let length = (d[0] * d[0] + d[1] * d[1] + point * point).sqrt();
         let u = d.map(|v| v / length);
-        let v = [p[2 * b] - p[2 * a], p[2 * b + 1] - p[2 * a + 1]];
         let along = u[0] * v[0] + u[1] * v[1];
-        let [first, second] = [a, b].map(|n| 2 * nodes.partition_point(|m| *m < n));
-        for axis in 0..2 {
-            let pull = ratio * tangent * u[axis];
-            let turn = tangent * (v[axis] - along * u[axis]) / length;
-            force[first + axis] -= pull;
-            force[second + axis] += pull;
-            for (list, third) in [(&mut *bend, third), (&mut *convex, third.min(0.0))] {
-                let by = -ratio * (third * u[axis] + turn);
-                list[first + axis] -= by;
-                list[second + axis] += by;
+        let ends = s.iter().zip([-1.0, 1.0]);
+        for (n, part) in ends.flat_map(|(end, sign)| end.parts().map(move |(n, w)| (n, sign * w))) {
+            let at = 2 * nodes.partition_point(|m| *m < n);
+            for axis in 0..2 {
+                let pull = ratio * tangent * u[axis];
+                let turn = tangent * (v[axis] - along * u[axis]) / length;
+                force[at + axis] += part * pull;
+                for (list, third) in [(&mut *bend, third), (&mut *convex, third.min(0.0))] {
+                    list[at + axis] += part * (-ratio * (third * u[axis] + turn));
+                }
             }
         }
     }

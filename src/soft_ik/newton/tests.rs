@@ -5,7 +5,7 @@ use super::form::Form;
 use super::interior;
 use super::saddle::Step;
 use super::*;
-use crate::physics::{Body, Contractile, Element, Model, NeoHookean, PinSpring, Pins};
+use crate::physics::{Body, Contractile, Element, MaterialPoint, Model, NeoHookean, PinSpring, Pins};
 use crate::soft_ik::{Actuation, Objective, PointTarget, Winch, sensitivity};
 
 const NEVER: &dyn Fn() -> bool = &|| false;
@@ -34,7 +34,7 @@ fn cantilever(nx: usize) -> (Model, Actuation, Objective) {
         let length = |s: &[usize]| (nodes[s[0]][0] - nodes[s[1]][0]).hypot(nodes[s[0]][1] - nodes[s[1]][1]);
         let alpha0 = routing.windows(2).map(length).sum();
         // A wide transition, so that few elements change zone within a difference quotient.
-        Element { routing, stiffness, epsilon: 0.15 * alpha0, alpha0 }
+        Element { routing: MaterialPoint::through(routing), stiffness, epsilon: 0.15 * alpha0, alpha0 }
     };
     let mut elements: Vec<Element> = edges.iter().map(|e| element(e.to_vec(), 1.5)).collect();
     let fibers = elements.len();

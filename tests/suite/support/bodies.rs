@@ -1,7 +1,9 @@
 //! Small bodies for the tests of the solvers: bars with fibres, tendons and pins.
 
 use super::Random;
-use plushwright::physics::{Body, Contractile, Element, Energy, Hyperelastic, Model, NeoHookean, PinSpring, Pins};
+use plushwright::physics::{
+    Body, Contractile, Element, Energy, Hyperelastic, MaterialPoint, Model, NeoHookean, PinSpring, Pins,
+};
 
 /// Nodes and counter-clockwise triangles.
 #[derive(Clone)]
@@ -69,7 +71,8 @@ impl Mesh {
 
     /// An element along `routing` with its rest length in the rest shape.
     pub fn element(&self, routing: &[usize], stiffness: f64, epsilon: f64) -> Element {
-        let mut e = Element { routing: routing.to_vec(), stiffness, epsilon, alpha0: 1.0 };
+        let mut e =
+            Element { routing: MaterialPoint::through(routing.iter().copied()), stiffness, epsilon, alpha0: 1.0 };
         e.alpha0 = e.length(&self.flat());
         e
     }

@@ -4,7 +4,7 @@ pub mod bodies;
 pub mod scenes;
 pub mod shapes;
 
-use plushwright::design::{Design, Easing, Keyframe, Network, Pin, Pose, Target, Tendon};
+use plushwright::design::{Design, Easing, Keyframe, MaterialPoint, Network, Pin, Pose, Target, Tendon};
 use plushwright::mesh::{BodyPoint, Mesh};
 use plushwright::outline::Outline;
 
@@ -54,7 +54,11 @@ impl Random {
                     let last = routing[routing.len() - 1];
                     routing.push((last + 1 + self.below(n - 1)) % n);
                 }
-                Tendon { routing, ratio: self.between(0.5, 2.0), slack_mm: self.between(0.0, 5.0) }
+                Tendon {
+                    routing: MaterialPoint::through(routing),
+                    ratio: self.between(0.5, 2.0),
+                    slack_mm: self.between(0.0, 5.0),
+                }
             })
             .collect();
         Network { name: "winch 1".into(), tendons }
@@ -83,7 +87,11 @@ pub fn rectangle(width: f64, height: f64, columns: usize, rows: usize) -> Design
 /// A rectangle of 120 x 80 mm with a pin, two networks, a pose and three keyframes; figures with closed forms.
 pub fn rigged() -> Design {
     let mut design = rectangle(120.0, 80.0, 6, 4);
-    let tendon = |routing: &[usize]| Tendon { routing: routing.to_vec(), ratio: 1.0, slack_mm: 0.0 };
+    let tendon = |routing: &[usize]| Tendon {
+        routing: MaterialPoint::through(routing.iter().copied()),
+        ratio: 1.0,
+        slack_mm: 0.0,
+    };
     let at = design.mesh.node_point(0).expect("node 0 is used");
     design.pins = vec![Pin { at, position: None, stiffness: 20.0 }];
     let target = Target { at: BodyPoint { triangle: 5, weights: [0.2, 0.3, 0.5] }, to: [130.0, 90.0], weight: 1.0 };
