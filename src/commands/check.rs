@@ -12,6 +12,9 @@ use std::sync::atomic::AtomicBool;
 ///
 /// Target errors are rms distances in body lengths (the longer side of the rest silhouette's box); times are in ms. Where a
 /// plushie does not come to equilibrium the figures are those of the nearest state found, and the exit code is 3.
+/// What no hand can sew by the design's rules is listed: places at rest, and pieces of cable that leave the body in a pose. The JSON has
+/// them as `sewing`: rule, winch, tendon and piece counted from 1, hole counted from the winch (number 0), value, limit (mm, degrees or a
+/// count) and severity (value to limit, 1 at the limit).
 #[derive(Debug, Args)]
 #[command(after_help = "Example: plushwright check pig.plush --json")]
 pub struct Check {

@@ -42,9 +42,13 @@ pub fn print(figures: &Figures, out: &mut dyn Write) -> Result<(), CommandError>
             figures.body_length_mm
         ),
     )?;
-    if figures.poses.is_empty() {
-        return Ok(());
+    if !figures.poses.is_empty() {
+        poses(figures, out)?;
     }
+    sewing(figures, out)
+}
+
+fn poses(figures: &Figures, out: &mut dyn Write) -> Result<(), CommandError> {
     let width = figures.poses.iter().map(|p| p.name.chars().count()).max().unwrap_or(0).max(4);
     say(out, "")?;
     let above = "         rms target error (% of body length)         solved in (ms)  unbalanced forces (part)";
@@ -73,4 +77,14 @@ pub fn print(figures: &Figures, out: &mut dyn Write) -> Result<(), CommandError>
         say(out, &format!("note: {warning}"))?;
     }
     Ok(())
+}
+
+/// The rules of sewing that are broken, a line each.
+fn sewing(figures: &Figures, out: &mut dyn Write) -> Result<(), CommandError> {
+    if figures.sewing.is_empty() {
+        return Ok(());
+    }
+    say(out, "")?;
+    say(out, &format!("hard to sew ({}):", figures.sewing.len()))?;
+    figures.sewing.iter().try_for_each(|broken| say(out, &format!("  {broken}")))
 }

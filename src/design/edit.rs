@@ -13,6 +13,7 @@ use crate::outline::drawing::Track;
 use crate::outline::{Drawing, Point};
 use crate::physics::terms::GRAVITY;
 use crate::physics::{Kind, TermKind};
+use crate::sewing::Rules;
 use thiserror::Error;
 
 /// Why a change was refused.
@@ -283,6 +284,14 @@ pub fn set_fabrication(design: &mut Design, fabrication: FabricationSettings) ->
 /// What makes the design unsound; the design stays as it was.
 pub fn set_controller(design: &mut Design, controller: ControllerSettings) -> Result<(), EditError> {
     set(design, |d| std::mem::replace(&mut d.controller, controller), |d, old| d.controller = old)
+}
+
+/// Replaces the rules of sewing.
+///
+/// # Errors
+/// What makes the design unsound; the design stays as it was.
+pub fn set_sewing(design: &mut Design, rules: Rules) -> Result<(), EditError> {
+    set(design, |d| std::mem::replace(&mut d.sewing, rules), |d, old| d.sewing = old)
 }
 
 /// Puts an energy term in the place of the one of its kind, or takes that away.

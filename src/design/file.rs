@@ -7,6 +7,7 @@
 use super::version::FORMAT_VERSION;
 use super::{Design, DesignError, texture};
 use crate::files::{self, Stamp, printable, shown};
+use crate::sewing::Rules;
 use ron::error::{Position, SpannedError};
 use ron::ser::PrettyConfig;
 use serde::{Deserialize, Serialize};
@@ -112,6 +113,7 @@ pub fn to_text(design: &Design) -> Result<String, ron::Error> {
         keyframes,
         fabrication,
         controller,
+        sewing,
         drawing,
         texture,
         texture_box,
@@ -140,6 +142,9 @@ pub fn to_text(design: &Design) -> Result<String, ron::Error> {
     }
     field(out, "fabrication", fabrication, 1)?;
     field(out, "controller", controller, 1)?;
+    if *sewing != Rules::default() {
+        field(out, "sewing", sewing, 1)?;
+    }
     field(out, "pins", pins, 1)?;
     field(out, "poses", poses, 3)?;
     field(out, "networks", networks, 3)?;

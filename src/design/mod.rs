@@ -37,6 +37,7 @@ use crate::mesh::{BodyPoint, Mesh};
 use crate::outline::drawing::Track;
 use crate::outline::{Drawing, Outline, Point};
 pub use crate::physics::MaterialPoint;
+use crate::sewing::Rules;
 use serde::{Deserialize, Serialize};
 
 /// A plushie: body, actuation, poses, animation, and how it is made. Stored as RON in `*.plush` files.
@@ -66,6 +67,9 @@ pub struct Design {
     pub fabrication: FabricationSettings,
     #[serde(default)]
     pub controller: ControllerSettings,
+    /// What its routings are to keep so that a hand can sew them.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub sewing: Rules,
     /// The parts that the outline was, or will be, drawn from; in its coordinates.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub drawing: Option<Drawing>,
@@ -190,6 +194,7 @@ impl Design {
             keyframes: Vec::new(),
             fabrication: FabricationSettings::default(),
             controller: ControllerSettings::default(),
+            sewing: Rules::default(),
             drawing: None,
             texture: None,
             texture_box: None,
@@ -204,8 +209,9 @@ impl Design {
         let Self { pins, poses, networks, keyframes, stiffness_map, material, fibers, tendons, .. } = self;
         let lists = pins.is_empty() && poses.is_empty() && networks.is_empty() && keyframes.is_empty();
         let physics = *material == Material::default() && *fibers == FiberSettings::default();
-        let made =
-            self.fabrication == FabricationSettings::default() && self.controller == ControllerSettings::default();
+        let made = self.fabrication == FabricationSettings::default()
+            && self.controller == ControllerSettings::default()
+            && self.sewing == Rules::default();
         let others = self.all_terms().is_empty()
             && stiffness_map.is_none()
             && self.drawing.is_none()
@@ -255,6 +261,9 @@ fn one() -> f64 {
 }
 fn is_one(v: &f64) -> bool {
     *v == 1.0
+}
+fn is_default(rules: &Rules) -> bool {
+    *rules == Rules::default()
 }
 fn is_zero(v: &f64) -> bool {
     *v == 0.0

@@ -44,6 +44,16 @@ ranges! {
     TRACK_RATE: "controller.track_rate_hz", "Hz", 1e-2, 1e3, "a step takes a controller some ms";
     SPEED: "controller.speed_rpm", "rpm", 1.0, 30000.0, "what the controllers take";
     MOTOR_ACCELERATION: "controller.acceleration", "rev/s^2", 1.0, 30000.0, "what the controllers take";
+    HOLE_TO_SEAM: "sewing.hole_to_seam_mm", "mm", 0.0, 1e3, "0 lifts the rule inside the body";
+    HOLE_TO_HOLE: "sewing.hole_to_hole_mm", "mm", 0.0, 1e3, "0 lifts the rule";
+    MOST_HOLES: "sewing.most_holes", "", 0.0, 1e4, "as many as a routing may have";
+    TURN: "sewing.turn_degrees", "degrees", 0.0, 180.0, "back the same way; lifts the rule";
+    TURNING: "sewing.turning_degrees", "degrees", 0.0, 1.8e6, "back the same way at every hole; lifts the rule";
+    BESIDE: "sewing.beside_mm", "mm", 0.0, 1e3, "0 lifts the rule";
+    ALONG: "sewing.along_mm", "mm", 0.0, 1e4, "longer than any cable";
+    LEAD: "sewing.lead_mm", "mm", 0.0, 1e4, "longer than any cable; lifts the rule";
+    HOUSING: "sewing.housing_mm", "mm", 0.0, 1e3, "0 is a bare spool";
+    BETWEEN_HOUSINGS: "sewing.between_housings_mm", "mm", 0.0, 1e3, "wider than any plushie";
     PIN_STIFFNESS: "pins[].stiffness", "N/mm", 1e-6, 1e6, "beyond, the matrix loses its digits";
     POSITION: "pins[].position, poses[].targets[].to, texture_box", "mm", -1e6, 1e6, "a kilometre, as the body";
     WEIGHT: "poses[].targets[].weight", "", 0.0, 1e6, "beyond, nothing else counts";

@@ -10,6 +10,7 @@ use super::{Design, FORMAT_VERSION, FiberSet, Keyframe, MaterialPoint, Network, 
 use crate::files::is_hidden;
 use crate::mesh::{BodyPoint, Mesh};
 use crate::outline::{Point, polygon::signed_area};
+use crate::sewing::Rules;
 use std::collections::HashSet;
 
 /// Longest name of a design, pose or network, characters: what a file name has room for.
@@ -154,7 +155,22 @@ fn made(design: &Design) -> Check {
     ranges::GEAR_RATIO.check("controller.gear_ratio", motor.gear_ratio)?;
     ranges::TRACK_RATE.check("controller.track_rate_hz", motor.track_rate_hz)?;
     ranges::SPEED.check("controller.speed_rpm", f64::from(motor.speed_rpm))?;
-    ranges::MOTOR_ACCELERATION.check("controller.acceleration", f64::from(motor.acceleration))
+    ranges::MOTOR_ACCELERATION.check("controller.acceleration", f64::from(motor.acceleration))?;
+    sewing(&design.sewing)
+}
+
+/// What a hand is to sew.
+fn sewing(rules: &Rules) -> Check {
+    ranges::HOLE_TO_SEAM.check("sewing.hole_to_seam_mm", rules.hole_to_seam_mm)?;
+    ranges::HOLE_TO_HOLE.check("sewing.hole_to_hole_mm", rules.hole_to_hole_mm)?;
+    ranges::MOST_HOLES.check("sewing.most_holes", rules.most_holes as f64)?;
+    ranges::TURN.check("sewing.turn_degrees", rules.turn_degrees)?;
+    ranges::TURNING.check("sewing.turning_degrees", rules.turning_degrees)?;
+    ranges::BESIDE.check("sewing.beside_mm", rules.beside_mm)?;
+    ranges::ALONG.check("sewing.along_mm", rules.along_mm)?;
+    ranges::LEAD.check("sewing.lead_mm", rules.lead_mm)?;
+    ranges::HOUSING.check("sewing.housing_mm", rules.housing_mm)?;
+    ranges::BETWEEN_HOUSINGS.check("sewing.between_housings_mm", rules.between_housings_mm)
 }
 
 fn poses(mesh: &Mesh, poses: &[Pose]) -> Check {

@@ -36,6 +36,7 @@ impl<'a> BodySpec<'a> {
             keyframes: _,
             fabrication: _,
             controller: _,
+            sewing: _,
             drawing: _,
             texture: _,
             texture_box: _,
@@ -61,11 +62,12 @@ mod tests {
     #[test]
     fn what_the_physics_reads_makes_another_body_and_nothing_else_does() {
         let design = testing::sample();
-        let same: [fn(&mut Design); 4] = [
+        let same: [fn(&mut Design); 5] = [
             |d| d.name.push('x'),
             |d| d.poses.clear(),
             |d| d.keyframes.clear(),
             |d| d.fabrication.seam_allowance_mm += 1.0,
+            |d| d.sewing.hole_to_seam_mm += 1.0,
         ];
         let other: [fn(&mut Design); 8] = [
             |d| d.mesh.nodes[0][0] += 1e-9,

@@ -27,6 +27,7 @@
 mod blueprint;
 mod cables;
 mod error;
+mod judge;
 mod product;
 pub mod products;
 mod sheet;
@@ -39,6 +40,7 @@ pub use crate::files::sha256;
 pub use blueprint::{File, Manifest, Options, blueprint, export};
 pub use cables::{holes, tendon_length_mm};
 pub use error::ExportError;
+pub use judge::{judge_design, judge_pose};
 pub use product::{Content, Part, Product, Section, Source};
 pub use sheet::{Anchor, Color, Entity, Group, Sheet, Style};
 pub use solid::Solid;

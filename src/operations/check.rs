@@ -5,9 +5,13 @@ use super::{Cancelled, Context, NoSuchPose, Unbalanced, View};
 use crate::design::{Design, Pose};
 use crate::engine::target_error;
 use crate::engine::{Question, Warning};
+use crate::fabrication::{judge_design, judge_pose};
+use crate::motion::winch_labels;
+use crate::sewing::Breach;
 use crate::threads::in_order;
 use serde::{Deserialize, Serialize};
 use std::fmt;
+use std::sync::Arc;
 
 /// What is checked.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -58,8 +62,32 @@ pub struct Figures {
     pub tendons: usize,
     pub body_length_mm: f64,
     pub poses: Vec<PoseFigures>,
+    /// Rules of sewing that the design breaks, at rest and then pose by pose.
+    pub sewing: Vec<Unsewable>,
     #[serde(skip)]
     pub notes: Vec<Note>,
+}
+
+/// A rule of sewing that is broken.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Unsewable {
+    /// The pose in which the realizable plushie breaks it; none for the rest shape.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pose: Option<String>,
+    #[serde(flatten)]
+    pub breach: Breach,
+    /// What winches are called in words, network by network.
+    #[serde(skip)]
+    names: Arc<[String]>,
+}
+
+impl fmt::Display for Unsewable {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match &self.pose {
+            Some(pose) => write!(f, "{pose}: {}", self.breach.words(&self.names)),
+            None => self.breach.words(&self.names).fmt(f),
+        }
+    }
 }
 
 /// How close both plushies come to a pose, and what that took.
@@ -95,6 +123,9 @@ pub fn run(design: &Design, options: &Options, context: &Context) -> Result<Figu
     // A context belongs to one thread; what tells it to stop does not.
     let cancel = context.cancel();
     let solved = in_order(&wanted, |pose| pose_figures(design, pose, &Context::new(cancel)));
+    let names: Arc<[String]> = winch_labels(design).into();
+    let unsewable =
+        |pose: Option<&str>, breach: Breach| Unsewable { pose: pose.map(str::to_owned), breach, names: names.clone() };
     let mut figures = Figures {
         name: design.name.clone(),
         fibers: design.fiber_routings().len(),
@@ -104,17 +135,27 @@ pub fn run(design: &Design, options: &Options, context: &Context) -> Result<Figu
         tendons: design.networks.iter().map(|n| n.tendons.len()).sum(),
         body_length_mm: design.body_length_mm(),
         poses: Vec::new(),
+        sewing: judge_design(design).into_iter().map(|breach| unsewable(None, breach)).collect(),
         notes: Vec::new(),
     };
     for solved in solved {
-        let (pose, notes) = solved?;
+        let Posed { figures: pose, outside, notes } = solved?;
+        figures.sewing.extend(outside.into_iter().map(|breach| unsewable(Some(&pose.name), breach)));
         figures.poses.push(pose);
         figures.notes.extend(notes);
     }
     Ok(figures)
 }
 
-fn pose_figures(design: &Design, pose: &Pose, context: &Context) -> Result<(PoseFigures, Vec<Note>), Cancelled> {
+/// A pose that was solved.
+struct Posed {
+    figures: PoseFigures,
+    /// Pieces of cable outside of the realizable plushie.
+    outside: Vec<Breach>,
+    notes: Vec<Note>,
+}
+
+fn pose_figures(design: &Design, pose: &Pose, context: &Context) -> Result<Posed, Cancelled> {
     let shapes = solve(design, Question::Targets(pose.targets.clone()), [true, true], context)?;
     let mut notes: Vec<Note> = Unbalanced::of(&pose.name, &shapes).into_iter().map(Note::Unbalanced).collect();
     for (view, shape) in [View::Idealized, View::Realizable].into_iter().zip(&shapes) {
@@ -135,7 +176,7 @@ fn pose_figures(design: &Design, pose: &Pose, context: &Context) -> Result<(Pose
         imbalance_idealized: idealized.distance_from_equilibrium(),
         imbalance_realizable: realizable.distance_from_equilibrium(),
     };
-    Ok((figures, notes))
+    Ok(Posed { figures, outside: judge_pose(design, &realizable.nodes), notes })
 }
 
 #[cfg(test)]
@@ -156,6 +197,16 @@ mod tests {
         // Nothing holds the body.
         assert!(figures.notes.iter().any(|note| note.to_string().contains("free to move")), "{:?}", figures.notes);
         assert!(matches!(of("none"), Err(Error::NoSuchPose(NoSuchPose { name, .. })) if name == "none"));
+        // Both tendons of the left winch end in corners.
+        let told = figures.sewing.iter().find(|broken| broken.pose.is_none()).unwrap();
+        assert_eq!(told.to_string(), "left, tendon 1: hole 1 from the winch is 0.0 mm from the seam, less than 5.0");
+        let record = serde_json::json!({
+            "rule": "hole_to_seam", "winch": 1, "tendon": 1, "hole": 1, "value": 0.0, "limit": 5.0, "severity": 2.0
+        });
+        assert_eq!(serde_json::to_value(told).unwrap(), record);
+        let posed = Unsewable { pose: Some(first.clone()), ..told.clone() };
+        assert_eq!(serde_json::to_value(&posed).unwrap()["pose"], *first);
+        assert!(posed.to_string().starts_with(&format!("{first}: left, ")));
         let stop = AtomicBool::new(true);
         let stopped = run(&design, &Options::default(), &Context::new(&stop));
         assert!(matches!(stopped, Err(Error::Cancelled(_))));

@@ -1,23 +1,28 @@
-//! All winches together: a population of layouts, changed at random, each improved by its exact sensitivities.
+//! All winches together: islands of layouts, changed at random, each improved by its exact sensitivities.
 //!
-//! Random layouts are tried first and the best few kept. In every round each of them has children, by a random change of its own
-//! points or by winches of another one; the children are improved ([`Task::improve`]), wound from rest ([`Task::wound`]), and the
-//! best of all that differ live on. The work is counted in children, and the same seed gives the same bits for any number of
-//! threads.
+//! Random layouts, each bettered for the body linearised at rest ([`Linear`]), are tried first. The best found islands: on each, the
+//! best few live, and in every round have children, by a random change of points or by winches of one another. The children are improved
+//! ([`Task::improve`]), wound from rest ([`Task::wound`]), and the best that differ live on. Islands do not see each other, so that the
+//! first good valley is not everybody's; from time to time the worst one is given up, and peopled anew by the best. The work is counted in
+//! rounds, and the same seed gives the same bits for any number of threads.
 
 use super::layout::Layout;
+use super::linear_score::Linear;
 use super::moves::{Ground, Shape};
 use super::refine::{Fit, Task};
 use crate::random::Random;
 use crate::threads::in_order;
 
-/// Random layouts at the beginning, and those of them that are looked at closely.
-const FIRST: usize = 96;
-const CLOSELY: usize = 12;
-/// Layouts that live on.
-const POPULATION: usize = 5;
-/// Children of a round.
-const CHILDREN: usize = 10;
+/// Random layouts at the beginning, bettered by so many changes in the linear model, and those of them that are looked at closely.
+const FIRST: usize = 64;
+const BETTERED: usize = 60;
+const CLOSELY: usize = 16;
+/// Islands, layouts that live on one, and children of a round on each.
+const ISLANDS: usize = 4;
+const ALIVE: usize = 3;
+const CHILDREN: usize = 3;
+/// Rounds after which the worst island is given up.
+const ERA: usize = 12;
 /// Steps of improvement: of a first look, of a child, of the last one.
 const LOOK: usize = 4;
 const STEPS: usize = 12;
@@ -32,7 +37,7 @@ pub struct Joint<'a> {
     shape: Shape,
     seed: u64,
     round: u64,
-    alive: Vec<Fit>,
+    islands: Vec<Vec<Fit>>,
 }
 
 impl<'a> Joint<'a> {
@@ -45,9 +50,14 @@ impl<'a> Joint<'a> {
         seed: u64,
         stop: &(dyn Fn() -> bool + Sync),
     ) -> Self {
-        let mut joint = Self { task, ground, shape, seed, round: 0, alive: Vec::new() };
-        let random = |k: usize| joint.ground.layout(&joint.shape, &mut Random::of(seed, "layout", k as u64));
-        let layouts: Vec<Layout> = given.into_iter().chain((0..FIRST).map(random)).collect();
+        let linear = Linear::new(task);
+        let numbers: Vec<usize> = (0..FIRST).collect();
+        let layouts = in_order(&numbers, |&k| {
+            let random = &mut Random::of(seed, "layout", k as u64);
+            let layout = ground.layout(&shape, random);
+            linear.as_ref().map_or(layout.clone(), |linear| bettered(ground, &shape, linear, layout, random))
+        });
+        let layouts: Vec<Layout> = given.into_iter().chain(layouts).collect();
         let looked = in_order(&layouts, |layout| {
             let begun = task.begin(layout.clone(), stop)?;
             Some(task.improve(begun, LOOK, false, stop))
@@ -56,57 +66,73 @@ impl<'a> Joint<'a> {
         looked.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         looked.truncate(CLOSELY);
         let closely = in_order(&looked, |fit| task.wound(task.improve(fit.clone(), STEPS, false, stop), STEPS, stop));
-        joint.keep(closely.into_iter().flatten().collect());
-        joint
+        let mut closely: Vec<Fit> = closely.into_iter().flatten().collect();
+        closely.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        let mut islands = vec![Vec::new(); ISLANDS.min(closely.len())];
+        let count = islands.len().max(1);
+        for (k, fit) in closely.into_iter().enumerate() {
+            islands[k % count].push(fit);
+        }
+        islands.iter_mut().for_each(keep);
+        Self { task, ground, shape, seed, round: 0, islands }
     }
 
     /// One more round. Does nothing where no layout was found.
     pub fn advance(&mut self, stop: &(dyn Fn() -> bool + Sync)) {
         self.round += 1;
-        let count = self.alive.len();
-        if count == 0 {
-            return;
+        if (self.round as usize).is_multiple_of(ERA) {
+            self.give_up();
         }
-        let children: Vec<(usize, Layout)> = (0..CHILDREN)
-            .map(|k| {
-                let random = &mut Random::of(self.seed, "child", self.round * CHILDREN as u64 + k as u64);
-                let parent = k % count;
-                let mut layout = self.alive[parent].layout.clone();
+        let mut children: Vec<(usize, usize, Layout)> = Vec::new();
+        for (i, island) in self.islands.iter().enumerate() {
+            for k in 0..CHILDREN {
+                let number = (self.round * ISLANDS as u64 + i as u64) * CHILDREN as u64 + k as u64;
+                let random = &mut Random::of(self.seed, "child", number);
+                let parent = k % island.len();
+                let mut layout = island[parent].layout.clone();
                 if random.index(6) == 0 {
-                    layout = self.ground.crossed(&layout, &self.alive[random.index(count)].layout, random);
+                    layout = self.ground.crossed(&layout, &island[random.index(island.len())].layout, random);
                 }
                 for _ in 0..=random.index(2) {
                     layout = self.ground.changed(&layout, &self.shape, random);
                 }
-                (parent, layout)
-            })
-            .collect();
-        let (task, alive) = (self.task, &self.alive);
-        let tried = in_order(&children, |(parent, layout)| {
-            let begun = task.resume(layout.clone(), &alive[*parent], stop)?;
-            task.wound(task.improve(begun, STEPS, false, stop), STEPS, stop)
+                children.push((i, parent, layout));
+            }
+        }
+        let (task, islands) = (self.task, &self.islands);
+        let tried = in_order(&children, |(island, parent, layout)| {
+            let begun = task.resume(layout.clone(), &islands[*island][*parent], stop)?;
+            Some((*island, task.wound(task.improve(begun, STEPS, false, stop), STEPS, stop)?))
         });
-        if !stop() {
-            self.keep(tried.into_iter().flatten().collect());
+        if stop() {
+            return;
+        }
+        for (island, fit) in tried.into_iter().flatten() {
+            self.islands[island].push(fit);
+        }
+        self.islands.iter_mut().for_each(keep);
+    }
+
+    /// The worst island is given up for the best.
+    fn give_up(&mut self) {
+        let cost = |island: &Vec<Fit>| island.first().map_or(f64::INFINITY, |fit| fit.cost);
+        self.islands.sort_by(|a, b| cost(a).total_cmp(&cost(b)));
+        if self.islands.len() > 1 {
+            self.islands.pop();
+            self.islands.push(self.islands[0].clone());
         }
     }
 
-    fn keep(&mut self, new: Vec<Fit>) {
-        self.alive.extend(new);
-        self.alive.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-        self.alive.dedup_by(|a, b| (a.cost - b.cost).abs() <= SAME * b.cost);
-        self.alive.truncate(POPULATION);
-    }
-
-    /// The best layouts so far, the best first; every pose wound from rest.
-    pub fn alive(&self) -> &[Fit] {
-        &self.alive
+    /// The best so far; its poses are wound from rest.
+    pub fn best(&self) -> Option<&Fit> {
+        self.islands.iter().flatten().min_by(|a, b| a.cost.total_cmp(&b.cost))
     }
 
     /// The best few, by their worst pose.
     pub fn finalists(&self, count: usize) -> Vec<Fit> {
-        let mut all = self.alive.clone();
+        let mut all: Vec<Fit> = self.islands.iter().flatten().cloned().collect();
         all.sort_by(|a, b| a.worst().total_cmp(&b.worst()));
+        all.dedup_by(|a, b| (a.cost - b.cost).abs() <= SAME * b.cost);
         all.truncate(count);
         all
     }
@@ -117,4 +143,24 @@ impl<'a> Joint<'a> {
         let wound = self.task.wound(last, LAST_STEPS, stop);
         wound.filter(|wound| wound.cost < fit.cost).unwrap_or_else(|| fit.clone())
     }
+}
+
+/// The best few that differ.
+fn keep(island: &mut Vec<Fit>) {
+    island.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    island.dedup_by(|a, b| (a.cost - b.cost).abs() <= SAME * b.cost);
+    island.truncate(ALIVE);
+}
+
+/// A layout after random changes that are kept where the linear model says that they help.
+fn bettered(ground: &Ground, shape: &Shape, linear: &Linear, layout: Layout, random: &mut Random) -> Layout {
+    let (mut best, mut left) = (layout.clone(), linear.left(&layout));
+    for _ in 0..BETTERED {
+        let changed = ground.changed(&best, shape, random);
+        let now = linear.left(&changed);
+        if now < left {
+            (best, left) = (changed, now);
+        }
+    }
+    best
 }

@@ -22,6 +22,7 @@ pub mod generators;
 mod greedy;
 pub mod joint;
 pub mod layout;
+mod linear_score;
 pub mod moves;
 mod options;
 mod propose;

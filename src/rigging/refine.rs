@@ -315,10 +315,9 @@ impl Local {
             let miss = fit.misses[k].max(least);
             let weight = (2.0 * POWER * miss.powf(POWER - 1.0) / task.poses[k].1).sqrt();
             for (t, target) in built.objectives[k].targets.iter().enumerate() {
-                let offset = target.offset(&posture.x);
-                for axis in 0..2 {
+                for (axis, offset) in target.offset(&posture.x).into_iter().enumerate() {
                     let scale = weight * target.weight.sqrt();
-                    residual[row] = scale * offset[axis];
+                    residual[row] = scale * offset;
                     for (j, column) in pose.columns.chunks_exact(posture.x.len()).enumerate() {
                         let adjoint = &pose.adjoints[(2 * t + axis) * posture.x.len()..][..posture.x.len()];
                         let slope: f64 = adjoint.iter().zip(column).map(|(a, c)| a * c).sum();

@@ -13,7 +13,6 @@ use crate::design::{Design, Network, remesh};
 use crate::engine::target_error;
 use crate::mesh::{Mesh, Request};
 use crate::outline::Outline;
-use crate::sewing::Rules;
 use crate::threads::in_order;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -62,7 +61,7 @@ fn together(
     progress: &mut dyn FnMut(Progress),
     cancel: &AtomicBool,
 ) -> Result<Design, RigError> {
-    let shape = shape(options);
+    let shape = shape(design, options);
     let coarse = coarser(design);
     let searched = coarse.as_ref().unwrap_or(design);
     let found = layouts(searched, options, &shape, progress, cancel)?;
@@ -91,12 +90,12 @@ fn together(
 }
 
 /// How many winches and tendons there may be.
-fn shape(options: &RigOptions) -> Shape {
+fn shape(design: &Design, options: &RigOptions) -> Shape {
     let count = |winch: usize| match &options.tendons {
         TendonChoice::PerWinch(list) => list.get(winch).or(list.last()).map_or([1, 1], |&n| [n, n]),
         TendonChoice::Between(low, high) => [*low, *high],
     };
-    let most_holes = if options.rules { Rules::default().most_holes } else { FREE_HOLES };
+    let most_holes = if options.rules { design.sewing.most_holes } else { FREE_HOLES };
     Shape { tendons: (0..options.max_winches).map(count).collect(), most_holes }
 }
 
@@ -116,7 +115,7 @@ fn coarser(design: &Design) -> Option<Design> {
 
 fn sewable<'a>(design: &'a Design, rim: &'a Outline, options: &RigOptions) -> Option<Sewable<'a>> {
     let gap_mm = design.fabrication.turning_gap_mm;
-    options.rules.then(|| Sewable::new(Rules::default(), &design.outline, rim, gap_mm))
+    options.rules.then(|| Sewable::new(design.sewing, &design.outline, rim, gap_mm))
 }
 
 /// The best few layouts that a search finds on the design's own mesh; those that keep the rules, where any do.
@@ -134,7 +133,7 @@ fn layouts(
     let mut joint = Joint::new(&task, &ground, shape.clone(), Vec::new(), options.seed, &stop);
     let (mut best, mut since) = (f64::INFINITY, 0);
     for round in 0..options.rounds {
-        let Some(fit) = joint.alive().first() else { break };
+        let Some(fit) = joint.best() else { break };
         let (worst, holes) = (fit.worst(), fit.layout.holes());
         progress(Progress::Round { round, rounds: options.rounds, worst, holes });
         since = if worst < 0.99 * best { 0 } else { since + 1 };

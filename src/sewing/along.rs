@@ -2,7 +2,7 @@
 
 use super::{Breach, Place, Rig, Rules};
 use crate::outline::Point;
-use crate::outline::polygon::length;
+use crate::outline::polygon::{bounding_box, length};
 
 /// Length of the polyline `p` that is nearer than `beside` to the polyline `q`, mm, its first `lead` mm left out.
 ///
@@ -15,7 +15,9 @@ pub fn shared_mm(p: &[Point], q: &[Point], beside: f64, lead: f64) -> f64 {
         let first = (lead - start).clamp(0.0, whole);
         start += whole;
         near.clear();
-        near.extend(q.windows(2).filter_map(|s| interval(piece[0], piece[1], s[0], s[1], beside)));
+        let own = bounding_box(piece);
+        let close = q.windows(2).filter(|s| !apart(&own, &bounding_box(s), beside));
+        near.extend(close.filter_map(|s| interval(piece[0], piece[1], s[0], s[1], beside)));
         near.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut end = first;
         for &(from, to) in &near {
@@ -74,19 +76,28 @@ fn slab(x: f64, v: f64, low: f64, high: f64) -> Option<(f64, f64)> {
     Some((s.min(t), s.max(t)))
 }
 
-/// Stretches of every cable along every other one.
+/// Stretches of cables along each other: each pair once, from the side of the one that is longer beside the other.
 pub(super) fn judge(rules: &Rules, rigs: &[Rig], found: &mut Vec<Breach>) {
-    let all = || {
-        rigs.iter().enumerate().flat_map(|(winch, rig)| {
-            rig.cables.iter().enumerate().map(move |(cable, points)| (Place { winch, cable }, points))
-        })
-    };
-    for (at, p) in all() {
-        for (other, q) in all().filter(|(other, _)| *other != at) {
-            let length_mm = shared_mm(p, q, rules.beside_mm, rules.lead_mm);
+    let cables = rigs.iter().enumerate().flat_map(|(winch, rig)| {
+        rig.cables.iter().enumerate().map(move |(cable, points)| (Place { winch, cable }, points, bounding_box(points)))
+    });
+    let all: Vec<_> = cables.collect();
+    for (k, (at, p, p_box)) in all.iter().enumerate() {
+        for (other, q, q_box) in &all[k + 1..] {
+            if apart(p_box, q_box, rules.beside_mm) {
+                continue;
+            }
+            let there = shared_mm(p, q, rules.beside_mm, rules.lead_mm);
+            let back = shared_mm(q, p, rules.beside_mm, rules.lead_mm);
+            let (at, other, length_mm) = if back > there { (*other, *at, back) } else { (*at, *other, there) };
             if length_mm > rules.along_mm {
                 found.push(Breach::Along { at, other, length_mm, most_mm: rules.along_mm });
             }
         }
     }
+}
+
+/// Whether nothing in one box is nearer than `beside` to anything in the other.
+fn apart(p: &(Point, Point), q: &(Point, Point), beside: f64) -> bool {
+    (0..2).any(|axis| p.0[axis] - q.1[axis] > beside || q.0[axis] - p.1[axis] > beside)
 }

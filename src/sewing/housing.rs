@@ -2,35 +2,57 @@
 
 use super::{Body, Breach, Place, Rig, Rules};
 use crate::outline::polygon::{distance_to_segment, length};
+use std::f64::consts::SQRT_2;
 
 /// Rounding that a distance may fall short by, mm.
 const ROUNDING_MM: f64 = 1e-6;
-/// A housing of less is no winch any more, mm: the smallest gearmotors are 6 mm wide.
-const SMALLEST_MM: f64 = 8.0;
-/// Part of the widest place's width that a housing may take: the rest is stuffing around it.
+/// Part of the width of the body's widest place that a housing may take: the rest is stuffing around it.
 const PART_OF_BODY: f64 = 0.8;
+/// How closely the widest place is looked for, mm of its width: no housing is chosen by less.
+const WIDTH_MM: f64 = 0.2;
+/// The same on large bodies, as a part of their longer side: what bounds the work.
+const WIDTH_FRACTION: f64 = 1e-3;
 
-/// The housing that a body has room for, mm: the one wished for, less where the body is thin everywhere. Asks at most `points` of a grid.
+/// The housing that a body has room for, mm: the one wished for, less where that takes more than four fifths of the body's widest place.
 pub fn largest_housing(body: &Body, wished_mm: f64) -> f64 {
-    /// Points along the longer side of the box around the body.
-    const GRID: usize = 64;
-    let (low, high) = body.bounding_box();
-    let step = (high[0] - low[0]).max(high[1] - low[1]) / GRID as f64;
-    let mut widest: f64 = 0.0;
-    for i in 0..=GRID {
-        for j in 0..=GRID {
-            let p = [low[0] + i as f64 * step, low[1] + j as f64 * step];
-            if p[0] <= high[0] && p[1] <= high[1] {
-                widest = widest.max(2.0 * body.depth(p));
-            }
-        }
-    }
-    wished_mm.min((PART_OF_BODY * widest).max(SMALLEST_MM.min(wished_mm)))
+    wished_mm.min(PART_OF_BODY * widest(body, wished_mm / PART_OF_BODY))
 }
 
-/// Housings inside the seam and through the turning gap, apart from each other, and free of other winches' cables.
+/// Diameter of the largest circle inside the seam, mm, to within [`WIDTH_MM`]; once there is one of `enough_mm`, no larger one is looked for.
+///
+/// Squares are cut into quarters as long as they may hold the centre of a larger circle: no point of a square is deeper than its middle by
+/// more than half its diagonal.
+fn widest(body: &Body, enough_mm: f64) -> f64 {
+    let (low, high) = body.bounding_box();
+    let side = (high[0] - low[0]).max(high[1] - low[1]);
+    let closely = 0.5 * WIDTH_MM.max(WIDTH_FRACTION * side);
+    let mut half = 0.5 * side;
+    let mut squares = vec![[low[0] + half, low[1] + half]];
+    let mut deepest: f64 = 0.0;
+    while !squares.is_empty() && 2.0 * deepest < enough_mm {
+        let depths: Vec<f64> = squares.iter().map(|&middle| body.depth(middle)).collect();
+        deepest = depths.iter().copied().fold(deepest, f64::max);
+        let quarter = 0.5 * half;
+        let may_hold = |depth: f64| depth + half * SQRT_2 > deepest + closely;
+        let kept = squares.iter().zip(&depths).filter(|&(_, &depth)| may_hold(depth));
+        squares = kept
+            .flat_map(|(&[x, y], _)| {
+                [[-quarter, -quarter], [quarter, -quarter], [-quarter, quarter], [quarter, quarter]]
+                    .map(|[dx, dy]| [x + dx, y + dy])
+            })
+            .collect();
+        half = quarter;
+    }
+    2.0 * deepest
+}
+
+/// Housings inside the seam and through the turning gap, apart from each other, and free of other winches' cables. Where the body is too thin
+/// for the rules' housing that is told once, and winches are judged by the largest housing that it has room for.
 pub(super) fn judge(rules: &Rules, body: &Body, rigs: &[Rig], gap_mm: f64, found: &mut Vec<Breach>) {
-    let housing_mm = rules.housing_mm;
+    let housing_mm = largest_housing(body, rules.housing_mm);
+    if housing_mm < rules.housing_mm - ROUNDING_MM {
+        found.push(Breach::ThinBody { room_mm: housing_mm, housing_mm: rules.housing_mm });
+    }
     for (winch, rig) in rigs.iter().enumerate() {
         let room_mm = 2.0 * body.depth(rig.winch);
         if room_mm < housing_mm - ROUNDING_MM {

@@ -27,6 +27,11 @@ impl<'a> Body<'a> {
         if self.outline.contains(p) { distance } else { -distance }
     }
 
+    /// Outer polygon and holes, mm.
+    pub fn polygons(&self) -> impl Iterator<Item = &[Point]> + Clone {
+        self.outline.polygons()
+    }
+
     /// Lower left and upper right corner of the box around the body, mm.
     pub fn bounding_box(&self) -> (Point, Point) {
         self.outline.bounding_box()

@@ -2,24 +2,34 @@
 //!
 //! All rules are judged in rest coordinates, mm: that is where the felt is marked and the cables are threaded. A *hole* is a place where
 //! a cable passes the felt or ends in it, the winch's included; a *piece* is the straight stretch of cable between two holes; a *turn* is
-//! the angle between two pieces at a hole. One exception: pieces stay inside the body in the poses too ([`outside`]).
+//! the angle between two pieces at a hole. One exception: pieces stay inside the body in the poses too ([`judge_pieces`]).
 //!
-//! A new rule is one file with its function, and a line in [`judge`].
+//! The figures of the rules are settings of a design. `fabrication::judge_design` asks whether its networks keep them; the check, the
+//! blueprint's remarks and the studio's list of networks tell. A new rule is one file with its function, a line in [`judge`], a kind of
+//! [`Breach`] with its [`Words`], and its [`Facts`] for other programs.
 
 mod along;
+mod breach;
 mod cable;
+mod facts;
 mod holes;
 mod housing;
+mod inside;
 mod layout;
 mod rules;
+mod words;
 
 pub use along::shared_mm;
-pub use cable::{outside, turn, turning};
+pub use breach::{Breach, Place, most_severe};
+pub use cable::{turn, turning};
+pub use facts::Facts;
 pub use housing::largest_housing;
+pub use inside::{OUTSIDE_MM, judge_pieces, outside};
 pub use layout::{Body, Rig};
-pub use rules::{Breach, Place, Rules};
+pub use rules::Rules;
+pub use words::Words;
 
-/// Every breach of the rules, winch by winch, cable by cable. Empty where all are kept. `gap_mm` is the turning gap's width, 0 for none.
+/// Every breach of the rules at rest, rule by rule, winch by winch, cable by cable. Empty where all are kept. `gap_mm` is the turning gap's width, 0 for none.
 ///
 /// ```
 /// use plushwright::outline::Outline;
@@ -36,6 +46,7 @@ pub fn judge(rules: &Rules, body: &Body, rigs: &[Rig], gap_mm: f64) -> Vec<Breac
     holes::crowded(rules, rigs, &mut found);
     cable::judge(rules, rigs, &mut found);
     along::judge(rules, rigs, &mut found);
+    found.extend(judge_pieces(body.polygons(), rigs));
     housing::judge(rules, body, rigs, gap_mm, &mut found);
     found
 }

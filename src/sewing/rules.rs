@@ -1,8 +1,7 @@
-//! The rules of sewing, and what a breach of one says.
+//! The rules of sewing: figures that can be changed.
 
 use crate::defaults;
 use serde::{Deserialize, Serialize};
-use std::fmt;
 
 /// What every routing is to keep. Each figure can be changed; a rule is lifted by a figure that nothing breaks.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -43,112 +42,6 @@ impl Default for Rules {
             lead_mm: defaults::LEAD_MM,
             housing_mm: defaults::HOUSING_MM,
             between_housings_mm: defaults::BETWEEN_HOUSINGS_MM,
-        }
-    }
-}
-
-/// A cable of a rig, both counted from 0.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Place {
-    pub winch: usize,
-    pub cable: usize,
-}
-
-/// A rule that is broken, and where. Figures in mm and degrees; holes counted from the winch, which is number 0.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Breach {
-    /// A hole too near to the seam; a negative distance is outside of the body.
-    NearSeam { at: Place, hole: usize, distance_mm: f64, least_mm: f64 },
-    /// Two holes too near to each other.
-    Crowded { at: Place, hole: usize, other: Place, other_hole: usize, distance_mm: f64, least_mm: f64 },
-    /// More holes between winch and end than a hand wants to sew.
-    ManyHoles { at: Place, holes: usize, most: usize },
-    /// A turn too sharp at one hole.
-    SharpTurn { at: Place, hole: usize, degrees: f64, most: f64 },
-    /// Too much turning in all.
-    Turning { at: Place, degrees: f64, most: f64 },
-    /// A stretch along another cable.
-    Along { at: Place, other: Place, length_mm: f64, most_mm: f64 },
-    /// A piece of cable, counted from the winch, that runs through the housing of another winch.
-    ThroughWinch { at: Place, piece: usize, winch: usize, distance_mm: f64, least_mm: f64 },
-    /// A housing that does not fit inside the seam.
-    HousingOutside { winch: usize, room_mm: f64, housing_mm: f64 },
-    /// A housing that does not pass the turning gap.
-    HousingAtGap { winch: usize, gap_mm: f64, housing_mm: f64 },
-    /// Two housings without space between them; the distance is that of their centres.
-    HousingsClose { winch: usize, other: usize, distance_mm: f64, least_mm: f64 },
-}
-
-impl Breach {
-    /// By how many times the rule is broken, at least 1: what a search brings down and a list is sorted by.
-    pub fn severity(&self) -> f64 {
-        let below = |is: f64, least: f64| 1.0 + (least - is) / least.max(f64::MIN_POSITIVE);
-        let above = |is: f64, most: f64| 1.0 + (is - most) / most.max(1.0);
-        match *self {
-            Self::NearSeam { distance_mm, least_mm, .. } => below(distance_mm, least_mm),
-            Self::Crowded { distance_mm, least_mm, .. } => below(distance_mm, least_mm),
-            Self::ManyHoles { holes, most, .. } => above(holes as f64, most as f64),
-            Self::SharpTurn { degrees, most, .. } | Self::Turning { degrees, most, .. } => above(degrees, most),
-            Self::Along { length_mm, most_mm, .. } => above(length_mm, most_mm),
-            Self::ThroughWinch { distance_mm, least_mm, .. } => below(distance_mm, least_mm),
-            Self::HousingOutside { room_mm, housing_mm, .. } => below(room_mm, housing_mm),
-            Self::HousingAtGap { gap_mm, housing_mm, .. } => below(gap_mm, housing_mm),
-            Self::HousingsClose { distance_mm, least_mm, .. } => below(distance_mm, least_mm),
-        }
-    }
-}
-
-impl fmt::Display for Place {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "winch {}, tendon {}", self.winch + 1, self.cable + 1)
-    }
-}
-
-impl fmt::Display for Breach {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        match *self {
-            Self::NearSeam { at, hole, distance_mm, least_mm } if distance_mm < 0.0 => {
-                write!(f, "{at}: hole {hole} is outside of the body ({least_mm:.0} mm inside the seam is the rule)")
-            }
-            Self::NearSeam { at, hole, distance_mm, least_mm } => {
-                write!(f, "{at}: hole {hole} is {distance_mm:.1} mm from the seam, less than {least_mm:.1}")
-            }
-            Self::Crowded { at, hole, other, other_hole, distance_mm, least_mm } => write!(
-                f,
-                "{at}: hole {hole} is {distance_mm:.1} mm from hole {other_hole} of {other}, less than {least_mm:.1}"
-            ),
-            Self::ManyHoles { at, holes, most } => {
-                write!(f, "{at}: {holes} holes between winch and end, more than {most}")
-            }
-            Self::SharpTurn { at, hole, degrees, most } => {
-                write!(f, "{at}: turns by {degrees:.0} degrees at hole {hole}, more than {most:.0}")
-            }
-            Self::Turning { at, degrees, most } => {
-                write!(f, "{at}: turns by {degrees:.0} degrees in all, more than {most:.0}")
-            }
-            Self::Along { at, other, length_mm, most_mm } => {
-                write!(f, "{at}: runs along {other} for {length_mm:.0} mm, more than {most_mm:.0}")
-            }
-            Self::ThroughWinch { at, piece, winch, distance_mm, least_mm } => write!(
-                f,
-                "{at}: piece {} passes the middle of winch {} at {distance_mm:.1} mm, through its housing ({least_mm:.1})",
-                piece + 1,
-                winch + 1
-            ),
-            Self::HousingOutside { winch, room_mm, housing_mm } => write!(
-                f,
-                "winch {}: there is room for {:.0} mm inside the seam, the housing is {housing_mm:.0} mm wide",
-                winch + 1,
-                room_mm.max(0.0)
-            ),
-            Self::HousingAtGap { winch, gap_mm, housing_mm } => write!(
-                f,
-                "winch {}: a housing of {housing_mm:.0} mm does not pass the turning gap of {gap_mm:.0} mm",
-                winch + 1
-            ),
-            Self::HousingsClose { winch, other, distance_mm, least_mm } => {
-                write!(f, "winches {} and {}: {distance_mm:.0} mm apart, less than {least_mm:.0}", winch + 1, other + 1)
-            }
         }
     }
 }

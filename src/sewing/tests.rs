@@ -149,6 +149,47 @@ fn what_is_outside_of_a_body_has_its_closed_form() {
 }
 
 #[test]
+fn pieces_outside_are_judged_in_the_pose_they_are_asked_for() {
+    // An L; the cable from one arm to the other leaves it over the inner corner. The arm bent down by 90 degrees takes its end along.
+    let straight: Vec<Point> = vec![[0.0, 0.0], [100.0, 0.0], [100.0, 20.0], [20.0, 20.0], [20.0, 100.0], [0.0, 100.0]];
+    let piece = |a, b| [Rig { winch: a, cables: vec![vec![a, b]] }];
+    let judged = |ring: &[Point], rigs: &[Rig]| judge_pieces(std::iter::once(ring), rigs);
+    let [breach] = judged(&straight, &piece([10.0, 90.0], [90.0, 10.0]))[..] else { panic!("one piece") };
+    // It enters and leaves where x or y is 20.
+    let Breach::Outside { at: Place { winch: 0, cable: 0 }, piece: 0, length_mm, most_mm: OUTSIDE_MM } = breach else {
+        panic!("{breach}")
+    };
+    assert!((length_mm - 60.0 * 2f64.sqrt()).abs() < 1e-12, "{length_mm}");
+    let down: Vec<Point> = vec![[0.0, 0.0], [0.0, -100.0], [20.0, -100.0], [20.0, 100.0], [0.0, 100.0]];
+    assert_eq!(judged(&down, &piece([10.0, 90.0], [10.0, -90.0])), []);
+    // Below the tolerance nothing is told; along the rim a cable is inside, to whichever side it rounds.
+    let ends = |beyond: f64| piece([50.0, 10.0], [50.0, 20.0 + beyond]);
+    assert_eq!(judged(&straight, &ends(0.9 * OUTSIDE_MM)), []);
+    assert_eq!(judged(&straight, &ends(10.0)).len(), 1);
+    for off in [-1e-12, 0.0, 1e-12] {
+        assert_eq!(judged(&straight, &piece([100.0, 20.0 + off], [20.0, 20.0 + off])), []);
+    }
+}
+
+#[test]
+fn a_body_that_lies_over_itself_is_inside_there() {
+    // A strip bent into a U whose arms lie over each other from x = 40 to x = 60.
+    let bent: Vec<Point> = vec![
+        [0.0, 0.0],
+        [100.0, 0.0],
+        [100.0, 100.0],
+        [40.0, 100.0],
+        [40.0, 20.0],
+        [60.0, 20.0],
+        [60.0, 100.0],
+        [0.0, 100.0],
+    ];
+    let out = |a, b| outside(std::iter::once(bent.as_slice()), a, b);
+    assert_eq!(out([10.0, 60.0], [90.0, 60.0]), 0.0);
+    assert!((out([-10.0, 60.0], [110.0, 60.0]) - 20.0).abs() < 1e-12);
+}
+
+#[test]
 fn judgements_do_not_depend_on_where_the_body_lies() {
     let mut next = random(11);
     for _ in 0..30 {
@@ -183,6 +224,79 @@ fn a_thin_body_has_room_for_a_small_housing() {
     let room = largest_housing(&Body::new(&thin), 24.0);
     assert!((14.0..=16.0).contains(&room), "{room}");
     assert_eq!(largest_housing(&Body::new(&square(200.0)), 24.0), 24.0);
+}
+
+#[test]
+fn the_largest_housing_has_its_closed_form() {
+    let room = |outer: &[Point]| {
+        let outline = Outline { outer: outer.to_vec(), holes: vec![] };
+        largest_housing(&Body::new(&outline), 100.0) / 0.8
+    };
+    // The inscribed circle of a right triangle of 30, 40 and 50 mm has a radius of 10 mm.
+    assert!((room(&[[0.0, 0.0], [40.0, 0.0], [0.0, 30.0]]) - 20.0).abs() <= 0.2);
+    // A square of 60 mm, turned: twice its depth.
+    let a = 60.0 / 2f64.sqrt();
+    assert!((room(&[[a, 0.0], [2.0 * a, a], [a, 2.0 * a], [0.0, a]]) - 60.0).abs() <= 0.2);
+    // In the corner of an L of two bars of 40 mm a circle touches both outer sides and the inner corner: r = (40 - r) sqrt 2.
+    let l = [[0.0, 0.0], [200.0, 0.0], [200.0, 40.0], [40.0, 40.0], [40.0, 200.0], [0.0, 200.0]];
+    let r = 40.0 * 2f64.sqrt() / (1.0 + 2f64.sqrt());
+    assert!((room(&l) - 2.0 * r).abs() <= 0.2);
+    // A needle across its box.
+    let slant = [[0.0, 0.0], [1.0, 0.0], [301.0, 300.0], [300.0, 300.0]];
+    assert!((room(&slant) - 0.5 * 2f64.sqrt()).abs() <= 0.31);
+}
+
+#[test]
+fn a_thin_body_is_told_once_and_judged_by_what_fits() {
+    let thin = Outline { outer: vec![[0.0, 0.0], [200.0, 0.0], [200.0, 20.0], [0.0, 20.0]], holes: vec![] };
+    let winch = |x: f64, y: f64| rig(&[&[[x, y], [x + 20.0, y]]]);
+    let judged = |rigs: &[Rig]| judge(&Rules { housing_mm: 24.0, ..lifted() }, &Body::new(&thin), rigs, 60.0);
+    let found = judged(&[winch(30.0, 10.0), winch(90.0, 10.0), winch(150.0, 10.0)]);
+    let [Breach::ThinBody { room_mm, housing_mm: 24.0 }] = found[..] else { panic!("{found:?}") };
+    assert!((room_mm - 16.0).abs() <= 0.16, "{room_mm}");
+    // What fits is still to be inside the seam.
+    let found = judged(&[winch(30.0, 5.0)]);
+    assert!(matches!(found[..], [Breach::ThinBody { .. }, Breach::HousingOutside { winch: 0, room_mm: 10.0, .. }]));
+}
+
+#[test]
+fn every_breach_has_words_facts_and_a_finite_severity() {
+    let rules =
+        Rules { hole_to_seam_mm: 5.0, turning_degrees: 0.0, turn_degrees: 0.0, most_holes: 0, ..Rules::default() };
+    let rigs = [
+        rig(&[&[[5.0, 5.0], [60.0, 5.0], [60.0, 30.0], [260.0, 30.0]], &[[5.0, 5.0], [62.0, 5.0], [62.0, 30.0]]]),
+        rig(&[&[[20.0, 6.0], [20.0, 3.0]]]),
+    ];
+    let found = judge(&rules, &Body::new(&square(200.0)), &rigs, 20.0);
+    let json = serde_json::to_value(&found).unwrap();
+    let mut rules: Vec<&str> = json.as_array().unwrap().iter().map(|f| f["rule"].as_str().unwrap()).collect();
+    for facts in json.as_array().unwrap() {
+        assert!(facts["severity"].as_f64().unwrap() >= 1.0 && facts["value"].is_number() && facts["limit"].is_number());
+        assert!(facts["winch"].as_u64() >= Some(1) && facts["tendon"].as_u64().is_none_or(|t| t >= 1), "{facts}");
+    }
+    rules.sort_unstable();
+    rules.dedup();
+    let all = [
+        "along",
+        "hole_to_hole",
+        "hole_to_seam",
+        "holes",
+        "housing_to_gap",
+        "housing_to_housing",
+        "housing_to_seam",
+        "outside",
+        "through_winch",
+        "turn",
+        "turning",
+    ];
+    assert_eq!(rules, all);
+    let first = most_severe(&found, 3);
+    assert!(first.len() == 3 && first.windows(2).all(|b| b[0].severity() >= b[1].severity()));
+    assert!(found.iter().all(|b| b.severity() <= first[0].severity() && b.to_string().contains("winch")));
+    // A pair of cables along each other is told once.
+    assert_eq!(rules.len(), all.len());
+    let pairs = found.iter().filter(|b| matches!(b, Breach::Along { .. })).count();
+    assert_eq!(pairs, 1, "{found:?}");
 }
 
 #[test]

@@ -9,6 +9,7 @@ use crate::mesh::BodyPoint;
 use crate::operations::pose::{at_hand, put_pin, put_target, rounded};
 use crate::outline::{Drawing, Point};
 use crate::physics::TermKind;
+use crate::sewing::Rules;
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Change {
@@ -56,6 +57,7 @@ pub enum Change {
     Tendons(TendonSettings),
     Fabrication(FabricationSettings),
     Controller(ControllerSettings),
+    Sewing(Rules),
     /// Another drawing of the outline, and what was done to it.
     Draw {
         what: &'static str,
@@ -102,6 +104,7 @@ impl Change {
             Self::Tendons(_) => "Tendon settings",
             Self::Fabrication(_) => "Fabrication settings",
             Self::Controller(_) => "Controller settings",
+            Self::Sewing(_) => "Sewing settings",
             Self::Draw { what, .. } => what,
         }
     }
@@ -157,6 +160,7 @@ impl Change {
             Self::Tendons(tendons) => nothing(edit::set_tendons(design, tendons)?),
             Self::Fabrication(fabrication) => nothing(edit::set_fabrication(design, fabrication)?),
             Self::Controller(controller) => nothing(edit::set_controller(design, controller)?),
+            Self::Sewing(rules) => nothing(edit::set_sewing(design, rules)?),
             Self::Draw { drawing, .. } => nothing(edit::set_drawing(design, Some(drawing))?),
         })
     }

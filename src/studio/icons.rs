@@ -28,6 +28,7 @@ pub enum Icon {
     Key,
     Close,
     Check,
+    Warning,
 }
 
 /// Side of an icon button, logical pixels.
@@ -141,6 +142,11 @@ pub fn draw(icon: Icon, rect: Rect, color: Color32) -> Vec<Shape> {
         ],
         Icon::Key => vec![pen.solid(&[(0.5, 0.06), (0.94, 0.5), (0.5, 0.94), (0.06, 0.5)])],
         Icon::Close => vec![pen.line(&[(0.14, 0.14), (0.86, 0.86)]), pen.line(&[(0.86, 0.14), (0.14, 0.86)])],
+        Icon::Warning => vec![
+            pen.line(&[(0.5, 0.08), (0.96, 0.9), (0.04, 0.9), (0.5, 0.08)]),
+            pen.line(&[(0.5, 0.36), (0.5, 0.62)]),
+            pen.dot(0.5, 0.76, 0.05),
+        ],
         Icon::Check => vec![pen.line(&[(0.08, 0.54), (0.38, 0.84), (0.92, 0.16)])],
     }
 }

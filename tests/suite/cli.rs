@@ -152,7 +152,10 @@ fn a_pose_travels_from_the_command_line_to_the_check() {
         keys.sort();
         keys
     };
-    assert_eq!(keys(&json), ["body_length_mm", "fibers", "name", "nodes", "poses", "tendons", "triangles", "winches"]);
+    assert_eq!(
+        keys(&json),
+        ["body_length_mm", "fibers", "name", "nodes", "poses", "sewing", "tendons", "triangles", "winches"]
+    );
     let bend = &json["poses"][0];
     assert_eq!(
         keys(bend),

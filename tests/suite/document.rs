@@ -7,6 +7,7 @@ use plushwright::design::{MaterialPoint, Pin, Pose, edit};
 use plushwright::outline::Drawing;
 use plushwright::physics::terms::GRAVITY;
 use plushwright::physics::{NeoHookean, StVenantKirchhoff};
+use plushwright::sewing::Rules;
 use std::fs;
 use std::sync::Arc;
 
@@ -19,7 +20,7 @@ fn bits(design: &Design) -> String {
 fn random_edit(random: &mut Random, design: &mut Design) -> Result<(), EditError> {
     let index = random.below(4);
     let name = format!("name {}", random.below(6));
-    match random.below(18) {
+    match random.below(19) {
         0 => {
             let position = (random.below(2) == 0).then(|| [random.unit(), random.unit()]);
             let stiffness = random.between(-1.0, 30.0);
@@ -46,6 +47,10 @@ fn random_edit(random: &mut Random, design: &mut Design) -> Result<(), EditError
         14 => edit::move_keyframe(design, index, 0.25 * random.below(20) as f64).map(drop),
         15 => edit::remove_keyframe(design, index).map(drop),
         16 => edit::set_material(design, NeoHookean { mu: random.between(-0.1, 1.0), kappa: random.unit() }.into()),
+        17 => edit::set_sewing(
+            design,
+            Rules { hole_to_seam_mm: random.between(-1.0, 9.0), most_holes: random.below(9), ..design.sewing },
+        ),
         _ => {
             let (up, surface_density) = (-random.unit(), random.between(-1e-7, 1e-6));
             edit::set_term(design, GRAVITY, Some(Gravity { acceleration: [0.0, up], surface_density }.into()))
@@ -163,6 +168,20 @@ fn the_text_is_made_for_people() {
 }
 
 #[test]
+fn rules_of_sewing_are_written_where_they_are_not_the_usual_ones() {
+    let mut design = rigged();
+    assert!(!bits(&design).contains("sewing"));
+    design.sewing.housing_mm = 1.0 / 3.0;
+    let text = bits(&design);
+    assert!(text.contains("    sewing: (\n        hole_to_seam_mm: 5.0,\n"), "{text}");
+    assert_eq!(file::parse(&text), Ok(design));
+    let some = bits(&rigged()).replacen("    pins:", "    sewing: (most_holes: 3),\n    pins:", 1);
+    assert_eq!(file::parse(&some).expect("a design").sewing, Rules { most_holes: 3, ..Rules::default() });
+    let unknown = some.replacen("most_holes", "most_hoels", 1);
+    assert!(file::parse(&unknown).unwrap_err().to_string().contains("most_hoels"));
+}
+
+#[test]
 fn a_short_file_by_hand_is_enough() {
     let text = r#"
         // Everything else has a default.
@@ -196,8 +215,9 @@ fn tendons_pass_points_of_the_body_and_files_of_version_1_read() {
         (format!("nodes: ({a}, "), "nodes: (999, ".into(), "routing[1].nodes[0]: 999"),
         (", weights: (0.1".into(), ", wieghts: (0.1".into(), "wieghts"),
     ] {
-        // The last one: triangles of the mesh may look the same.
-        let at = text.rfind(&from).unwrap();
+        // Triangles of the mesh may look the same.
+        let networks = text.find("networks:").unwrap();
+        let at = networks + text[networks..].find(&from).unwrap();
         let broken = format!("{}{to}{}", &text[..at], &text[at + from.len()..]);
         let error = file::parse(&broken).unwrap_err().to_string();
         assert!(error.contains(why), "{why}: {error}");
@@ -264,83 +284,8 @@ fn truncated_and_garbled_texts_are_errors_or_designs_never_panics() {
 
 type Spoil = fn(&mut Design);
 
-#[test]
-fn validation_says_what_and_where() {
-    let cases: &[(Spoil, &str)] = &[
-        (|d| d.pins[0].at.triangle = 99, "pins[0].at.triangle: 99 is out of range, the mesh has 48 triangles"),
-        (|d| d.pins[0].at.weights = [0.5, 0.6, 0.0], "pins[0].at.weights: the weights sum to 1.1, not to 1"),
-        (|d| d.pins[0].at.weights = [-0.1, 0.6, 0.5], "pins[0].at.weights[0]: -0.1 is negative"),
-        (|d| d.pins[0].stiffness = 0.0, "pins[0].stiffness: 0 is not greater than zero"),
-        (|d| d.pins[0].position = Some([f64::NAN, 0.0]), "pins[0].position: NaN is not a finite number"),
-        (|d| d.mesh.nodes[4][1] = f64::INFINITY, "mesh.nodes[4]: inf is not a finite number"),
-        (|d| d.mesh.triangles[2][1] = 77, "mesh.triangles[2]: 77 is out of range, the mesh has 35 nodes"),
-        (|d| d.mesh.triangles[2].swap(0, 1), "mesh.triangles[2]: area -200 mm^2"),
-        (|d| d.mesh.triangles[2] = [0, 0, 1], "mesh.triangles[2]: area 0 mm^2"),
-        (|d| d.mesh.nodes.push([1.0, 1.0]), "mesh: node 35 belongs to no triangle"),
-        (|d| drop(d.mesh.triangles.drain(12..24)), "mesh: the mesh falls into 2 pieces"),
-        (|d| d.mesh.triangles.clear(), "mesh.triangles: has 0 triangles, needs at least 1"),
-        (|d| d.outline.outer.reverse(), "outline.outer: area -9600 mm^2"),
-        (|d| d.outline.outer.truncate(2), "outline.outer: has 2 points, needs at least 3"),
-        (|d| d.outline.holes = vec![vec![[1., 1.], [2., 1.], [2., 2.]]], "outline.holes[0]: area 0.5 mm^2"),
-        (|d| d.material = NeoHookean { mu: 0.0, kappa: 1.0 }.into(), "material.mu: 0 is not greater than zero"),
-        (|d| d.material = NeoHookean { mu: 1.0, kappa: -1.0 }.into(), "material.kappa: -1 is negative"),
-        (|d| d.fibers.max_contraction = 1.5, "fibers.max_contraction: 1.5 is greater than 1"),
-        (|d| d.fibers.set = FiberSet::Routings(vec![vec![1]]), "fibers.set[0]: has 1 nodes, needs at least 2"),
-        (|d| d.tendons.epsilon_mm = f64::NAN, "tendons.epsilon_mm: NaN is not a finite number"),
-        (
-            |d| d.networks[0].tendons[1].routing = MaterialPoint::through([10, 9, 9]),
-            "networks[0].tendons[1].routing[2]: node 9 stands twice",
-        ),
-        (
-            |d| d.networks[0].tendons[1].routing = MaterialPoint::through([10, 35]),
-            "networks[0].tendons[1].routing[1]: 35 is out of range",
-        ),
-        (
-            |d| d.networks[0].tendons[1].routing = MaterialPoint::through([9, 8]),
-            "networks[0].tendons[1].routing: starts at node 9, the",
-        ),
-        (|d| d.networks[1].tendons.clear(), "networks[1].tendons: has 0 tendons, needs at least 1"),
-        (|d| d.networks[1].tendons[0].ratio = 0.0, "networks[1].tendons[0].ratio: 0 is not greater than zero"),
-        (|d| d.networks.truncate(1), "keyframes[0].activations_mm: has 2 entries for 1 networks"),
-        (|d| d.keyframes[1].time_s = 9.0, "keyframes[2].time_s: 1.51 s does not come after 9 s"),
-        (|d| d.keyframes[1].time_s = -1.0, "keyframes[1].time_s: -1 is negative"),
-        (|d| d.keyframes[1].activations_mm[1] = f64::NAN, "keyframes[1].activations_mm[1]: NaN is not a finite"),
-        (|d| d.keyframes[1].pose = Some("jump".into()), "keyframes[1].pose: there is no pose named \"jump\""),
-        (|d| d.poses.push(d.poses[0].clone()), "poses[1].name: there is another pose named \"lean\""),
-        (|d| d.poses[0].name = " ".into(), "poses[0].name: is empty"),
-        (|d| d.name = "line\nbreak".into(), "name: has a character that cannot be shown (U+000A)"),
-        (
-            |d| d.networks[0].name = "\u{1b}[2J".into(),
-            "networks[0].name: has a character that cannot be shown (U+001B)",
-        ),
-        (|d| d.poses[0].name = "x".repeat(65_536), "poses[0].name: has 65536 characters, at most 255 are read"),
-        (|d| d.keyframes[2].time_s = 1e9, "keyframes[2].time_s: 1e9 is out of range: 0 to 36000 s"),
-        (
-            |d| d.keyframes[1].activations_mm[0] = -1e5,
-            "keyframes[1].activations_mm[0]: -100000 is out of range: -1000 to",
-        ),
-        (|d| d.poses[0].targets[0].to = [1e300, 0.0], "poses[0].targets[0].to: 1e300 is out of range: -1000000 to"),
-        (|d| d.outline.outer[0][0] = -1e12, "outline.outer[0]: -1e12 is out of range: -1000000 to 1000000 mm"),
-        (|d| d.controller.speed_rpm = u32::MAX, "controller.speed_rpm: 4.294967295e9 is out of range: 1 to 30000 rpm"),
-        (
-            |d| d.fabrication.seam_allowance_mm = 1e300,
-            "fabrication.seam_allowance_mm: 1e300 is out of range: 0 to 1000 mm",
-        ),
-        (
-            |d| d.material = NeoHookean { mu: 0.4, kappa: 1e5 }.into(),
-            "material.kappa: 250000 times mu is more than 10000",
-        ),
-        (|d| d.poses[0].targets[0].weight = -1.0, "poses[0].targets[0].weight: -1 is negative"),
-        (|d| d.stiffness_map = Some(vec![1.0]), "stiffness_map: has 1 entries for 48 triangles"),
-        (|d| d.texture_box = Some([[0.0, 5.0], [9.0, 5.0]]), "texture_box: 0 is not greater than zero"),
-        (|d| d.texture_box = Some([[0.0, f64::NAN], [9.0, 5.0]]), "texture_box[0]: NaN is not a finite number"),
-        (
-            |d| d.drawing = Some(Drawing { tracks: vec![vec![[0.0; 2]]], ..Drawing::default() }),
-            "drawing.tracks[0]: a track needs at least two points",
-        ),
-        (|d| d.fabrication.spool_radius_mm = 0.0, "fabrication.spool_radius_mm: 0 is not greater than zero"),
-        (|d| d.controller.encoder_lines = 0, "controller.encoder_lines: 0 is not greater than zero"),
-    ];
+/// Spoils a sound design and sees what is said of it.
+fn refused(cases: &[(Spoil, &str)]) {
     rigged().validate().expect("the starting point is sound");
     for (spoil, message) in cases {
         let mut design = rigged();
@@ -348,11 +293,97 @@ fn validation_says_what_and_where() {
         let error = design.validate().expect_err(message).to_string();
         assert!(error.starts_with(message), "{error:?} instead of {message:?}");
     }
+}
+
+#[test]
+fn rules_of_sewing_have_their_ranges() {
+    refused(&[
+        (|d| d.sewing.hole_to_seam_mm = -1.0, "sewing.hole_to_seam_mm: -1 is negative"),
+        (|d| d.sewing.hole_to_hole_mm = f64::NAN, "sewing.hole_to_hole_mm: NaN is not a finite number"),
+        (|d| d.sewing.most_holes = usize::MAX, "sewing.most_holes: 1.8446744073709552e19 is out of range: 0 to 10000"),
+        (|d| d.sewing.turn_degrees = 181.0, "sewing.turn_degrees: 181 is out of range: 0 to 180 degrees"),
+        (|d| d.sewing.turning_degrees = f64::INFINITY, "sewing.turning_degrees: inf is not a finite number"),
+        (|d| d.sewing.beside_mm = 1e4, "sewing.beside_mm: 10000 is out of range: 0 to 1000 mm"),
+        (|d| d.sewing.along_mm = 1e5, "sewing.along_mm: 100000 is out of range: 0 to 10000 mm"),
+        (|d| d.sewing.lead_mm = -0.5, "sewing.lead_mm: -0.5 is negative"),
+        (|d| d.sewing.housing_mm = 1e300, "sewing.housing_mm: 1e300 is out of range: 0 to 1000 mm"),
+        (|d| d.sewing.between_housings_mm = -3.0, "sewing.between_housings_mm: -3 is negative"),
+    ]);
+}
+
+#[test]
+fn validation_says_what_and_where() {
+    refused(SPOILT);
     let mut edge = rigged();
     edge.networks[0].tendons[0].routing = MaterialPoint::through([10, 9, 10]);
     edge.pins[0].at.weights = [1.0 + 5e-10, -5e-10, 5e-7];
     edge.validate().expect("there and back is legal, rounding too");
 }
+
+/// What is no design any more, and what is said of it.
+const SPOILT: &[(Spoil, &str)] = &[
+    (|d| d.pins[0].at.triangle = 99, "pins[0].at.triangle: 99 is out of range, the mesh has 48 triangles"),
+    (|d| d.pins[0].at.weights = [0.5, 0.6, 0.0], "pins[0].at.weights: the weights sum to 1.1, not to 1"),
+    (|d| d.pins[0].at.weights = [-0.1, 0.6, 0.5], "pins[0].at.weights[0]: -0.1 is negative"),
+    (|d| d.pins[0].stiffness = 0.0, "pins[0].stiffness: 0 is not greater than zero"),
+    (|d| d.pins[0].position = Some([f64::NAN, 0.0]), "pins[0].position: NaN is not a finite number"),
+    (|d| d.mesh.nodes[4][1] = f64::INFINITY, "mesh.nodes[4]: inf is not a finite number"),
+    (|d| d.mesh.triangles[2][1] = 77, "mesh.triangles[2]: 77 is out of range, the mesh has 35 nodes"),
+    (|d| d.mesh.triangles[2].swap(0, 1), "mesh.triangles[2]: area -200 mm^2"),
+    (|d| d.mesh.triangles[2] = [0, 0, 1], "mesh.triangles[2]: area 0 mm^2"),
+    (|d| d.mesh.nodes.push([1.0, 1.0]), "mesh: node 35 belongs to no triangle"),
+    (|d| drop(d.mesh.triangles.drain(12..24)), "mesh: the mesh falls into 2 pieces"),
+    (|d| d.mesh.triangles.clear(), "mesh.triangles: has 0 triangles, needs at least 1"),
+    (|d| d.outline.outer.reverse(), "outline.outer: area -9600 mm^2"),
+    (|d| d.outline.outer.truncate(2), "outline.outer: has 2 points, needs at least 3"),
+    (|d| d.outline.holes = vec![vec![[1., 1.], [2., 1.], [2., 2.]]], "outline.holes[0]: area 0.5 mm^2"),
+    (|d| d.material = NeoHookean { mu: 0.0, kappa: 1.0 }.into(), "material.mu: 0 is not greater than zero"),
+    (|d| d.material = NeoHookean { mu: 1.0, kappa: -1.0 }.into(), "material.kappa: -1 is negative"),
+    (|d| d.fibers.max_contraction = 1.5, "fibers.max_contraction: 1.5 is greater than 1"),
+    (|d| d.fibers.set = FiberSet::Routings(vec![vec![1]]), "fibers.set[0]: has 1 nodes, needs at least 2"),
+    (|d| d.tendons.epsilon_mm = f64::NAN, "tendons.epsilon_mm: NaN is not a finite number"),
+    (
+        |d| d.networks[0].tendons[1].routing = MaterialPoint::through([10, 9, 9]),
+        "networks[0].tendons[1].routing[2]: node 9 stands twice",
+    ),
+    (
+        |d| d.networks[0].tendons[1].routing = MaterialPoint::through([10, 35]),
+        "networks[0].tendons[1].routing[1]: 35 is out of range",
+    ),
+    (
+        |d| d.networks[0].tendons[1].routing = MaterialPoint::through([9, 8]),
+        "networks[0].tendons[1].routing: starts at node 9, the",
+    ),
+    (|d| d.networks[1].tendons.clear(), "networks[1].tendons: has 0 tendons, needs at least 1"),
+    (|d| d.networks[1].tendons[0].ratio = 0.0, "networks[1].tendons[0].ratio: 0 is not greater than zero"),
+    (|d| d.networks.truncate(1), "keyframes[0].activations_mm: has 2 entries for 1 networks"),
+    (|d| d.keyframes[1].time_s = 9.0, "keyframes[2].time_s: 1.51 s does not come after 9 s"),
+    (|d| d.keyframes[1].time_s = -1.0, "keyframes[1].time_s: -1 is negative"),
+    (|d| d.keyframes[1].activations_mm[1] = f64::NAN, "keyframes[1].activations_mm[1]: NaN is not a finite"),
+    (|d| d.keyframes[1].pose = Some("jump".into()), "keyframes[1].pose: there is no pose named \"jump\""),
+    (|d| d.poses.push(d.poses[0].clone()), "poses[1].name: there is another pose named \"lean\""),
+    (|d| d.poses[0].name = " ".into(), "poses[0].name: is empty"),
+    (|d| d.name = "line\nbreak".into(), "name: has a character that cannot be shown (U+000A)"),
+    (|d| d.networks[0].name = "\u{1b}[2J".into(), "networks[0].name: has a character that cannot be shown (U+001B)"),
+    (|d| d.poses[0].name = "x".repeat(65_536), "poses[0].name: has 65536 characters, at most 255 are read"),
+    (|d| d.keyframes[2].time_s = 1e9, "keyframes[2].time_s: 1e9 is out of range: 0 to 36000 s"),
+    (|d| d.keyframes[1].activations_mm[0] = -1e5, "keyframes[1].activations_mm[0]: -100000 is out of range: -1000 to"),
+    (|d| d.poses[0].targets[0].to = [1e300, 0.0], "poses[0].targets[0].to: 1e300 is out of range: -1000000 to"),
+    (|d| d.outline.outer[0][0] = -1e12, "outline.outer[0]: -1e12 is out of range: -1000000 to 1000000 mm"),
+    (|d| d.controller.speed_rpm = u32::MAX, "controller.speed_rpm: 4.294967295e9 is out of range: 1 to 30000 rpm"),
+    (|d| d.fabrication.seam_allowance_mm = 1e300, "fabrication.seam_allowance_mm: 1e300 is out of range: 0 to 1000 mm"),
+    (|d| d.material = NeoHookean { mu: 0.4, kappa: 1e5 }.into(), "material.kappa: 250000 times mu is more than 10000"),
+    (|d| d.poses[0].targets[0].weight = -1.0, "poses[0].targets[0].weight: -1 is negative"),
+    (|d| d.stiffness_map = Some(vec![1.0]), "stiffness_map: has 1 entries for 48 triangles"),
+    (|d| d.texture_box = Some([[0.0, 5.0], [9.0, 5.0]]), "texture_box: 0 is not greater than zero"),
+    (|d| d.texture_box = Some([[0.0, f64::NAN], [9.0, 5.0]]), "texture_box[0]: NaN is not a finite number"),
+    (
+        |d| d.drawing = Some(Drawing { tracks: vec![vec![[0.0; 2]]], ..Drawing::default() }),
+        "drawing.tracks[0]: a track needs at least two points",
+    ),
+    (|d| d.fabrication.spool_radius_mm = 0.0, "fabrication.spool_radius_mm: 0 is not greater than zero"),
+    (|d| d.controller.encoder_lines = 0, "controller.encoder_lines: 0 is not greater than zero"),
+];
 
 #[test]
 fn files_are_replaced_whole_or_not_at_all() {

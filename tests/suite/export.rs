@@ -178,6 +178,31 @@ fn holes_on_the_seam_are_remarked() {
 }
 
 #[test]
+fn what_no_hand_can_sew_is_remarked_the_worst_first_and_counted() {
+    let mut design = rigged();
+    design.sewing.lead_mm = 0.0;
+    let remarks = |design: &Design| {
+        let (_, manifest) = blueprint(design, &Options::default()).expect("a blueprint");
+        manifest.remarks.into_iter().filter(|r| r.starts_with("Hard to sew: ")).collect::<Vec<_>>()
+    };
+    // The one tendon turns by 90 degrees at node 11.
+    assert_eq!(
+        remarks(&design),
+        ["Hard to sew: right, tendon 1: turns by 90.0 degrees at hole 1 from the winch, more than 75.0."]
+    );
+    design.sewing.hole_to_seam_mm = 30.0;
+    let told = remarks(&design);
+    let holes = design.networks.iter().flat_map(|n| &n.tendons).map(|t| t.routing.len()).sum::<usize>() - 1;
+    assert_eq!(told.len(), 6);
+    let breaches = fabrication::judge_design(&design).len();
+    assert!(breaches > 6 && breaches <= holes + 1, "{breaches}");
+    assert_eq!(told[5], format!("Hard to sew: {} more places break a rule.", breaches - 5));
+    design.sewing.turn_degrees = 180.0;
+    design.sewing.hole_to_seam_mm = 0.0;
+    assert_eq!(remarks(&design), [""; 0]);
+}
+
+#[test]
 fn routings_are_drawn_and_tabled() {
     let mut design = rigged();
     design.networks[1].tendons[0].slack_mm = 2.5;

@@ -4,7 +4,7 @@ mod controller;
 mod pattern;
 mod readme;
 mod routing;
-mod seam;
+pub(super) mod seam;
 mod tracks;
 
 use super::product::Make;

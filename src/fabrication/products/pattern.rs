@@ -3,7 +3,7 @@
 //! Both faces carry the same holes, because both are rigged alike; the back is the mirror image of the front, so that
 //! the pieces meet with their outer sides together.
 
-use super::seam::{grown, seam};
+use super::seam::{self, grown};
 use crate::design::Design;
 use crate::fabrication::cables::holes;
 use crate::fabrication::error::ExportError;
@@ -73,8 +73,7 @@ fn sheet(design: &Design) -> (Sheet, Vec<String>) {
     let mut note = Group::new("note", Style::line(GREEN, NOTE_MM));
     let holes = holes(design);
     let pins: Vec<Point> = design.pins.iter().map(|p| design.mesh.position(&p.at, &design.mesh.nodes)).collect();
-    let obstacles: Vec<Point> = holes.iter().chain(&pins).copied().collect();
-    let seam = seam(&design.outline.outer, made.turning_gap_mm, &obstacles);
+    let seam = seam::of(design);
     let pieces = [(&front, "FRONT"), (&back, "BACK (mirrored)")];
 
     // Small holes first, then cut-outs, then the outlines: what is cut free may shift.

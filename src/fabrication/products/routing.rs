@@ -3,6 +3,7 @@
 use crate::design::{Design, Tendon};
 use crate::fabrication::cables::{holes, points, tendon_length_mm};
 use crate::fabrication::error::ExportError;
+use crate::fabrication::judge;
 use crate::fabrication::product::{Content, Part, Product, Source};
 use crate::fabrication::sheet::{
     Anchor, BLACK, Color, Entity, GREY, Group, REFERENCE_MM, Sheet, Style, YELLOW, reference,
@@ -30,7 +31,7 @@ const GUIDE: &str =
 pub(super) fn make(source: &Source<'_>) -> Result<Part, ExportError> {
     let sheet = Product::new("routing", Content::Sheet(sheet(source.design)));
     let table = Product::new("routing", Content::Table(table(source.design)));
-    Ok(Part { products: vec![sheet, table], guide: GUIDE.into(), remarks: Vec::new() })
+    Ok(Part { products: vec![sheet, table], guide: GUIDE.into(), remarks: judge::remarks(source.design) })
 }
 
 /// `winch,tendon,length_mm,points`: tendons counted from 1 within each winch, points from the winch outward.

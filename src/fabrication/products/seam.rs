@@ -1,5 +1,7 @@
 //! The seam: where the felt is cut around it, and where it is left open to turn and stuff the body.
 
+use crate::design::Design;
+use crate::fabrication::cables::holes;
 use crate::outline::polygon::{bounding_box, distance_to_segment, length, lerp};
 use crate::outline::{Outline, Point};
 use i_overlay::mesh::float::outline::offset::OutlineOffset;
@@ -39,9 +41,16 @@ pub struct Seam {
     pub gap_mm: f64,
 }
 
+/// The seam of a design, its turning gap away from the holes of its cables and from its pins.
+pub fn of(design: &Design) -> Seam {
+    let pins = design.pins.iter().map(|p| design.mesh.position(&p.at, &design.mesh.nodes));
+    let obstacles: Vec<Point> = holes(design).into_iter().chain(pins).collect();
+    seam(&design.outline.outer, design.fabrication.turning_gap_mm, &obstacles)
+}
+
 /// Leaves `gap_mm` of the polygon open on the stretch that is straightest and nearest to the bottom, away from
 /// `obstacles`; at most a quarter of the polygon.
-pub fn seam(polygon: &[Point], gap_mm: f64, obstacles: &[Point]) -> Seam {
+fn seam(polygon: &[Point], gap_mm: f64, obstacles: &[Point]) -> Seam {
     let ring = Ring::new(polygon);
     let gap_mm = gap_mm.min(GAP_LARGEST_PART * ring.length());
     let mut closed = polygon.to_vec();

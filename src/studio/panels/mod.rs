@@ -15,6 +15,7 @@ mod panel;
 pub mod poses;
 pub mod quality;
 mod settings;
+mod sewable;
 pub mod shortcuts;
 pub mod status;
 pub mod timeline;

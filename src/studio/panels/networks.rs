@@ -2,8 +2,10 @@
 
 use super::discovery;
 use super::panel::{Entry, Panel};
+use super::sewable::{self, Sewable};
 use super::widgets::{heading, name_field};
 use crate::picture::palette::Palette;
+use crate::sewing::Breach;
 use crate::studio::action::{Action, Actions};
 use crate::studio::canvas::Plushie;
 use crate::studio::change::Change;
@@ -24,20 +26,23 @@ pub static ENTRY: Entry = Entry {
 #[derive(Default)]
 struct Networks {
     thumbnails: Thumbnails,
+    sewable: Sewable,
 }
 
 impl Panel for Networks {
     fn show(&mut self, ui: &mut Ui, session: &Session, actions: &mut Actions) {
+        let breaches = self.sewable.breaches(ENTRY.id, session, actions);
         ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
-            show(ui, session, actions);
+            show(ui, session, breaches, actions);
             ui.add_space(12.0);
             discovery::show(ui, session, &mut self.thumbnails, actions);
         });
     }
 }
 
-fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
+fn show(ui: &mut Ui, session: &Session, breaches: &[Breach], actions: &mut Actions) {
     heading(ui, "Winch-tendon networks");
+    sewable::body(ui, breaches);
     let design = session.design();
     if design.networks.is_empty() {
         ui.label(RichText::new("None yet. Pose the plushie, then propose a network.").weak());
@@ -45,11 +50,11 @@ fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     }
     ui.scope(|ui| {
         ui.spacing_mut().item_spacing.y = 2.0;
-        rows(ui, session, actions);
+        rows(ui, session, breaches, actions);
     });
 }
 
-fn rows(ui: &mut Ui, session: &Session, actions: &mut Actions) {
+fn rows(ui: &mut Ui, session: &Session, breaches: &[Breach], actions: &mut Actions) {
     let palette = Palette::of(session.look.theme);
     for (index, network) in session.design().networks.iter().enumerate() {
         if matches!(session.renaming(), Some((Renamed::Network(i), _)) if *i == index) {
@@ -66,6 +71,7 @@ fn rows(ui: &mut Ui, session: &Session, actions: &mut Actions) {
                 if icons::small_button(ui, Icon::Trash, &name, &tip).clicked() {
                     actions.push(Action::Change(Change::RemoveNetwork(index)));
                 }
+                sewable::mark(ui, session.design(), index, breaches);
                 // Both plushies have the same; a hidden one is not kept up to date.
                 let views = session.look.views;
                 let shapes = &session.solver.shapes;

@@ -37,6 +37,7 @@ fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
         section(ui, "Muscle fibres", |ui| fibers(ui, session, actions));
         section(ui, "Tendons", |ui| tendons(ui, session, actions));
         section(ui, "Fabrication", |ui| fabrication(ui, session, actions));
+        section(ui, "Sewing", |ui| sewing(ui, session, actions));
         section(ui, "Motors", |ui| controller(ui, session, actions));
     });
 }
@@ -172,6 +173,27 @@ fn fabrication(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     number(ui, "Spool radius", "mm", "Radius of the winch's core", &mut f.spool_radius_mm, 1.0..=100.0);
     if f != session.design().fabrication {
         actions.push(Action::Live(Change::Fabrication(f)));
+    }
+}
+
+/// What a hand can sew; the list of networks marks those that break it.
+fn sewing(ui: &mut Ui, session: &Session, actions: &mut Actions) {
+    let mut r = session.design().sewing;
+    number(ui, "Hole to seam", "mm", "Least distance: nearer, the felt tears", &mut r.hole_to_seam_mm, 0.0..=100.0);
+    number(ui, "Hole to hole", "mm", "Least distance between two holes", &mut r.hole_to_hole_mm, 0.0..=100.0);
+    let mut holes = u32::try_from(r.most_holes).unwrap_or(u32::MAX);
+    if count(ui, "Most holes", "", "Of a tendon, between its winch and its end", &mut holes, 0..=1000) {
+        r.most_holes = holes as usize;
+    }
+    number(ui, "Sharpest turn", "°", "Of a tendon at one hole: beyond, it saws", &mut r.turn_degrees, 0.0..=180.0);
+    number(ui, "Most turning", "°", "Sum of all turns of a tendon: friction", &mut r.turning_degrees, 0.0..=10000.0);
+    number(ui, "Beside", "mm", "Tendons nearer than this run along each other", &mut r.beside_mm, 0.0..=50.0);
+    number(ui, "Longest along", "mm", "How far a tendon may run along another one", &mut r.along_mm, 0.0..=1000.0);
+    number(ui, "Lead", "mm", "Length from the winch on which tendons may", &mut r.lead_mm, 0.0..=1000.0);
+    number(ui, "Housing", "mm", "Diameter of a winch with its spool", &mut r.housing_mm, 0.0..=200.0);
+    number(ui, "Between housings", "mm", "Least space between two", &mut r.between_housings_mm, 0.0..=100.0);
+    if r != session.design().sewing {
+        actions.push(Action::Live(Change::Sewing(r)));
     }
 }
 

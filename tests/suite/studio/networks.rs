@@ -144,3 +144,32 @@ fn a_keyframe_is_made_of_the_newest_activations_even_where_they_are_hidden() {
     assert!((keyframe.activations_mm[0] - wound).abs() < 0.1 * wound, "{keyframe:?} {wound}");
     assert!(!session(&window).request().unwrap().show_realizable);
 }
+
+#[test]
+fn networks_that_no_hand_can_sew_are_marked() {
+    let mut window = window(crate::support::rigged());
+    let marked = |window: &mut Window, name: &str, wanted: bool| {
+        let label = format!("Network {name} is hard to sew");
+        let started = Instant::now();
+        while window.query_by_label(&label).is_some() != wanted {
+            assert!(started.elapsed() < Duration::from_secs(60), "{label}: {}", !wanted);
+            std::thread::sleep(Duration::from_millis(2));
+            window.step();
+        }
+    };
+    // The tendon of the right one turns by 90 degrees.
+    marked(&mut window, "right", true);
+    marked(&mut window, "left", false);
+    click(&mut window, "Settings");
+    window.get_by_role_and_label(egui::accesskit::Role::SpinButton, "Sharpest turn").scroll_to_me();
+    settle(&mut window);
+    let value = window.get_by_role_and_label(egui::accesskit::Role::SpinButton, "Sharpest turn").rect().center();
+    drag(&mut window, value, value + vec2(400.0, 0.0));
+    assert_eq!(session(&window).design().sewing.turn_degrees, 180.0);
+    assert_eq!(session(&window).history().undo_label(), Some("Sewing settings"));
+    click(&mut window, "Networks");
+    marked(&mut window, "right", false);
+    click(&mut window, "Undo");
+    assert_eq!(session(&window).design().sewing.turn_degrees, 75.0);
+    marked(&mut window, "right", true);
+}
