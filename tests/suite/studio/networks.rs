@@ -1,15 +1,15 @@
 //! Networks and the animation: proposals, keyframes, playing.
 
 use crate::support::window::{
-    bar, click, drag, pose, press, proposal, services, session, settle, wait, window, window_with, with_network,
+    Window, bar, click, drag, pose, press, proposal, services, session, settle, wait, window, window_with, with_network,
 };
-use eframe::egui::{Key, Modifiers, pos2, vec2};
+use eframe::egui::{Key, Modifiers, accesskit, pos2, vec2};
 use egui_kittest::kittest::Queryable;
 use plushwright::design::animation;
 use plushwright::studio::session::{Propose, Services};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 #[test]
 fn networks_are_proposed_previewed_rejected_and_accepted() {
@@ -161,9 +161,9 @@ fn networks_that_no_hand_can_sew_are_marked() {
     marked(&mut window, "right", true);
     marked(&mut window, "left", false);
     click(&mut window, "Settings");
-    window.get_by_role_and_label(egui::accesskit::Role::SpinButton, "Sharpest turn").scroll_to_me();
+    window.get_by_role_and_label(accesskit::Role::SpinButton, "Sharpest turn").scroll_to_me();
     settle(&mut window);
-    let value = window.get_by_role_and_label(egui::accesskit::Role::SpinButton, "Sharpest turn").rect().center();
+    let value = window.get_by_role_and_label(accesskit::Role::SpinButton, "Sharpest turn").rect().center();
     drag(&mut window, value, value + vec2(400.0, 0.0));
     assert_eq!(session(&window).design().sewing.turn_degrees, 180.0);
     assert_eq!(session(&window).history().undo_label(), Some("Sewing settings"));
