@@ -25,6 +25,10 @@ pub const TENDON_STIFFNESS: f64 = 5.0;
 pub const TENDON_EPSILON_MM: f64 = 0.2;
 /// Largest contraction of a tendon as a fraction of its rest length: beyond half, felt bunches up.
 pub const TENDON_MAX_CONTRACTION: f64 = 0.5;
+/// Coefficient of friction of a cable at its holes in a new design, dimensionless. A guess, to be replaced by a measured one: tables give
+/// 0.15 to 0.25 for nylon on nylon (Engineering ToolBox, "Friction coefficients", clean and dry), and none was found for line through felt or
+/// eyelets of a plushie. Measured as strings on tennis felt are (USRSA): a turn of line over a felt roller, `ln(pull/hold)/angle`.
+pub const NEW_FRICTION: f64 = 0.2;
 
 /// Stiffness of a pin, N/mm: a pinned point moves under a micrometre per mN while the matrix stays well conditioned.
 pub const PIN_STIFFNESS: f64 = 20.0;

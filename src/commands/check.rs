@@ -12,6 +12,9 @@ use std::sync::atomic::AtomicBool;
 ///
 /// Target errors are rms distances in body lengths (the longer side of the rest silhouette's box); times are in ms. Where a
 /// plushie does not come to equilibrium the figures are those of the nearest state found, and the exit code is 3.
+/// With friction, by option or by the design's `tendons.friction`, it also says how close the realizable plushie comes when its cables rub:
+/// at the activations that are best when all cables have been pulled (`error_realizable_friction`), and at the same ones when they have been
+/// let out (`error_realizable_letting_out`). In between, the plushie stays where it was.
 /// What no hand can sew by the design's rules is listed: places at rest, and pieces of cable that leave the body in a pose. The JSON has
 /// them as `sewing`: rule, winch, tendon and piece counted from 1, hole counted from the winch (number 0), value, limit (mm, degrees or a
 /// count) and severity (value to limit, 1 at the limit).
@@ -23,12 +26,15 @@ pub struct Check {
     /// Print JSON; errors as fractions of the body length
     #[arg(long)]
     pub json: bool,
+    /// Coefficient of friction of the cables at their holes, 0 to 1 (the design's own, unless given)
+    #[arg(long, value_name = "MU", allow_hyphen_values = true)]
+    pub friction: Option<f64>,
 }
 
 impl Check {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
         let design = document::load(&self.design)?;
-        let figures = table::figures(&design, cancel)?;
+        let figures = table::figures(&design, self.friction, cancel)?;
         if self.json {
             say_json(out, &figures)?;
         } else {

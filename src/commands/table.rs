@@ -8,14 +8,15 @@ use crate::operations::{Context, Unbalanced};
 use std::io::Write;
 use std::sync::atomic::AtomicBool;
 
-/// The figures of all poses.
+/// The figures of all poses, with this coefficient of friction or the design's own.
 ///
 /// # Errors
-/// It was cancelled.
-pub fn figures(design: &Design, cancel: &AtomicBool) -> Result<Figures, CommandError> {
-    check::run(design, &check::Options::default(), &Context::new(cancel)).map_err(|error| match error {
+/// The coefficient is none; it was cancelled.
+pub fn figures(design: &Design, friction: Option<f64>, cancel: &AtomicBool) -> Result<Figures, CommandError> {
+    let options = check::Options { friction, ..check::Options::default() };
+    check::run(design, &options, &Context::new(cancel)).map_err(|error| match error {
         Error::Cancelled(_) => CommandError::Cancelled,
-        error @ Error::NoSuchPose(_) => CommandError::Usage(error.to_string()),
+        error @ (Error::NoSuchPose(_) | Error::Friction(_)) => CommandError::Usage(error.to_string()),
     })
 }
 
@@ -23,7 +24,7 @@ pub fn figures(design: &Design, cancel: &AtomicBool) -> Result<Figures, CommandE
 pub fn unbalanced(figures: &Figures) -> impl Iterator<Item = &Unbalanced> {
     figures.notes.iter().filter_map(|note| match note {
         Note::Unbalanced(unbalanced) => Some(unbalanced),
-        Note::Warning { .. } => None,
+        Note::Warning { .. } | Note::Friction { .. } => None,
     })
 }
 
@@ -72,9 +73,26 @@ fn poses(figures: &Figures, out: &mut dyn Write) -> Result<(), CommandError> {
             ),
         )?;
     }
+    friction(figures, width, out)?;
     // What is off equilibrium is told at the end, as the error that it is.
-    for warning in figures.notes.iter().filter(|note| matches!(note, Note::Warning { .. })) {
+    for warning in figures.notes.iter().filter(|note| !matches!(note, Note::Unbalanced(_))) {
         say(out, &format!("note: {warning}"))?;
+    }
+    Ok(())
+}
+
+/// How close the realizable plushie comes when its cables rub, where that was asked for.
+fn friction(figures: &Figures, width: usize, out: &mut dyn Write) -> Result<(), CommandError> {
+    if figures.poses.iter().all(|p| p.error_realizable_friction.is_none()) {
+        return Ok(());
+    }
+    say(out, "")?;
+    say(out, &format!("{:width$}  realizable with friction at the holes (% of body length)", ""))?;
+    say(out, &format!("{:width$}  pulled  the same let out", "pose"))?;
+    let percent = |error: Option<f64>| error.map_or("-".into(), |error| format!("{:.2}", 100.0 * error));
+    for p in &figures.poses {
+        let [pulled, let_out] = [p.error_realizable_friction, p.error_realizable_letting_out].map(percent);
+        say(out, &format!("{:width$}  {pulled:>6}  {let_out:>16}", p.name))?;
     }
     Ok(())
 }

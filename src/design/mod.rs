@@ -215,7 +215,7 @@ impl Design {
         let others = self.all_terms().is_empty()
             && stiffness_map.is_none()
             && self.drawing.is_none()
-            && *tendons == TendonSettings::default();
+            && [TendonSettings::default(), TendonSettings::begun()].contains(tendons);
         lists && physics && made && others
     }
 

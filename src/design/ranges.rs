@@ -34,6 +34,7 @@ ranges! {
     TENDON_STIFFNESS: "tendons.stiffness", "N/mm", 1e-6, 1e6, "steel rope 1 mm thick is 1e3";
     TENDON_EPSILON: "tendons.epsilon_mm", "mm", 1e-6, 1e3, "below, a tendon is a kink that no step can cross";
     TENDON_CONTRACTION: "tendons.max_contraction", "", 0.0, 1.0, "a part of the length";
+    FRICTION: "tendons.friction", "", 0.0, 1.0, "lines on cloth are 0.1 to 0.5; 0 is none";
     TEXTURE_SIZE: "texture_box, its sides", "mm", 1e-3, 2e6, "as the body";
     SEAM_ALLOWANCE: "fabrication.seam_allowance_mm", "mm", 0.0, 1e3, "shops use 6 to 10";
     TENDON_HOLE: "fabrication.tendon_hole_mm", "mm", 1e-2, 100.0, "what can be cut";

@@ -1,5 +1,6 @@
 //! Settings of a design: material, fibres, tendons, fabrication, controllers. The figures come from [`crate::defaults`].
 
+use super::is_zero;
 use crate::defaults;
 use crate::mesh::Mesh;
 use crate::physics::terms::GRAVITY;
@@ -45,6 +46,9 @@ pub struct TendonSettings {
     pub epsilon_mm: f64,
     /// Largest contraction as a fraction of the rest length.
     pub max_contraction: f64,
+    /// `mu` of a cable at the holes it passes, dimensionless; 0: no friction. The default is that of old files, which had none.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub friction: f64,
 }
 
 /// Gravity, off unless present.
@@ -121,7 +125,15 @@ impl Default for TendonSettings {
             stiffness: defaults::TENDON_STIFFNESS,
             epsilon_mm: defaults::TENDON_EPSILON_MM,
             max_contraction: defaults::TENDON_MAX_CONTRACTION,
+            friction: 0.0,
         }
+    }
+}
+
+impl TendonSettings {
+    /// Those of a design that is begun: as the default ones, with the friction that is guessed at.
+    pub fn begun() -> Self {
+        Self { friction: defaults::NEW_FRICTION, ..Self::default() }
     }
 }
 

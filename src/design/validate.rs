@@ -113,6 +113,7 @@ pub(super) fn settings(design: &Design) -> Check {
     ranges::TENDON_STIFFNESS.check("tendons.stiffness", design.tendons.stiffness)?;
     ranges::TENDON_EPSILON.check("tendons.epsilon_mm", design.tendons.epsilon_mm)?;
     ranges::TENDON_CONTRACTION.check("tendons.max_contraction", design.tendons.max_contraction)?;
+    ranges::FRICTION.check("tendons.friction", design.tendons.friction)?;
     made(design)?;
     if let Some(gravity) = &design.gravity {
         ranges::parameters("gravity", &Term::from(*gravity))?;

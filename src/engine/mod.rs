@@ -6,6 +6,7 @@
 mod body_spec;
 pub mod compile;
 mod compiled;
+pub mod friction;
 mod idealized;
 mod measure;
 pub mod patch;
@@ -22,6 +23,7 @@ pub mod worker;
 pub use crate::soft_ik::Quality;
 pub use body_spec::BodySpec;
 pub use compiled::Effort;
+pub use friction::{Rubbed, Unrubbed, pose_with_friction};
 pub use measure::target_error;
 pub use play::Play;
 pub use request::{Outcome, Question, Request};

@@ -2,9 +2,8 @@
 
 use super::posing::{self, solve};
 use super::{Cancelled, Context, NoSuchPose, Unbalanced, View};
-use crate::design::{Design, Pose};
-use crate::engine::target_error;
-use crate::engine::{Question, Warning};
+use crate::design::{Design, EditError, Pose, TendonSettings, edit};
+use crate::engine::{Question, Rubbed, Shape, Unrubbed, Warning, pose_with_friction, target_error};
 use crate::fabrication::{judge_design, judge_pose};
 use crate::motion::winch_labels;
 use crate::sewing::Breach;
@@ -19,6 +18,8 @@ use std::sync::Arc;
 pub struct Options {
     /// Names of poses; none for all.
     pub poses: Vec<String>,
+    /// Coefficient of friction of all tendons at their holes; none for the design's own.
+    pub friction: Option<f64>,
 }
 
 /// Why a design has no figures.
@@ -26,6 +27,9 @@ pub struct Options {
 pub enum Error {
     #[error(transparent)]
     NoSuchPose(#[from] NoSuchPose),
+    /// A coefficient of friction that no design may have.
+    #[error(transparent)]
+    Friction(#[from] EditError),
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
@@ -40,6 +44,11 @@ pub enum Note {
         view: View,
         warning: Warning,
     },
+    /// Figures under friction that are missing, and why.
+    Friction {
+        pose: String,
+        why: Unrubbed,
+    },
 }
 
 impl fmt::Display for Note {
@@ -47,6 +56,7 @@ impl fmt::Display for Note {
         match self {
             Self::Unbalanced(unbalanced) => unbalanced.fmt(f),
             Self::Warning { pose, view, warning } => write!(f, "{pose}, {view}: {warning}"),
+            Self::Friction { pose, why } => write!(f, "{pose}, no figure under friction: {why}"),
         }
     }
 }
@@ -101,6 +111,13 @@ pub struct PoseFigures {
     /// The worst error of the realizable plushie where one winch is a millimetre off; absent without winches.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error_realizable_1mm_off: Option<f64>,
+    /// The error of the realizable plushie at the activations that serve it best when cables rub and have been pulled; absent without
+    /// friction, and where it is not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error_realizable_friction: Option<f64>,
+    /// That of the same activations when all cables have been let out: the other end of what friction leaves open.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error_realizable_letting_out: Option<f64>,
     /// Whether that is so much worse that the pose counts as narrow.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub narrow: Option<bool>,
@@ -115,14 +132,20 @@ pub struct PoseFigures {
 /// not depend on how many there are.
 ///
 /// # Errors
-/// [`Error::NoSuchPose`] for a name that none has; [`Error::Cancelled`].
+/// [`Error::NoSuchPose`] for a name that none has; [`Error::Friction`] for a coefficient out of its range; [`Error::Cancelled`].
 pub fn run(design: &Design, options: &Options, context: &Context) -> Result<Figures, Error> {
     options.poses.iter().try_for_each(|name| posing::targets(design, name).map(drop))?;
     let wanted = |pose: &&Pose| options.poses.is_empty() || options.poses.contains(&pose.name);
     let wanted: Vec<&Pose> = design.poses.iter().filter(wanted).collect();
+    let mut friction = design.tendons.friction;
+    if let Some(mu) = options.friction {
+        let tendons = TendonSettings { friction: mu, ..design.tendons.clone() };
+        edit::set_tendons(&mut design.clone(), tendons)?;
+        friction = mu;
+    }
     // A context belongs to one thread; what tells it to stop does not.
     let cancel = context.cancel();
-    let solved = in_order(&wanted, |pose| pose_figures(design, pose, &Context::new(cancel)));
+    let solved = in_order(&wanted, |pose| pose_figures(design, pose, friction, &Context::new(cancel)));
     let names: Arc<[String]> = winch_labels(design).into();
     let unsewable =
         |pose: Option<&str>, breach: Breach| Unsewable { pose: pose.map(str::to_owned), breach, names: names.clone() };
@@ -155,7 +178,7 @@ struct Posed {
     notes: Vec<Note>,
 }
 
-fn pose_figures(design: &Design, pose: &Pose, context: &Context) -> Result<Posed, Cancelled> {
+fn pose_figures(design: &Design, pose: &Pose, friction: f64, context: &Context) -> Result<Posed, Cancelled> {
     let shapes = solve(design, Question::Targets(pose.targets.clone()), [true, true], context)?;
     let mut notes: Vec<Note> = Unbalanced::of(&pose.name, &shapes).into_iter().map(Note::Unbalanced).collect();
     for (view, shape) in [View::Idealized, View::Realizable].into_iter().zip(&shapes) {
@@ -163,6 +186,8 @@ fn pose_figures(design: &Design, pose: &Pose, context: &Context) -> Result<Posed
         notes.extend(warning.map(|warning| Note::Warning { pose: pose.name.clone(), view, warning }));
     }
     let [idealized, realizable] = shapes;
+    let (rubbed, why) = rubbed(design, pose, &realizable, friction, context)?;
+    notes.extend(why.into_iter().map(|why| Note::Friction { pose: pose.name.clone(), why }));
     let figures = PoseFigures {
         name: pose.name.clone(),
         targets: pose.targets.len(),
@@ -170,6 +195,8 @@ fn pose_figures(design: &Design, pose: &Pose, context: &Context) -> Result<Posed
         error_idealized: idealized.target_error,
         error_realizable: realizable.target_error,
         error_realizable_1mm_off: realizable.play.map(|play| play.error),
+        error_realizable_friction: rubbed[0],
+        error_realizable_letting_out: rubbed[1],
         narrow: realizable.play.map(|_| matches!(realizable.warning, Some(Warning::Narrow { .. }))),
         milliseconds_idealized: idealized.milliseconds,
         milliseconds_realizable: realizable.milliseconds,
@@ -177,6 +204,28 @@ fn pose_figures(design: &Design, pose: &Pose, context: &Context) -> Result<Posed
         imbalance_realizable: realizable.distance_from_equilibrium(),
     };
     Ok(Posed { figures, outside: judge_pose(design, &realizable.nodes), notes })
+}
+
+/// Errors of the realizable plushie under friction, pulled and let out, and why one of them is missing.
+fn rubbed(
+    design: &Design,
+    pose: &Pose,
+    realizable: &Shape,
+    friction: f64,
+    context: &Context,
+) -> Result<([Option<f64>; 2], Option<Unrubbed>), Cancelled> {
+    // What is off equilibrium, or where nothing can be wound, has no friction to ask for.
+    if friction <= 0.0 || !realizable.converged || design.networks.is_empty() || pose.targets.is_empty() {
+        return Ok(([None; 2], None));
+    }
+    let stop = || context.check().is_err();
+    let found = pose_with_friction(design, &pose.targets, &realizable.activations_mm, friction, &stop);
+    context.check()?;
+    Ok(match found {
+        Ok(Rubbed { error, error_letting_out: Ok(let_out), .. }) => ([Some(error), Some(let_out)], None),
+        Ok(Rubbed { error, error_letting_out: Err(why), .. }) => ([Some(error), None], Some(why.into())),
+        Err(why) => ([None; 2], Some(why)),
+    })
 }
 
 #[cfg(test)]

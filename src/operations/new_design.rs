@@ -1,10 +1,10 @@
 //! An outline becomes a meshed design.
 
 use super::{Cancelled, Context, FiberCount};
-use crate::design::{Design, MAX_NAME_CHARS};
+use crate::design::{Design, MAX_NAME_CHARS, TendonSettings};
 use crate::files::is_hidden;
 use crate::mesh::{self, Mesh, MeshError, Request};
-use crate::outline::{self, Changes, Import, Imported, OutlineError};
+use crate::outline::{self, Changes, Import, Imported, Outline, OutlineError};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -75,14 +75,19 @@ fn meshed(imported: Imported, options: &Options) -> Result<(Design, Changes, Vec
     if let (Some((nodes, triangles)), FiberCount::Usual) = (mesh, options.fibers) {
         let mesh = Mesh { nodes, triangles };
         mesh.validate()?;
-        return Ok((Design::new(name, outline, mesh), changes, Vec::new()));
+        return Ok((begun(name, outline, mesh), changes, Vec::new()));
     }
     let (meshed, count) = mesh::build_or_finer(&outline, &request)?;
     if count != asked && !more {
         return Err(MeshError::Unreachable { asked, nearest: count }.into());
     }
     let notes = if count == asked { Vec::new() } else { vec![Note::MoreFibers { asked, count }] };
-    Ok((Design { drawing, ..Design::new(name, outline, meshed.mesh) }, changes, notes))
+    Ok((Design { drawing, ..begun(name, outline, meshed.mesh) }, changes, notes))
+}
+
+/// A bare design whose cables rub as much as is guessed.
+fn begun(name: String, outline: Outline, mesh: Mesh) -> Design {
+    Design { tendons: TendonSettings::begun(), ..Design::new(name, outline, mesh) }
 }
 
 /// A name for a design in a file of that name, or made of one: as far as a name can say it.

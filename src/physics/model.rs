@@ -233,6 +233,11 @@ impl Model {
         }
     }
 
+    /// Adds to the Hessian assembled last what is no term of `E`.
+    pub(super) fn add_assembled(&mut self, slots: &Slots, add: impl FnOnce(&mut Scatter)) {
+        add(&mut Scatter::new(slots, &mut self.values));
+    }
+
     /// The exact Hessian where it is positive definite, else the projected one. Says which it was; an error means that
     /// even the projected one failed.
     ///

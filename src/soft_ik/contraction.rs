@@ -171,7 +171,7 @@ impl Linearisation {
 }
 
 /// Stacks the residuals' Jacobian: targets, rest weights, tensions; relative contractions are diagonal.
-fn quadratic(
+pub(super) fn quadratic(
     question: &Question,
     at: &Posture,
     base: &[f64],

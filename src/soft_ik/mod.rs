@@ -22,6 +22,7 @@ pub mod contraction;
 pub mod default_method;
 mod fibers;
 pub mod frame;
+pub mod friction;
 pub mod gradient;
 mod method;
 pub mod methods;

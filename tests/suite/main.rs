@@ -12,6 +12,7 @@ mod export;
 mod extremes;
 #[cfg(unix)]
 mod files;
+mod friction;
 mod hostile;
 mod import;
 mod layers;

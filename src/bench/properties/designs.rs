@@ -193,6 +193,7 @@ fn change(random: &mut Random, design: &mut Design) -> Result<(), EditError> {
                 stiffness: 10f64.powf(random.between(-3.0, 7.0)),
                 epsilon_mm: 10f64.powf(random.between(-6.0, 0.5)),
                 max_contraction: random.between(0.0, 1.0),
+                friction: random.between(0.0, 1.0),
             };
             edit::set_tendons(design, tendons)
         }

@@ -153,6 +153,8 @@ fn tendons(ui: &mut Ui, session: &Session, actions: &mut Actions) {
         1e-2..=1e4,
     );
     number(ui, "Largest winding", "", "As a fraction of the tendon's rest length", &mut t.max_contraction, 0.05..=0.95);
+    let tip = "Friction coefficient of cable at its holes: check tells what it costs. New designs have a guess; measure yours. 0 is none";
+    number(ui, "Friction", "", tip, &mut t.friction, 0.0..=1.0);
     if t != session.design().tendons {
         actions.push(Action::Live(Change::Tendons(t)));
     }
