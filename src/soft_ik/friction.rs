@@ -182,16 +182,7 @@ impl Local {
                 idle.push(j);
             }
         }
-        let mut columns = vec![0.0; n * base.len()];
-        for (winch, column) in question.actuation.winches.iter().zip(columns.chunks_exact_mut(n)) {
-            for &(e, ratio) in &winch.members {
-                friction.add_weighted_gradient(question.model, e, &at.x, -ratio * tangents[e], column);
-            }
-            if stop() {
-                return None;
-            }
-            jacobian.solve(question.model, column)?;
-        }
+        let mut columns = columns(question, friction, &jacobian, &at.x, &tangents, stop)?;
         let mut slope = vec![0.0; n];
         question.objective.position_gradient(&at.x, &mut slope);
         for j in idle {
@@ -230,6 +221,43 @@ impl Local {
         let guess = at.x.iter().zip(dx).map(|(x, d)| x + part * d).collect();
         Some((beta, guess, self.model.promise(&step)))
     }
+}
+
+/// `dx/dbeta` of all free winches, column after column, at the equilibrium `x` when all cables are being pulled; the elements' laws are as
+/// the winches stand. `None` where the body has no stiffness against some motion, or `stop` has ended it.
+pub fn position_jacobian(
+    question: &mut Question,
+    friction: &Friction,
+    x: &[f64],
+    stop: &dyn Fn() -> bool,
+) -> Option<Vec<f64>> {
+    let contractile = &question.model.contractile;
+    let laws = contractile.elements.iter().zip(&contractile.laws);
+    let tangents: Vec<f64> = laws.map(|(e, law)| law.tension_and_tangent(e, e.length(x)).1).collect();
+    let jacobian = Bordered::new(friction, question.model, x, 1.0, HessianForm::Exact).ok()?;
+    columns(question, friction, &jacobian, x, &tangents, stop)
+}
+
+/// [`position_jacobian`] with the Jacobian of the forces at hand, and with tangents given.
+fn columns(
+    question: &mut Question,
+    friction: &Friction,
+    jacobian: &Bordered,
+    x: &[f64],
+    tangents: &[f64],
+    stop: &dyn Fn() -> bool,
+) -> Option<Vec<f64>> {
+    let mut columns = vec![0.0; x.len() * question.actuation.winches.len()];
+    for (winch, column) in question.actuation.winches.iter().zip(columns.chunks_exact_mut(x.len())) {
+        for &(e, ratio) in &winch.members {
+            friction.add_weighted_gradient(question.model, e, x, -ratio * tangents[e], column);
+        }
+        if stop() {
+            return None;
+        }
+        jacobian.solve(question.model, column)?;
+    }
+    Some(columns)
 }
 
 /// Winds the winches to `beta`; the contractions of all elements.

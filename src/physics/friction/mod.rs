@@ -12,7 +12,7 @@
 //! `s = 1` where every cable is being pulled and `s = -1` where it is being let out: the two ends of a band within which the body
 //! stays where it was ([`Direction`]). All cables slide the same way; a cable that another one drags back through its holes is
 //! not told apart. The law has no energy and its Jacobian no symmetry. It is the symmetric matrix `H` that statics factorises, with
-//! the curvature of each piece weighted, and a border of few columns ([`bordered`](self)): with `a_j = -s mu tau sum_{k >= j} w_k grad l_k`,
+//! the curvature of each piece weighted, and a border of few columns ([`Bordered`]): with `a_j = -s mu tau sum_{k >= j} w_k grad l_k`,
 //!
 //! ```text
 //! dr/dx = H + sum U'' (g_w - g) g^T + sum_j a_j (dtheta_j/dx)^T

@@ -28,10 +28,10 @@ pub struct Slid {
 
 /// Why there is none; the best state reached comes with it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("with {:.0} % of the friction: {fault}", 100.0 * reached)]
+#[error("at {:.0} % of the friction when {}: {fault}", 100.0 * reached.abs(), if *reached < 0.0 { "let out" } else { "pulled" })]
 pub struct FrictionError {
     pub fault: Fault,
-    /// The part of the friction with which forces balanced last, from 0 to 1.
+    /// The part of the friction with which forces balanced last, from -1 (all of it, letting out) to 1 (pulling).
     pub reached: f64,
     /// The state there.
     pub best: Slid,
@@ -99,7 +99,7 @@ pub fn follow(
     let mut now = Slid { x: start.to_vec(), ..Slid::default() };
     match newton(model, friction, &mut now, direction.sign(), stop) {
         Ok(()) => Ok(now),
-        Err(fault) => Err(Box::new(FrictionError { fault, reached: 1.0, best: now })),
+        Err(fault) => Err(Box::new(FrictionError { fault, reached: direction.sign(), best: now })),
     }
 }
 
@@ -142,7 +142,7 @@ fn add_friction(
                 (now.iterations, now.factorizations) = (trial.iterations, trial.factorizations);
                 part *= 0.5;
                 if part < SHORTEST_PART || fault == Fault::Cancelled {
-                    let reached = (from + done * (to - from)).abs();
+                    let reached = from + done * (to - from);
                     return Err(Box::new(FrictionError { fault, reached, best: now.clone() }));
                 }
             }
