@@ -240,7 +240,8 @@ mod tests {
         design.pins.clear();
         let first = design.poses[0].name.clone();
         let go = AtomicBool::new(false);
-        let of = |name: &str| run(&design, &Options { poses: vec![name.to_owned()] }, &Context::new(&go));
+        let of =
+            |name: &str| run(&design, &Options { poses: vec![name.to_owned()], friction: None }, &Context::new(&go));
         let figures = of(&first).unwrap();
         assert_eq!((figures.poses.len(), &figures.poses[0].name), (1, &first));
         // Nothing holds the body.

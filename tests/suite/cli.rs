@@ -188,6 +188,26 @@ fn a_pose_travels_from_the_command_line_to_the_check() {
 }
 
 #[test]
+fn friction_is_told_where_it_is_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let f = folder.path();
+    fs::write(f.join("pig.plush"), include_str!("../../examples/pig.plush")).unwrap();
+    let table = succeed(f, &["check", "pig.plush", "--friction", "0.2"]);
+    assert!(table.contains("realizable with friction at the holes") && table.contains("let out"), "{table}");
+    let pose = |args: &[&str]| {
+        let json: serde_json::Value = serde_json::from_str(&succeed(f, args)).unwrap();
+        json["poses"][0].clone()
+    };
+    let asked = pose(&["check", "pig.plush", "--json", "--friction", "0.2"]);
+    let [plain, pulled, let_out] =
+        ["", "_friction", "_letting_out"].map(|end| asked[format!("error_realizable{end}")].as_f64().unwrap());
+    assert!(pulled != plain && let_out != pulled && pulled < 0.1 && let_out < 0.1, "{asked}");
+    let without = pose(&["check", "pig.plush", "--json"]);
+    assert_eq!(without["error_realizable"].as_f64(), Some(plain));
+    assert!(without.get("error_realizable_friction").is_none(), "{without}");
+}
+
+#[test]
 fn a_picture_has_the_size_asked_for() {
     let folder = bar();
     succeed(folder.path(), &["render", "bar.plush", "-o", "bar.png", "--size", "320x180"]);

@@ -3,8 +3,8 @@
 use crate::support::bodies::{Mesh, bar, dot, largest, largest_difference, neo_hookean, plus};
 use crate::support::{Random, rectangle, rigged};
 use plushwright::defaults;
-use plushwright::design::{Design, Network, Pin, Tendon, file};
-use plushwright::engine::compile::{View, compile};
+use plushwright::design::{Design, Network, Pin, Tendon, bundled, file};
+use plushwright::engine::compile::{View, compile, objective};
 use plushwright::engine::{Unrubbed, pose_with_friction};
 use plushwright::operations::{Context, FiberCount, check, new_design};
 use plushwright::physics::friction::{self, Bordered, Fault, Friction};
@@ -12,7 +12,7 @@ use plushwright::physics::{
     Direction, Element, HessianForm, MaterialPoint, Model, NeoHookean, PinSpring, Pins, StaticsSettings, statics,
 };
 use plushwright::soft_ik::friction::position_jacobian;
-use plushwright::soft_ik::{Actuation, Objective, Question, Winch};
+use plushwright::soft_ik::{self, Actuation, Objective, Question, Winch};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::atomic::AtomicBool;
 
@@ -273,4 +273,52 @@ fn friction_is_a_setting_that_old_files_lack_and_new_designs_guess() {
     let begun = new_design::run(svg, &options, &Context::new(&AtomicBool::new(false))).unwrap().design;
     assert_eq!(begun.tendons.friction, defaults::NEW_FRICTION);
     assert!(begun.is_bare());
+}
+
+/// One winch: what is found is as good as the best of many states on the way of its whole range.
+#[test]
+fn a_winch_is_wound_as_well_as_in_a_dense_scan() {
+    for name in ["Pig", "E"] {
+        let design = bundled::ALL.iter().find(|b| b.name == name).unwrap().design().unwrap();
+        let mut plushie = compile(&design, View::Realizable).unwrap();
+        let rubbing = plushie.friction(0.2);
+        let objective = objective(&design, &plushie, &design.poses[0].targets);
+        let actuation = Actuation { winches: plushie.winches.clone(), fixed: vec![0.0; plushie.tendons.len()] };
+        let mut question = Question { model: &mut plushie.model, actuation: &actuation, objective: &objective };
+        let (mut best, mut x) = ((f64::INFINITY, 0.0), question.model.rest.clone());
+        for k in 0..=60 {
+            let beta = actuation.winches[0].upper * f64::from(k) / 60.0;
+            let contractions = actuation.contractions(&[beta]);
+            question.model.contractile.set_contractions(&contractions);
+            x = friction::follow(question.model, &rubbing, &x, Direction::Pulling, GO).unwrap().x;
+            let there = question.objective_at(&x, &contractions);
+            if there < best.0 {
+                best = (there, beta);
+            }
+        }
+        // From a little beside it, as the frictionless answer is.
+        let found = soft_ik::friction::pose(&mut question, &rubbing, &[0.9 * best.1], GO).unwrap();
+        assert!(found.converged && found.pulled.objective <= best.0, "{name}: {} {best:?}", found.pulled.objective);
+    }
+}
+
+/// Let out, a cable that goes back and forth 400 times would carry more at its end than a number can hold: that is told, not shown.
+#[test]
+fn what_has_no_equilibrium_is_refused_with_the_best_state() {
+    let mesh = bar(4.0, 1.0, 12, 3);
+    let ends = [mesh.at(2, 1), mesh.at(8, 2)];
+    let routing: Vec<usize> = (0..400).map(|k| ends[k % 2]).collect();
+    let mut cable = mesh.element(&routing, 3.0, 0.01);
+    cable.alpha0 *= 0.999;
+    let mut model = mesh.model(neo_hookean(), vec![cable], mesh.left_pins(100.0), Vec::new());
+    let rubbing = Friction::new(&model, &[1.0]);
+    let error = friction::settle(&mut model, &rubbing, &mesh.flat(), Direction::LettingOut, GO).unwrap_err();
+    assert!(error.reached > -1.0 && error.reached <= 0.0, "{error}");
+    assert!(error.to_string().contains("when let out") || error.reached == 0.0, "{error}");
+    assert!(error.best.x.iter().all(|v| v.is_finite()));
+    let mut force = vec![0.0; error.best.x.len()];
+    rubbing.residual(&model, &error.best.x, error.reached, &mut force);
+    assert!(largest(&force) <= 1e-7 * model.force_scale(&error.best.x), "what was reached is in balance");
+    let pulled = friction::settle(&mut model, &rubbing, &mesh.flat(), Direction::Pulling, GO).unwrap();
+    assert!(model.energy(&pulled.x).is_finite());
 }

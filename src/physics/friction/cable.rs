@@ -5,7 +5,7 @@ use crate::physics::{Element, Model};
 
 /// Turns below this many radians, half a degree, count less than they are, so that the law is smooth where a cable passes a hole
 /// straight: `|phi|` becomes `phi^2 (2 - |phi|/R)/R`, which meets it with equal slope at `R`. No turn is off by more than
-/// a quarter of it, no tension by more than a part of `0.0022 mu`; smaller, and Newton's method sees a corner.
+/// `4/27 R`, no tension by more than a part of `0.0013 mu` a hole. Smaller, and Newton's method sees a corner.
 const RIM: f64 = 0.00873;
 
 /// A cable that rubs.
