@@ -168,15 +168,14 @@ fn sensitivities_under_friction_are_those_of_equilibria_solved_anew() {
         friction::follow(&mut model, &rubbing, from, Direction::Pulling, GO).unwrap().x
     };
     let x = settled(at, &mesh.flat());
-    let rates = |h: f64, settled: &mut dyn FnMut([f64; 2], &[f64]) -> Vec<f64>| -> Vec<f64> {
-        let one = |j: usize, by: f64| [0, 1].map(|k| at[k] + if j == k { by } else { 0.0 });
-        let rate = |j: usize, settled: &mut dyn FnMut([f64; 2], &[f64]) -> Vec<f64>| {
-            let [up, down] = [settled(one(j, h), &x), settled(one(j, -h), &x)];
+    let [coarse, fine] = [2e-3, 1e-3].map(|h| -> Vec<f64> {
+        let rate = |j: usize| {
+            let off = |by: f64| [0, 1].map(|k| at[k] + if j == k { by } else { 0.0 });
+            let [up, down] = [h, -h].map(|by| settled(off(by), &x));
             up.iter().zip(&down).map(|(u, d)| (u - d) / (2.0 * h)).collect::<Vec<_>>()
         };
-        [rate(0, settled), rate(1, settled)].concat()
-    };
-    let [coarse, fine] = [2e-3, 1e-3].map(|h| rates(h, &mut settled));
+        [0, 1].map(rate).concat()
+    });
     model.contractile.set_contractions(&actuation.contractions(&at));
     let mut question = Question { model: &mut model, actuation: &actuation, objective: &objective };
     let exact = position_jacobian(&mut question, &rubbing, &x, GO).unwrap();
