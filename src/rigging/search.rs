@@ -3,6 +3,7 @@
 use super::candidate::unused_name;
 use super::greedy;
 use super::joint::Joint;
+use super::layout::rigs_of;
 use super::moves::{Ground, Shape};
 use super::options::{Method, Progress, RigError, RigOptions, TendonChoice};
 use super::prune::{SERVED, pruned};
@@ -113,7 +114,9 @@ fn coarser(design: &Design) -> Option<Design> {
 
 fn sewable<'a>(design: &'a Design, rim: &'a Outline, options: &RigOptions) -> Option<Sewable<'a>> {
     let gap_mm = design.fabrication.turning_gap_mm;
-    options.rules.then(|| Sewable::new(design.sewing, &design.outline, rim, gap_mm))
+    options
+        .rules
+        .then(|| Sewable::new(design.sewing, &design.outline, rim, gap_mm, rigs_of(&design.networks, &design.mesh)))
 }
 
 /// The best few layouts that a search finds on the design's own mesh; those that keep the rules, where any do.
@@ -128,7 +131,7 @@ fn layouts(
     let sewable = sewable(design, &outline, options);
     let task = Task::new(design, sewable.as_ref(), &design.networks);
     let ground = Ground::new(&design.mesh, sewable.as_ref());
-    let mut joint = Joint::new(&task, &ground, shape.clone(), Vec::new(), options.seed, &stop);
+    let mut joint = Joint::new(&task, &ground, shape.clone(), options.seed, &stop);
     let (mut best, mut since) = (f64::INFINITY, 0);
     for round in 0..options.rounds {
         let Some(fit) = joint.best() else { break };
