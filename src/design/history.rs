@@ -127,7 +127,7 @@ impl History {
         self.saved = Some(self.current.clone());
     }
 
-    /// The document exists nowhere but here (a new one, a bundled example): modified until it is saved.
+    /// The document exists nowhere but here (a new one): modified until it is saved.
     pub fn mark_unsaved(&mut self) {
         self.saved = None;
     }

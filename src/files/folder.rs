@@ -44,7 +44,7 @@ pub struct Listed {
 #[derive(Debug, Error)]
 pub enum FolderError {
     #[error(
-        "{} exists and is not an earlier result of this command ({found:?} is in it): choose another folder",
+        "{} exists and is not an earlier result of the same kind ({found:?} is in it): choose another folder",
         super::shown(path)
     )]
     NotOurs { path: PathBuf, found: String },

@@ -4,7 +4,7 @@ use super::posing::{self, solve};
 use super::{Cancelled, Context, NoSuchPose, Unbalanced};
 use crate::design::edit::{self, EditError};
 use crate::design::{Design, Easing, Keyframe};
-use crate::engine::{Question, Shape};
+use crate::engine::Question;
 use serde::{Deserialize, Serialize};
 
 /// What is put on the timeline, and when.
@@ -59,19 +59,15 @@ pub fn prepare(design: &Design, options: &Options, context: &Context) -> Result<
         None => (vec![0.0; design.networks.len()], Vec::new()),
         Some(pose) => {
             let question = Question::Targets(posing::targets(design, pose)?);
-            let [_, shape] = solve(design, question, [false, true], context)?;
-            if shape.activations_mm.len() != design.networks.len() {
+            let shapes = solve(design, question, [false, true], context)?;
+            let activations_mm = shapes[1].activations_mm.clone();
+            if activations_mm.len() != design.networks.len() {
                 return Err(Error::Unsolved);
             }
-            (shape.activations_mm.clone(), unbalanced(design, pose, shape))
+            (activations_mm, Unbalanced::of(pose, &shapes).into_iter().map(Note::Unbalanced).collect())
         }
     };
     Ok(Keyed { keyframe: Keyframe { time_s, activations_mm, pose: pose.clone(), easing }, notes })
-}
-
-fn unbalanced(design: &Design, pose: &str, realizable: Shape) -> Vec<Note> {
-    let shapes = [posing::at_rest(design), realizable];
-    Unbalanced::of(pose, &shapes).into_iter().map(Note::Unbalanced).collect()
 }
 
 impl Keyed {

@@ -1,6 +1,6 @@
 //! An outline becomes a meshed design.
 
-use super::{Cancelled, Context, FiberCount};
+use super::{Cancelled, Context, FiberCount, MoreFibers};
 use crate::design::{Design, MAX_NAME_CHARS};
 use crate::files::is_hidden;
 use crate::mesh::{self, Mesh, MeshError, Request};
@@ -36,8 +36,8 @@ pub enum Error {
 /// What the design's maker should know besides what was [changed](Changes) in the outline.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Note {
-    #[error("the outline needs more than {asked} fibers; it has {count}")]
-    MoreFibers { asked: usize, count: usize },
+    #[error(transparent)]
+    MoreFibers(#[from] MoreFibers),
 }
 
 /// A design, and what lies between it and the file.
@@ -81,7 +81,7 @@ fn meshed(imported: Imported, options: &Options) -> Result<(Design, Changes, Vec
     if count != asked && !more {
         return Err(MeshError::Unreachable { asked, nearest: count }.into());
     }
-    let notes = if count == asked { Vec::new() } else { vec![Note::MoreFibers { asked, count }] };
+    let notes = if count == asked { Vec::new() } else { vec![MoreFibers { asked, count }.into()] };
     Ok((Design { drawing, ..Design::new(name, outline, meshed.mesh) }, changes, notes))
 }
 
@@ -129,7 +129,7 @@ mod tests {
             panic!("{:?}", few(FiberCount::Exactly(3)))
         };
         let wish = few(FiberCount::AtLeast(3)).unwrap();
-        assert_eq!(wish.notes, [Note::MoreFibers { asked: 3, count: nearest }]);
+        assert_eq!(wish.notes, [Note::MoreFibers(MoreFibers { asked: 3, count: nearest })]);
     }
 
     #[test]

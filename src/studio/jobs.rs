@@ -39,7 +39,8 @@ pub enum Outcome {
     Imported(Result<Box<New>, Box<Refused>>),
     Exported {
         folder: PathBuf,
-        result: Result<(), String>,
+        /// Its remarks.
+        result: Result<Vec<String>, String>,
     },
     Textured {
         path: PathBuf,

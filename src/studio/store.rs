@@ -2,7 +2,7 @@
 //! rules): work that was not saved, which files are open, recent files and settings.
 
 use super::canvas::Plushie;
-use super::session::{QUALITIES, Views};
+use super::session::Views;
 use crate::engine::Quality;
 use crate::files::{self, sha256};
 use crate::picture::Shown;
@@ -160,7 +160,7 @@ impl Settings {
     }
 
     pub fn quality(&self) -> Option<Quality> {
-        QUALITIES.into_iter().find(|quality| self.quality.as_deref() == Some(&format!("{quality:?}")))
+        Quality::ALL.into_iter().find(|quality| self.quality.as_deref() == Some(&format!("{quality:?}")))
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::support::{Random, rectangle, rigged};
 use plushwright::design::{Design, Easing, Keyframe, MaterialPoint, Network, Tendon, animation};
 use plushwright::fabrication::{self, ExportError, Manifest, Options, blueprint, export};
+use plushwright::files::folder::FolderError;
 use plushwright::motion::{MotionError, Plan, TooFast, winch_labels};
 use roxmltree::{Document, Node};
 use sha2::{Digest, Sha256};
@@ -515,7 +516,10 @@ fn the_folder_appears_whole_or_not_at_all() {
 
     fs::write(dir.join("my notes.txt"), "mine").expect("written");
     let refused = export(&design, &dir, &Options::default()).expect_err("somebody's file is in it");
-    assert!(matches!(&refused, ExportError::NotOurs { found, .. } if found == "my notes.txt"), "{refused}");
+    assert!(
+        matches!(&refused, ExportError::Folder(FolderError::NotOurs { found, .. }) if found == "my notes.txt"),
+        "{refused}"
+    );
     assert_eq!(fs::read_to_string(dir.join("my notes.txt")).expect("still there"), "mine");
 
     let other = parent.path().join("other");

@@ -2,6 +2,7 @@
 
 use super::import_choice::ImportChoice;
 use crate::design::Design;
+use crate::operations::export;
 use crate::studio::jobs::{New, Running};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -24,7 +25,10 @@ pub enum FileAction {
         choice: ImportChoice,
     },
     SavePath(PathBuf),
-    ExportPath(PathBuf),
+    ExportPath {
+        folder: PathBuf,
+        options: export::Options,
+    },
     CloseDialog,
     /// Something was typed.
     EditDialog(PathDialog),
@@ -84,6 +88,7 @@ pub struct PathDialog {
     pub purpose: Purpose,
     pub path: String,
     pub import: ImportChoice,
+    pub export: export::Options,
     /// Why what was asked for last could not be had.
     pub trouble: Option<String>,
 }
@@ -163,7 +168,7 @@ impl PathDialog {
             Purpose::Open => FileAction::OpenPath(path),
             Purpose::Import => FileAction::ImportPath { path, choice: self.import.clone() },
             Purpose::SaveAs => FileAction::SavePath(path),
-            Purpose::Export => FileAction::ExportPath(path),
+            Purpose::Export => FileAction::ExportPath { folder: path, options: self.export },
         }
     }
 }

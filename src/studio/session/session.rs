@@ -20,6 +20,7 @@ use crate::design::{Design, Target};
 use crate::discovery::Parameters;
 use crate::engine::{Quality, Request};
 use crate::files::Stamp;
+use crate::operations::export;
 use crate::outline::Drawing;
 use crate::picture::Texture;
 use crate::picture::layers::{Layer, Textured};
@@ -34,8 +35,8 @@ use std::sync::atomic::AtomicBool;
 
 /// Makes proposals for a design and the targets of a pose.
 pub type Propose = Arc<dyn Fn(&Design, &[Target], &Parameters, &AtomicBool) -> Vec<Proposal> + Send + Sync>;
-/// Writes the blueprint of a design into a folder.
-pub type Export = Arc<dyn Fn(&Design, &Path) -> Result<(), String> + Send + Sync>;
+/// Writes the blueprint of a design into a folder, and returns its remarks.
+pub type Export = Arc<dyn Fn(&Design, &Path, &export::Options) -> Result<Vec<String>, String> + Send + Sync>;
 
 /// The long work that is done elsewhere; tests put their own in.
 #[derive(Clone)]

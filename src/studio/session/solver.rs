@@ -6,9 +6,6 @@ use crate::engine::{NEAR_EQUILIBRIUM, Quality, Question, Request, Shape};
 use crate::studio::jobs::Wake;
 use std::sync::Arc;
 
-/// From the fastest to the most accurate.
-pub const QUALITIES: [Quality; 3] = [Quality::Draft, Quality::Balanced, Quality::Accurate];
-
 /// The newest good shapes.
 #[derive(Default)]
 pub struct Shapes {
@@ -71,8 +68,8 @@ impl Solver {
     }
 
     pub fn next_quality(&mut self) {
-        let next = QUALITIES.into_iter().skip_while(|quality| *quality != self.quality).nth(1);
-        self.quality = next.unwrap_or(QUALITIES[0]);
+        let next = Quality::ALL.into_iter().skip_while(|quality| *quality != self.quality).nth(1);
+        self.quality = next.unwrap_or(Quality::ALL[0]);
     }
 
     /// Takes what the worker has found for a body of so many nodes.
