@@ -490,7 +490,7 @@ impl Slopes {
                 let mut there: Point = at;
                 there[axis] += DIFFERENCE_MM;
                 *moved.point_mut(spot) = there;
-                let after = sewable.violations(&moved);
+                let after = sewable.violations_after(&moved, spot, &now);
                 slopes.push(after.iter().zip(&now).map(|(a, b)| (a - b) / DIFFERENCE_MM).collect());
             }
             *moved.point_mut(spot) = at;

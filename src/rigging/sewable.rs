@@ -3,8 +3,8 @@
 //! [`sewing::judge`] says which rules are broken; here every rule gives a number for every place where it could be, zero where it is
 //! kept, in an order that depends on the layout's shape alone: so it can be differentiated by the points' places.
 
-use super::layout::Layout;
-use crate::outline::polygon::{distance_to_segment, length};
+use super::layout::{Layout, Spot};
+use crate::outline::polygon::distance_to_segment;
 use crate::outline::{Outline, Point, polygon};
 use crate::sewing::{self, Body, Rules};
 
@@ -60,56 +60,120 @@ impl<'a> Sewable<'a> {
 
     /// By how much every rule is broken at every place: 0 where it is kept, 1 by about as much as the rule allows.
     pub fn violations(&self, layout: &Layout) -> Vec<f64> {
+        self.figures(layout, None)
+    }
+
+    /// [`Self::violations`] after one spot has moved; `known` before that. Only what may have changed is worked out.
+    pub fn violations_after(&self, layout: &Layout, moved: Spot, known: &[f64]) -> Vec<f64> {
+        self.figures(layout, Some((moved, known)))
+    }
+
+    fn figures(&self, layout: &Layout, moved: Option<(Spot, &[f64])>) -> Vec<f64> {
         let Rules { housing_mm, between_housings_mm, .. } = self.rules;
         let rigs = layout.rigs();
-        let mut out = Vec::new();
+        let mut out = Figures { moved, values: Vec::new() };
         for (k, rig) in rigs.iter().enumerate() {
-            out.push(below(self.depth(rig.winch), 0.5 * housing_mm));
-            for other in &rigs[..k] {
-                out.push(below(length(rig.winch, other.winch), housing_mm + between_housings_mm));
+            out.put(out.winch(k), || below(self.depth(rig.winch), 0.5 * housing_mm));
+            for (i, other) in rigs[..k].iter().enumerate() {
+                let apart = || below(distance(rig.winch, other.winch), housing_mm + between_housings_mm);
+                out.put(out.winch(k) || out.winch(i), apart);
             }
             for (j, cable) in rig.cables.iter().enumerate() {
-                self.cable(cable, &mut out);
-                for (_, other) in rigs.iter().enumerate().filter(|(other, _)| *other != k) {
-                    let pieces = cable.windows(2).map(|s| distance_to_segment(s[0], s[1], other.winch));
-                    out.push(below(pieces.fold(f64::INFINITY, f64::min), 0.5 * housing_mm));
+                self.cable(k, j, cable, &mut out);
+                for (i, other) in rigs.iter().enumerate().filter(|(i, _)| *i != k) {
+                    out.put(out.cable(k, j) || out.winch(i), || {
+                        let pieces = cable.windows(2).map(|s| distance_to_segment(s[0], s[1], other.winch));
+                        below(pieces.fold(f64::INFINITY, f64::min), 0.5 * housing_mm)
+                    });
                 }
                 let others =
                     rigs.iter().enumerate().flat_map(|(i, rig)| rig.cables.iter().enumerate().map(move |c| (i, c)));
-                for (_, (_, other)) in others.filter(|&(i, (l, _))| (i, l) != (k, j)) {
-                    let shared = sewing::shared_mm(cable, other, self.rules.beside_mm + MARGIN_MM, self.rules.lead_mm);
-                    out.push(above(shared, self.rules.along_mm - MARGIN_MM));
+                for (i, (l, other)) in others.filter(|&(i, (l, _))| (i, l) != (k, j)) {
+                    out.put(out.cable(k, j) || out.cable(i, l), || {
+                        let beside = self.rules.beside_mm + MARGIN_MM;
+                        let shared = sewing::shared_mm(cable, other, beside, self.rules.lead_mm);
+                        above(shared, self.rules.along_mm - MARGIN_MM)
+                    });
                 }
             }
         }
-        self.crowding(&rigs, &mut out);
-        out
+        self.crowding(layout, &mut out);
+        out.values
     }
 
-    fn cable(&self, cable: &[Point], out: &mut Vec<f64>) {
+    fn cable(&self, winch: usize, own: usize, cable: &[Point], out: &mut Figures) {
         let rules = &self.rules;
-        out.push(above(cable.len().saturating_sub(2) as f64, rules.most_holes as f64));
-        for p in &cable[1..] {
-            out.push(below(self.depth(*p), rules.hole_to_seam_mm));
+        let changed = |out: &Figures, k: usize| out.place(winch, own, k);
+        out.put(out.cable(winch, own), || above(cable.len().saturating_sub(2) as f64, rules.most_holes as f64));
+        for (k, p) in cable.iter().enumerate().skip(1) {
+            out.put(changed(out, k), || below(self.depth(*p), rules.hole_to_seam_mm));
         }
-        for s in cable.windows(2) {
-            let place = |k: usize| polygon::lerp(s[0], s[1], k as f64 / (PLACES + 1) as f64);
-            let near: f64 = (1..=PLACES).map(|k| below(self.depth(place(k)), CLEAR_MM)).sum();
-            out.push(self.outside(s[0], s[1]) / OUTSIDE_MM + NEAR * near);
+        for (k, s) in cable.windows(2).enumerate() {
+            out.put(changed(out, k) || changed(out, k + 1), || {
+                let place = |i: usize| polygon::lerp(s[0], s[1], i as f64 / (PLACES + 1) as f64);
+                let near: f64 = (1..=PLACES).map(|i| below(self.depth(place(i)), CLEAR_MM)).sum();
+                self.outside(s[0], s[1]) / OUTSIDE_MM + NEAR * near
+            });
         }
         for p in cable.windows(3) {
-            out.push(above(sewing::turn(p[0], p[1], p[2]), rules.turn_degrees - MARGIN_DEGREES));
+            out.put(out.cable(winch, own), || {
+                above(sewing::turn(p[0], p[1], p[2]), rules.turn_degrees - MARGIN_DEGREES)
+            });
         }
-        out.push(above(sewing::turning(cable), rules.turning_degrees - MARGIN_DEGREES));
+        out.put(out.cable(winch, own), || above(sewing::turning(cable), rules.turning_degrees - MARGIN_DEGREES));
     }
 
-    fn crowding(&self, rigs: &[sewing::Rig], out: &mut Vec<f64>) {
-        let ends = rigs.iter().flat_map(|rig| rig.cables.iter().flat_map(|cable| cable[1..].iter().copied()));
-        let holes: Vec<Point> = rigs.iter().map(|rig| rig.winch).chain(ends).collect();
-        for (k, p) in holes.iter().enumerate() {
-            out.extend(holes[..k].iter().map(|q| below(length(*p, *q), self.rules.hole_to_hole_mm)));
+    fn crowding(&self, layout: &Layout, out: &mut Figures) {
+        let spots = layout.spots();
+        for (k, &spot) in spots.iter().enumerate() {
+            let p = layout.point(spot);
+            for &other in &spots[..k] {
+                let apart = || below(distance(p, layout.point(other)), self.rules.hole_to_hole_mm);
+                out.put(out.spot(spot) || out.spot(other), apart);
+            }
         }
     }
+}
+
+/// Figures that are being put together, of which some may be known from before a spot has moved.
+struct Figures<'k> {
+    moved: Option<(Spot, &'k [f64])>,
+    values: Vec<f64>,
+}
+
+impl Figures<'_> {
+    fn put(&mut self, changed: bool, value: impl FnOnce() -> f64) {
+        let value = match self.moved {
+            Some((_, known)) if !changed => known[self.values.len()],
+            _ => value(),
+        };
+        self.values.push(value);
+    }
+
+    fn spot(&self, spot: Spot) -> bool {
+        self.moved.is_none_or(|(moved, _)| moved == spot)
+    }
+
+    fn winch(&self, winch: usize) -> bool {
+        self.spot(Spot { winch, cable: None })
+    }
+
+    /// Whether any point of a cable has moved.
+    fn cable(&self, winch: usize, cable: usize) -> bool {
+        let own = |moved: Spot| moved.winch == winch && moved.cable.is_none_or(|(c, _)| c == cable);
+        self.moved.is_none_or(|(moved, _)| own(moved))
+    }
+
+    /// Whether a point of a cable has moved, its winch the first.
+    fn place(&self, winch: usize, cable: usize, k: usize) -> bool {
+        self.spot(Spot { winch, cable: k.checked_sub(1).map(|k| (cable, k)) })
+    }
+}
+
+/// `polygon::length`, without its care for figures near the ends of the range.
+fn distance(a: Point, b: Point) -> f64 {
+    let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
+    (dx * dx + dy * dy).sqrt()
 }
 
 /// By how much pieces of cables leave a posed body, as [`Sewable::violations`] counts: its rings and cables in the pose, mm.
@@ -126,4 +190,63 @@ fn below(is: f64, least: f64) -> f64 {
 
 fn above(is: f64, most: f64) -> f64 {
     ((is - most) / most.max(1.0)).max(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::Random;
+    use crate::rigging::layout::Placed;
+
+    /// A square of 200 mm with layouts of three winches in it, and a little beyond.
+    fn random_layout(random: &mut Random) -> Layout {
+        let mut point = || [random.between(-10.0, 210.0), random.between(-10.0, 210.0)];
+        let winch = |count: usize, point: &mut dyn FnMut() -> Point| Placed {
+            at: point(),
+            cables: (0..count).map(|k| (0..=k).map(|_| point()).collect()).collect(),
+        };
+        Layout { winches: [1, 2, 3].map(|count| winch(count, &mut point)).to_vec() }
+    }
+
+    fn square() -> Outline {
+        Outline { outer: vec![[0.0, 0.0], [200.0, 0.0], [200.0, 200.0], [0.0, 200.0]], holes: vec![] }
+    }
+
+    #[test]
+    fn a_moved_spot_changes_what_it_touches_and_nothing_else() {
+        let outline = square();
+        let sewable = Sewable::new(Rules::default(), &outline, &outline, 60.0);
+        let random = &mut Random::new(3);
+        for _ in 0..20 {
+            let layout = random_layout(random);
+            let known = sewable.violations(&layout);
+            for spot in layout.spots() {
+                let mut moved = layout.clone();
+                let p = moved.point_mut(spot);
+                *p = [p[0] + random.between(-30.0, 30.0), p[1] + random.between(-30.0, 30.0)];
+                assert_eq!(sewable.violations_after(&moved, spot, &known), sewable.violations(&moved), "{spot:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn without_violations_every_rule_is_kept() {
+        let outline = square();
+        let sewable = Sewable::new(Rules::default(), &outline, &outline, 60.0);
+        let random = &mut Random::new(9);
+        let (mut kept, mut broken) = (0, 0);
+        for _ in 0..4000 {
+            let mut layout = random_layout(random);
+            // One winch with a tendon or two keeps them now and then.
+            layout.winches.truncate(1 + random.index(2));
+            let sum: f64 = sewable.violations(&layout).iter().sum();
+            if sum == 0.0 {
+                kept += 1;
+                assert!(sewable.is_kept(&layout), "{layout:?}");
+            }
+            broken += usize::from(!sewable.is_kept(&layout));
+            assert!(sum > 0.0 || sewable.is_kept(&layout));
+        }
+        assert!(kept > 20 && broken > 1000, "{kept} kept, {broken} broken");
+    }
 }
