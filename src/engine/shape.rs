@@ -29,7 +29,7 @@ pub struct Shape {
     pub iterations: usize,
     /// Numeric factorisations, those of statics included.
     pub factorizations: usize,
-    /// From the question to this shape.
+    /// From the request to this shape.
     pub milliseconds: f64,
     /// Whether this is the best pose that winding from rest was found to reach: looked for with all effort, not cut short.
     pub wound: bool,

@@ -4,7 +4,7 @@ use super::posing::{self, solve};
 use super::{Cancelled, Context, NoSuchPose, Unbalanced, View};
 use crate::design::{Design, Pose};
 use crate::engine::target_error;
-use crate::engine::{Question, Warning};
+use crate::engine::{Setpoint, Warning};
 use crate::fabrication::{judge_design, judge_pose};
 use crate::motion::winch_labels;
 use crate::sewing::Breach;
@@ -156,7 +156,7 @@ struct Posed {
 }
 
 fn pose_figures(design: &Design, pose: &Pose, context: &Context) -> Result<Posed, Cancelled> {
-    let shapes = solve(design, Question::Targets(pose.targets.clone()), [true, true], context)?;
+    let shapes = solve(design, Setpoint::Targets(pose.targets.clone()), [true, true], context)?;
     let mut notes: Vec<Note> = Unbalanced::of(&pose.name, &shapes).into_iter().map(Note::Unbalanced).collect();
     for (view, shape) in [View::Idealized, View::Realizable].into_iter().zip(&shapes) {
         let warning = shape.warning.clone();

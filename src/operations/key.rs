@@ -4,7 +4,7 @@ use super::posing::{self, solve};
 use super::{Cancelled, Context, NoSuchPose, Unbalanced};
 use crate::design::edit::{self, EditError};
 use crate::design::{Design, Easing, Keyframe};
-use crate::engine::Question;
+use crate::engine::Setpoint;
 use serde::{Deserialize, Serialize};
 
 /// What is put on the timeline, and when.
@@ -58,8 +58,8 @@ pub fn prepare(design: &Design, options: &Options, context: &Context) -> Result<
     let (activations_mm, notes) = match pose {
         None => (vec![0.0; design.networks.len()], Vec::new()),
         Some(pose) => {
-            let question = Question::Targets(posing::targets(design, pose)?);
-            let shapes = solve(design, question, [false, true], context)?;
+            let setpoint = Setpoint::Targets(posing::targets(design, pose)?);
+            let shapes = solve(design, setpoint, [false, true], context)?;
             let activations_mm = shapes[1].activations_mm.clone();
             if activations_mm.len() != design.networks.len() {
                 return Err(Error::Unsolved);

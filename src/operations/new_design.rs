@@ -3,7 +3,7 @@
 use super::{Cancelled, Context, FiberCount, MoreFibers};
 use crate::design::{Design, MAX_NAME_CHARS};
 use crate::files::is_hidden;
-use crate::mesh::{self, Mesh, MeshError, Request};
+use crate::mesh::{self, Mesh, MeshError, MeshSpec};
 use crate::outline::{self, Changes, Import, Imported, OutlineError};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -70,14 +70,14 @@ pub fn run(bytes: &[u8], options: &Options, context: &Context) -> Result<Made, E
 fn meshed(imported: Imported, options: &Options) -> Result<(Design, Changes, Vec<Note>), Error> {
     let name = named(&options.name);
     let (asked, more) = options.fibers.wanted(None);
-    let request = Request { tracks: imported.tracks().to_vec(), ..Request::fibers(asked) };
+    let spec = MeshSpec { tracks: imported.tracks().to_vec(), ..MeshSpec::fibers(asked) };
     let Imported { outline, mesh, changes, drawing, .. } = imported;
     if let (Some((nodes, triangles)), FiberCount::Usual) = (mesh, options.fibers) {
         let mesh = Mesh { nodes, triangles };
         mesh.validate()?;
         return Ok((Design::new(name, outline, mesh), changes, Vec::new()));
     }
-    let (meshed, count) = mesh::build_or_finer(&outline, &request)?;
+    let (meshed, count) = mesh::build_or_finer(&outline, &spec)?;
     if count != asked && !more {
         return Err(MeshError::Unreachable { asked, nearest: count }.into());
     }

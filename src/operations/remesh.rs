@@ -5,7 +5,7 @@ use crate::defaults;
 use crate::design::edit::{EditError, set_tracks};
 use crate::design::remesh::{body, carry};
 use crate::design::{Design, FiberSet};
-use crate::mesh::{Mesh, MeshError, Request, Size};
+use crate::mesh::{Mesh, MeshError, MeshSpec, Size};
 use crate::outline::drawing::Track;
 use serde::{Deserialize, Serialize};
 
@@ -69,8 +69,8 @@ pub fn prepare(design: &Design, options: &Options, context: &Context) -> Result<
     let mut with_tracks = design.clone();
     set_tracks(&mut with_tracks, tracks.clone())?;
     let changed = (with_tracks.tracks() != design.tracks()).then(|| tracks.clone());
-    let request = Request { size: options.size, tracks, mirror: options.mirror };
-    let (mesh, fibers) = body(&design.outline, &request, options.finer)?;
+    let spec = MeshSpec { size: options.size, tracks, mirror: options.mirror };
+    let (mesh, fibers) = body(&design.outline, &spec, options.finer)?;
     context.check()?;
     Ok(Remeshed { mesh, fibers, tracks: changed })
 }

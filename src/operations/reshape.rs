@@ -4,7 +4,7 @@ use super::{Cancelled, Context, FiberCount, MoreFibers};
 use crate::design::Design;
 use crate::design::edit::EditError;
 use crate::design::reshape::{Body, keep_tracks, reshape};
-use crate::mesh::{MeshError, Request};
+use crate::mesh::{MeshError, MeshSpec};
 use crate::outline::{self, Changes, Drawing, Import, Imported, OutlineError};
 use serde::{Deserialize, Serialize};
 
@@ -81,7 +81,7 @@ pub fn prepare(design: &Design, source: Source, options: &Options, context: &Con
     keep_tracks(design, &mut imported);
     let changes = imported.changes.clone();
     let (asked, more) = options.fibers.wanted(Some(design.fiber_routings().len()));
-    let of = |imported: Imported, fibers| Body::new(imported, &Request::fibers(fibers), options.finer, corner);
+    let of = |imported: Imported, fibers| Body::new(imported, &MeshSpec::fibers(fibers), options.finer, corner);
     let mut notes = Vec::new();
     let body = match of(imported.clone(), asked) {
         Err(MeshError::Unreachable { nearest, .. }) if more && nearest > asked && options.finer <= 1 => {

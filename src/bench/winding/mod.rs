@@ -15,7 +15,7 @@ use super::{BenchError, Cell, Report, Session, Table};
 use crate::design::Target;
 use crate::engine::compile::{Plushie, View, compile, objective};
 use crate::engine::target_error;
-use crate::engine::{Effort, Quality, Question as Asked, Request, Shape, Solver};
+use crate::engine::{Effort, Quality, Request, Setpoint, Shape, Solver};
 use crate::soft_ik::contraction::GaussNewton;
 use crate::soft_ik::winding::{self, Care, Search};
 use crate::soft_ik::{Actuation, Budget, Method, Objective, Posture, Question};
@@ -265,7 +265,7 @@ fn shown(rig: &Rig, session: &Session) -> Shape {
     let request = Request {
         id: 0,
         design: Arc::new(rig.design.clone()),
-        question: Asked::Targets(rig.targets.clone()),
+        setpoint: Setpoint::Targets(rig.targets.clone()),
         quality: Quality::Accurate,
         show_idealized: false,
         show_realizable: true,

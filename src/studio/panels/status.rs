@@ -1,6 +1,6 @@
 //! The lines at the bottom: what can be done, what the solver is at, and for each view what its shape cost and is worth.
 
-use super::quality;
+use super::accuracy;
 use crate::engine::{EQUILIBRIUM, NEAR_EQUILIBRIUM, Shape};
 use crate::studio::canvas::Plushie;
 use crate::studio::commands::command::Scope;
@@ -77,7 +77,7 @@ fn state(session: &Session) -> String {
     } else {
         "settled"
     };
-    format!("{} quality, {what}", quality::name(session.solver.quality))
+    format!("{} quality, {what}", accuracy::name(session.solver.quality))
 }
 
 /// Time, target error and balance of a view, in columns of fixed width; whether forces balance as far as can be seen.

@@ -214,7 +214,7 @@ impl Session {
         self.document.history.in_gesture()
     }
 
-    /// Whether the shapes answer the newest question; while the outline is drawn none is asked.
+    /// Whether the shapes answer the newest request; while the outline is drawn there is none.
     pub fn is_settled(&self) -> bool {
         self.sketching.open || self.solver.is_settled()
     }
