@@ -22,7 +22,7 @@ const SHOWN: usize = 8;
 /// Features narrower than this part of the height cannot be followed by a few hundred fibres.
 const NARROW_FRACTION: f64 = 0.03;
 
-/// What to study.
+/// Files and numbers of fibres of the study.
 pub struct Imports {
     pub folder: PathBuf,
     pub import: Import,

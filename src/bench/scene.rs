@@ -26,7 +26,7 @@ const STANDARD_GRAVITY: f64 = 9.81;
 const WOUND: f64 = 0.3;
 const TARGETS: usize = 4;
 
-/// What to study. Shapes are the bundled designs on their own meshes, since networks belong to those.
+/// Shapes and frames of the study. Shapes are the bundled designs on their own meshes, since networks belong to those.
 pub struct Scene {
     pub shapes: Vec<String>,
     pub frames: usize,

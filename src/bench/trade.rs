@@ -27,7 +27,7 @@ const FRAMES: usize = 30;
 /// Part of the allowed contraction that loads the body in statics.
 const STRENGTH: f64 = 0.5;
 
-/// What to study.
+/// Shapes and sizes of the study.
 pub struct Trade {
     pub shapes: Vec<String>,
     pub fibers: Vec<usize>,

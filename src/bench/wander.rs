@@ -24,7 +24,7 @@ const STIFFNESSES: [f64; 7] = [0.1, 1.0, 3.0, 10.0, 100.0, 1e3, 1e6];
 const SMOOTHINGS: [f64; 4] = [1e-1, 1e-2, 1e-3, 1e-5];
 const LIMITS: [f64; 4] = [0.1, 0.3, 0.6, 0.95];
 
-/// What to study.
+/// Shapes, size and drags of the study.
 pub struct Wander {
     pub shapes: Vec<String>,
     pub fibers: usize,

@@ -18,7 +18,7 @@ pub struct Replace {
     pub force: bool,
 }
 
-/// What a command writes that is no design.
+/// The kinds of files, designs apart, that a command writes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
     Picture,

@@ -107,12 +107,12 @@ impl History {
         Self::travel(&mut self.current, &mut self.redo, &mut self.undo)
     }
 
-    /// What [`History::undo`] would take back.
+    /// The label of the step that [`History::undo`] would take back.
     pub fn undo_label(&self) -> Option<&str> {
         self.gesture.as_ref().or(self.undo.last()).map(|step| step.label.as_str())
     }
 
-    /// What [`History::redo`] would repeat.
+    /// The label of the step that [`History::redo`] would repeat.
     pub fn redo_label(&self) -> Option<&str> {
         self.redo.last().filter(|_| self.gesture.is_none()).map(|step| step.label.as_str())
     }

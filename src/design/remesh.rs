@@ -18,7 +18,7 @@ const OUTSIDE: f64 = 0.004;
 /// Nearest nodes that are tried for a via point.
 const TRIED: usize = 24;
 
-/// What became of a design's parts.
+/// The changes of a design's parts.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Report {
     /// Before and after.

@@ -18,7 +18,7 @@ const ANY_VERSION: &str = "plushwright-blueprint/";
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Options {
-    /// What to do where the animation is too fast for the motors.
+    /// Whether an animation that is too fast for the motors is refused or stretched.
     pub too_fast: TooFast,
 }
 

@@ -28,7 +28,7 @@ const STOP_SPEED: f64 = 0.25;
 /// Time beyond what the way to zero takes before motors are switched off, s: a motion that was broken off still has speed, a load slows the motor.
 const STOP_MARGIN_S: f64 = 1.0;
 
-/// What is sent to the drives, in three parts: see the module.
+/// The commands for the drives, in three parts: see the module.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Programs {
     pub setup: Program,

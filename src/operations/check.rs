@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::sync::Arc;
 
-/// What is checked.
+/// The scope of a check.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Options {
@@ -30,7 +30,7 @@ pub enum Error {
     Cancelled(#[from] Cancelled),
 }
 
-/// What the solver has to say about a pose.
+/// A note of the solver about a pose.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Note {
     /// The figures are those of the nearest state found.

@@ -7,7 +7,7 @@ use crate::design::{Design, Easing, Keyframe};
 use crate::engine::Setpoint;
 use serde::{Deserialize, Serialize};
 
-/// What is put on the timeline, and when.
+/// The pose that is put on the timeline, and when.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Options {
@@ -32,7 +32,7 @@ pub enum Error {
     Cancelled(#[from] Cancelled),
 }
 
-/// What the keyframe's maker should know.
+/// A note for the keyframe's maker.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Note {
     /// The activations are the best that were found.

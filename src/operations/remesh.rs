@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 pub use crate::design::remesh::Report;
 
-/// What mesh is wanted.
+/// Size, tracks and symmetry of the mesh.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Options {

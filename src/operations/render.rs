@@ -12,7 +12,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// What is drawn, and how large.
+/// Contents and size of the picture.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Options {
@@ -23,7 +23,7 @@ pub struct Options {
     pub texture: bool,
 }
 
-/// What the plushies do in the picture.
+/// The state of the plushies in the picture.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum What {
     #[default]
@@ -53,7 +53,7 @@ pub enum Error {
     Cancelled(#[from] Cancelled),
 }
 
-/// What is to be known of the picture.
+/// A note on the picture.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Note {
     /// Drawn without the texture that the design names.

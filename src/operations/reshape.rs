@@ -50,7 +50,7 @@ pub enum Error {
     Cancelled(#[from] Cancelled),
 }
 
-/// What the design's maker should know besides what was [changed](Changes) in the outline.
+/// A note for the design's maker besides what was [changed](Changes) in the outline.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Note {
     #[error(transparent)]

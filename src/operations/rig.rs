@@ -41,7 +41,7 @@ impl From<key::Error> for Error {
     }
 }
 
-/// What the rig's maker should know.
+/// A note for the rig's maker.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Note {
     /// About a keyframe of the timeline that was laid out.

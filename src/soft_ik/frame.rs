@@ -54,7 +54,7 @@ pub struct Phases {
     pub line_search: f64,
 }
 
-/// What a frame took and reached.
+/// Cost and result of a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Frame {
     pub iterations: usize,

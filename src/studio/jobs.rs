@@ -26,10 +26,10 @@ pub struct Finished {
     pub outcome: Outcome,
 }
 
-/// What a job of a panel came to; the panel alone knows what it is.
+/// The result of a job of a panel; the panel alone knows what it is.
 pub type Told = Arc<dyn Any + Send + Sync>;
 
-/// What a job came to.
+/// The result of a job.
 pub enum Outcome {
     Proposed(Vec<Proposal>),
     Remeshed(Result<Box<Remeshed>, remesh::Error>),
@@ -140,7 +140,7 @@ impl Jobs {
         running
     }
 
-    /// What wakes the window up.
+    /// The function that wakes the window up.
     pub fn wake(&self) -> Wake {
         self.wake.clone()
     }

@@ -123,7 +123,7 @@ impl Store {
         Ok(file.try_lock().is_ok().then_some(file))
     }
 
-    /// What was remembered; the defaults where there is nothing or nothing that can be read.
+    /// The settings that were remembered; the defaults where there is nothing or nothing that can be read.
     pub fn settings(&self) -> Settings {
         let text = files::read(&self.root.join("settings.ron"), MOST_BYTES).ok();
         text.and_then(|text| ron::de::from_bytes(&text).ok()).unwrap_or_default()

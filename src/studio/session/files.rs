@@ -50,7 +50,7 @@ pub enum FileAction {
     Quit,
 }
 
-/// What a path is wanted for.
+/// The purpose of a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
     Open,
@@ -59,7 +59,7 @@ pub enum Purpose {
     Export,
 }
 
-/// What stands over the window.
+/// A dialog over the window.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Dialog {
     /// There are unsaved changes; what was wanted is done afterwards.
@@ -96,13 +96,13 @@ pub struct PathDialog {
 #[derive(Default)]
 pub struct Files {
     pub dialog: Option<Dialog>,
-    /// What a thread is busy with, ready to be shown.
+    /// The work that a thread is busy with, ready to be shown.
     pub working: Option<&'static str>,
     /// Waits for saving to succeed.
     pub(crate) after_save: Option<FileAction>,
     /// The document whose changes may be dropped, as was answered.
     pub(crate) granted: Option<Arc<Design>>,
-    /// What that thread is at.
+    /// The job of that thread.
     pub(crate) running: Option<Running>,
     /// Waits for an answer about the document that it would replace.
     pub(crate) imported: Option<Box<New>>,
@@ -150,7 +150,7 @@ impl Purpose {
         }
     }
 
-    /// What the button says.
+    /// The text of the button.
     pub fn verb(self) -> &'static str {
         match self {
             Self::Open => "Open",

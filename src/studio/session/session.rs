@@ -141,7 +141,7 @@ impl Session {
         self.tools.contains(&id)
     }
 
-    /// What stands over the window.
+    /// The overlay over the window.
     pub fn overlay(&self) -> Option<Overlay> {
         self.overlay
     }
@@ -151,7 +151,7 @@ impl Session {
         self.renaming.as_ref()
     }
 
-    /// What commands are about when nothing is pointed at.
+    /// The part that commands are about when nothing is pointed at.
     pub fn selected(&self) -> Hit {
         match self.picked.selection {
             Selection::Target(index) => Hit::Target(index),
@@ -189,7 +189,7 @@ impl Session {
         self.working().is_some()
     }
 
-    /// What threads are busy with, ready to be shown.
+    /// The work that threads are busy with, ready to be shown.
     pub fn working(&self) -> Option<&'static str> {
         let keying = self.keying.is_some().then_some("Working out the keyframe");
         let rigging = self.rigging.running.is_some().then_some("Looking for winches and tendons");
@@ -229,7 +229,7 @@ impl Session {
         self.solver.quality
     }
 
-    /// What the solver was asked last.
+    /// The newest request to the solver.
     pub fn request(&self) -> Option<&Request> {
         self.solver.asked.as_ref()
     }
@@ -239,7 +239,7 @@ impl Session {
         self.discovery.shown()
     }
 
-    /// What the solver has to say about the newest shapes.
+    /// The solver's warning about the newest shapes.
     pub fn solver_warning(&self) -> Option<&str> {
         self.solver.warning.as_deref()
     }
