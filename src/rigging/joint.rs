@@ -19,10 +19,10 @@ const BETTERED: usize = 60;
 const CLOSELY: usize = 16;
 /// Islands, layouts that live on one, and children of a round on each.
 const ISLANDS: usize = 4;
-const ALIVE: usize = 3;
-const CHILDREN: usize = 3;
+const ALIVE: usize = 4;
+const CHILDREN: usize = 4;
 /// Rounds after which the worst island is given up.
-const ERA: usize = 12;
+const ERA: usize = 25;
 /// Steps of improvement: of a first look, of a child, of the last one.
 const LOOK: usize = 4;
 const STEPS: usize = 12;

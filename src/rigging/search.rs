@@ -5,7 +5,7 @@ use super::greedy;
 use super::joint::Joint;
 use super::moves::{Ground, Shape};
 use super::options::{Method, Progress, RigError, RigOptions, TendonChoice};
-use super::prune::pruned;
+use super::prune::{SERVED, pruned};
 use super::refine::{Fit, Task};
 use super::sewable::Sewable;
 use super::truth::realised;
@@ -16,15 +16,13 @@ use crate::outline::Outline;
 use crate::threads::in_order;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// All poses served to this part of their rest errors need no better rig.
-pub(super) const SERVED: f64 = 0.005;
 /// Bodies of more fibres are searched on a mesh of about so many, and what is found is improved on their own.
 const COARSE: usize = 430;
 const FINE: usize = 700;
 /// Layouts that are finished and compared by what a check says of them.
 const FINALISTS: usize = 3;
 /// Rounds without a gain of a hundredth after which a search is over.
-const PATIENCE: usize = 20;
+const PATIENCE: usize = 30;
 
 /// The design with winches for its poses, in addition to those that it has.
 ///
