@@ -39,3 +39,6 @@ pub use options::{BadTendons, Method, Progress, RigError, RigOptions, TendonChoi
 pub use propose::{Proposal, propose};
 pub use search::rig;
 pub use trial::{Reached, Scrutiny, Trial};
+
+#[cfg(test)]
+mod tests;
