@@ -12,7 +12,7 @@ use super::sewable::Sewable;
 use super::truth::realised;
 use crate::design::{Design, Network, remesh};
 use crate::engine::target_error;
-use crate::mesh::{Mesh, Request};
+use crate::mesh::{Mesh, MeshSpec};
 use crate::outline::Outline;
 use crate::threads::in_order;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -106,7 +106,7 @@ fn coarser(design: &Design) -> Option<Design> {
     if design.mesh.edges().len() <= FINE {
         return None;
     }
-    let (mesh, set) = remesh::body(&design.outline, &Request::fibers(COARSE), 1).ok()?;
+    let (mesh, set) = remesh::body(&design.outline, &MeshSpec::fibers(COARSE), 1).ok()?;
     let mut coarse = design.clone();
     remesh::carry(&mut coarse, mesh, set);
     Some(coarse)
