@@ -93,9 +93,9 @@ pub const ENCODER_LINES: u32 = 512;
 pub const GEAR_RATIO: f64 = 43.0;
 /// Rate of the winch tracks, Hz.
 pub const TRACK_RATE_HZ: f64 = 50.0;
-/// Motor speed limit written to the controller, rpm. Unconfirmed: depends on the motor.
+/// Largest motor speed that the plan of an animation asks for, rpm. Unconfirmed: depends on the motor.
 pub const MOTOR_SPEED_RPM: u32 = 5000;
-/// Motor acceleration limit written to the controller, rev/s^2. Unconfirmed: depends on the load.
+/// Largest motor acceleration that the plan of an animation asks for, rev/s^2. Unconfirmed: depends on the load.
 pub const MOTOR_ACCELERATION: u32 = 200;
 /// Seconds between keyframes where the tool lays them out itself.
 pub const KEYFRAME_SPACING_S: f64 = 1.0;

@@ -27,7 +27,7 @@ const STARTS: usize = 4;
 /// Iterations of the default method in that search.
 const SEARCH_ITERATIONS: usize = 300;
 
-/// What to study.
+/// Shapes, size and drags of the study.
 pub struct Cold {
     pub shapes: Vec<String>,
     pub fibers: usize,

@@ -19,7 +19,7 @@ const PATIENCE: f64 = 100.0;
 /// Frames between those that are compared with the optimum and with Algorithm 1.
 const SAMPLING: usize = 10;
 
-/// What to study.
+/// Shapes, sizes and drags of the study.
 pub struct Drag {
     pub shapes: Vec<String>,
     pub fibers: Vec<usize>,

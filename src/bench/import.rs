@@ -6,7 +6,7 @@
 use super::report::{Cell, Report, Table};
 use super::statistics::Summary;
 use super::{BenchError, Session};
-use crate::mesh::{self, Request};
+use crate::mesh::{self, MeshSpec};
 use crate::outline::{self, Import, OutlineError};
 use grade::Grade;
 use std::path::{Path, PathBuf};
@@ -22,7 +22,7 @@ const SHOWN: usize = 8;
 /// Features narrower than this part of the height cannot be followed by a few hundred fibres.
 const NARROW_FRACTION: f64 = 0.03;
 
-/// What to study.
+/// Files and numbers of fibres of the study.
 pub struct Imports {
     pub folder: PathBuf,
     pub import: Import,
@@ -312,7 +312,7 @@ fn attempt(path: PathBuf, import: &Import, fibers: &[usize]) -> Outcome {
     let (_, high) = outline.bounding_box();
     let meshes = fibers.iter().map(|&count| {
         let start = Instant::now();
-        let made = mesh::build_or_finer(&outline, &Request::fibers(count));
+        let made = mesh::build_or_finer(&outline, &MeshSpec::fibers(count));
         let ms = milliseconds(start);
         let result = made
             .map(|(meshed, made_for)| (Grade::of(&meshed.mesh, &outline), Some(made_for).filter(|&n| n != count)))

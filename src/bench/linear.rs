@@ -26,7 +26,7 @@ const NATURAL_LIMIT: usize = 1500;
 /// Part of the allowed contraction at which the Hessian is taken.
 const STRENGTH: f64 = 0.7;
 
-/// What to study.
+/// Shapes and sizes of the study.
 pub struct Linear {
     pub shapes: Vec<String>,
     pub fibers: Vec<usize>,

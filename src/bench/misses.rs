@@ -36,7 +36,7 @@ const STARTS: usize = 6;
 /// Strength of the random contractions, as a part of what is allowed.
 const STRENGTH: f64 = 0.9;
 
-/// What to study.
+/// Size and scenes of the study.
 pub struct Misses {
     pub fibers: usize,
     /// Number of the first scene, and how many.

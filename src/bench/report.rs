@@ -8,10 +8,10 @@ use serde_json::{Map, Value, json};
 /// Most characters that a column is padded to.
 const WIDEST: usize = 200;
 
-/// What a study found.
+/// The findings of a study.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report {
-    /// What was studied, with the seed and whatever else repeats it.
+    /// The study by name, with the seed and whatever else repeats it.
     pub title: String,
     pub tables: Vec<Table>,
     /// Sentences that say what the tables show.

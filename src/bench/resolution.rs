@@ -21,7 +21,7 @@ const RADIUS: f64 = 0.08;
 /// A fibre pulls where its tension is above this part of the largest.
 const PULLING: f64 = 1e-3;
 
-/// What to study.
+/// Shapes and sizes of the study.
 pub struct Resolution {
     pub shapes: Vec<String>,
     /// Ascending; the last is the reference, and the mesh that carries the coarse fibre set.

@@ -26,7 +26,7 @@ const STANDARD_GRAVITY: f64 = 9.81;
 const WOUND: f64 = 0.3;
 const TARGETS: usize = 4;
 
-/// What to study. Shapes are the bundled designs on their own meshes, since networks belong to those.
+/// Shapes and frames of the study. Shapes are the bundled designs on their own meshes, since networks belong to those.
 pub struct Scene {
     pub shapes: Vec<String>,
     pub frames: usize,
@@ -170,10 +170,10 @@ fn viewed<'a>(what: &'static str, design: &Design, show: [bool; 2], at: &'a [Bod
     let cancel = std::sync::atomic::AtomicBool::new(false);
     let frame = move |goals: &[Point]| {
         let targets = at.iter().zip(goals).map(|(at, to)| Target { at: *at, to: *to, weight: 1.0 }).collect();
-        let question = engine::Question::Targets(targets);
+        let setpoint = engine::Setpoint::Targets(targets);
         let [show_idealized, show_realizable] = show;
         let quality = Quality::Balanced;
-        let request = Request { id: 0, design: design.clone(), question, quality, show_idealized, show_realizable };
+        let request = Request { id: 0, design: design.clone(), setpoint, quality, show_idealized, show_realizable };
         solver.solve(&request, &cancel);
     };
     Run { what, frame: Box::new(frame), times: Vec::new() }

@@ -4,7 +4,7 @@ use crate::mesh::MeshError;
 use crate::physics::{Cause, ModelError};
 use std::sync::atomic::AtomicBool;
 
-/// What all studies share.
+/// Seed, stop flags and progress, shared by all studies.
 pub struct Session<'a> {
     /// All random numbers follow from it.
     pub seed: u64,

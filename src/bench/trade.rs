@@ -20,7 +20,6 @@ use std::time::Instant;
 
 /// Newton tolerances of statics: unbalanced force over forces at work.
 const TOLERANCES: [f64; 5] = [1e-1, 1e-2, 1e-4, 1e-8, 1e-12];
-const QUALITIES: [Quality; 3] = [Quality::Draft, Quality::Balanced, Quality::Accurate];
 /// Repetitions of a solve that is timed.
 const REPEATS: usize = 5;
 /// Frames in which the targets move from rest to the pose.
@@ -28,7 +27,7 @@ const FRAMES: usize = 30;
 /// Part of the allowed contraction that loads the body in statics.
 const STRENGTH: f64 = 0.5;
 
-/// What to study.
+/// Shapes and sizes of the study.
 pub struct Trade {
     pub shapes: Vec<String>,
     pub fibers: Vec<usize>,
@@ -169,7 +168,7 @@ impl Trade {
         for &fibers in &self.fibers {
             session.next(&format!("{shape}, posing, {fibers} fibres"))?;
             let mut subject = Subject::new(shape, fibers)?;
-            for quality in QUALITIES {
+            for quality in Quality::ALL {
                 let (times, x) = frames(&mut subject, quality, session)?;
                 out.push(Setting {
                     shape: shape.to_owned(),

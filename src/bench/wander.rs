@@ -23,9 +23,8 @@ const NEAR: f64 = 0.1;
 const STIFFNESSES: [f64; 7] = [0.1, 1.0, 3.0, 10.0, 100.0, 1e3, 1e6];
 const SMOOTHINGS: [f64; 4] = [1e-1, 1e-2, 1e-3, 1e-5];
 const LIMITS: [f64; 4] = [0.1, 0.3, 0.6, 0.95];
-const QUALITIES: [Quality; 3] = [Quality::Draft, Quality::Balanced, Quality::Accurate];
 
-/// What to study.
+/// Shapes, size and drags of the study.
 pub struct Wander {
     pub shapes: Vec<String>,
     pub fibers: usize,
@@ -121,7 +120,7 @@ impl Draw {
             targets: 1 + random.index(4),
             // 0.3 to 1000 body lengths.
             away: 10.0_f64.powf(random.between(-0.5, 3.0)),
-            quality: QUALITIES[random.index(QUALITIES.len())],
+            quality: Quality::ALL[random.index(Quality::ALL.len())],
         }
     }
 

@@ -3,11 +3,11 @@
 use super::error::CommandError;
 use super::new::Reading;
 use super::output::{check_folder, say_json, say_lines, write_folder};
-use super::solve::Effort;
+use super::solve::QualityChoice;
 use crate::bench::drags::{Path as DragPath, SWEEP_FRAMES};
 use crate::bench::{
-    BenchError, Quality, Report, Session, cold, drag, extremes, import, linear, misses, properties, resolution, scene,
-    shapes, trade, wander, winding,
+    BenchError, Report, Session, cold, drag, extremes, import, linear, misses, properties, resolution, scene, shapes,
+    trade, wander, winding,
 };
 use clap::{Args, Subcommand, ValueEnum};
 use std::cell::Cell;
@@ -60,8 +60,8 @@ enum Study {
         #[arg(long, default_value_t = SWEEP_FRAMES / 2)]
         frames: usize,
         /// Work a frame may take
-        #[arg(long, value_enum, default_value_t = Effort::Balanced)]
-        quality: Effort,
+        #[arg(long, value_enum, default_value_t = QualityChoice::Balanced)]
+        quality: QualityChoice,
         /// Only targets that can be reached, or only such that cannot
         #[arg(long, value_enum)]
         path: Option<Reach>,
@@ -244,7 +244,7 @@ impl Study {
                     Some(Reach::Unreachable) => vec![DragPath::Unreachable],
                 },
                 frames: *frames,
-                quality: quality_of(*quality),
+                quality: (*quality).into(),
                 baseline_up_to: *baseline,
             }
             .run(session),
@@ -332,14 +332,6 @@ impl Bench {
             say_lines(out, &report.text())?
         }
         failed.map_or(Ok(()), |what| Err(CommandError::Failed(what)))
-    }
-}
-
-fn quality_of(effort: Effort) -> Quality {
-    match effort {
-        Effort::Draft => Quality::Draft,
-        Effort::Balanced => Quality::Balanced,
-        Effort::Accurate => Quality::Accurate,
     }
 }
 

@@ -148,7 +148,7 @@ pub fn refuse_lost(path: &Path, kept: &[&Design], force: bool) -> Result<(), Com
     Err(CommandError::Usage(format!("{path} exists and holds work that would be lost; --force replaces it")))
 }
 
-/// What is wrong with a design that cannot be written.
+/// The error of a design that cannot be written.
 pub fn unwritten(error: FileError) -> CommandError {
     match error {
         FileError::Read { path, source } | FileError::Write { path, source } => CommandError::write(&path, source),

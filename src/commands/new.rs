@@ -48,13 +48,13 @@ pub struct Reading {
     /// Height of the silhouette in mm [default: its physical size in the file; plain numbers are 1/96 inch]
     #[arg(long, value_name = "MM", value_parser = parse_height, allow_hyphen_values = true)]
     pub height: Option<f64>,
-    /// What to do about several pieces: refuse them, or keep the largest
+    /// Several pieces: refuse them, or keep the largest
     #[arg(long, value_enum, default_value_t)]
     pub pieces: PiecesChoice,
-    /// What to do about holes: keep or fill them
+    /// Holes: keep or fill them
     #[arg(long, value_enum, default_value_t)]
     pub holes: HolesChoice,
-    /// What to do about a rectangle as large as the page below everything else: drop or keep it
+    /// A rectangle as large as the page below everything else: drop or keep it
     #[arg(long, value_enum, default_value_t)]
     pub background: BackgroundChoice,
     /// Smooth the boundary, moving it by at most so many mm; corners stay
@@ -120,7 +120,7 @@ pub enum BackgroundChoice {
 }
 
 impl Reading {
-    /// The same for the reader.
+    /// These options as the reader takes them.
     pub fn import(&self) -> Import {
         Import {
             height_mm: self.height,

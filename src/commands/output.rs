@@ -18,7 +18,7 @@ pub struct Replace {
     pub force: bool,
 }
 
-/// What a command writes that is no design.
+/// The kinds of files, designs apart, that a command writes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
     Picture,
@@ -165,7 +165,8 @@ fn any_version(format: &str) -> &str {
     format.split_inclusive('/').next().unwrap_or(format)
 }
 
-fn refused_folder(error: FolderError) -> CommandError {
+/// Why a folder was not written.
+pub fn refused_folder(error: FolderError) -> CommandError {
     match error {
         FolderError::Write { path, source } => CommandError::Write { path, source },
         error => CommandError::Usage(error.to_string()),

@@ -7,6 +7,7 @@ use crate::defaults;
 use crate::files::shown;
 use crate::operations::rig::{self, Error, Options, TendonChoice};
 use crate::operations::{Context, Progress};
+use crate::rigging::RigError;
 use clap::Args;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -122,8 +123,8 @@ impl Rig {
 /// Why there is no rig for a design that was read from `path`.
 pub fn failed(path: &Path, error: Error) -> CommandError {
     match error {
-        Error::NoTargets | Error::NoModel => CommandError::input(path, error),
-        Error::NothingFound => CommandError::NotConverged(error.to_string()),
+        Error::Rig(RigError::NothingFound) => CommandError::NotConverged(error.to_string()),
+        Error::Rig(_) => CommandError::input(path, error),
         Error::Key(_) | Error::Edit(_) => CommandError::Failed(error.to_string()),
         Error::Cancelled(_) => CommandError::Cancelled,
     }

@@ -35,8 +35,8 @@ pub struct Solve {
     #[arg(long, default_value = "default", value_parser = PossibleValuesParser::new(soft_ik::METHODS))]
     pub method: String,
     /// How much work each frame of a drag may take; no effect on other questions
-    #[arg(long, value_enum, default_value_t = Effort::Balanced)]
-    pub quality: Effort,
+    #[arg(long, value_enum, default_value_t = QualityChoice::Balanced)]
+    pub quality: QualityChoice,
     /// Time for the whole answer in ms; the factorisation under way is finished, then the best state so far is written
     ///
     /// An answer that the budget cut short has `"converged": false` and the exit code 3. How far it came depends on the
@@ -54,14 +54,25 @@ pub struct Solve {
     pub times: bool,
 }
 
+/// A quality by its name on the command line.
 #[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum Effort {
+pub enum QualityChoice {
     /// A part of the work of `balanced`: least delay, trails fast moves
     Draft,
     /// A bounded amount of work: follows the hand
     Balanced,
     /// Until nothing moves any more: for figures that are compared
     Accurate,
+}
+
+impl From<QualityChoice> for Quality {
+    fn from(choice: QualityChoice) -> Self {
+        match choice {
+            QualityChoice::Draft => Self::Draft,
+            QualityChoice::Balanced => Self::Balanced,
+            QualityChoice::Accurate => Self::Accurate,
+        }
+    }
 }
 
 /// Times one thing after another, ms.
@@ -118,11 +129,7 @@ impl Solve {
     fn answer(&self, problem: Problem, cancel: &AtomicBool) -> Result<Document, CommandError> {
         let options = Options {
             method: self.method.clone(),
-            quality: match self.quality {
-                Effort::Draft => Quality::Draft,
-                Effort::Balanced => Quality::Balanced,
-                Effort::Accurate => Quality::Accurate,
-            },
+            quality: self.quality.into(),
             all: self.all,
             budget: Duration::from_millis(self.budget_ms),
         };

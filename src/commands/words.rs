@@ -1,6 +1,7 @@
 //! What the core has to say, in the words of the command line: its options by name.
 
 use super::error::CommandError;
+use super::output::refused_folder;
 use crate::fabrication::ExportError;
 use crate::motion::MotionError;
 use crate::operations::{Progress, Unbalanced, new_design, reshape};
@@ -31,8 +32,7 @@ pub fn unshaped(design: &Path, path: &Path, error: reshape::Error) -> CommandErr
 /// Why there is no blueprint of a design.
 pub fn unexported(design: &Path, error: ExportError) -> CommandError {
     match error {
-        ExportError::Write { path, source } => CommandError::write(&path, source),
-        ExportError::NotOurs { .. } | ExportError::Changed { .. } => CommandError::Usage(error.to_string()),
+        ExportError::Folder(error) => refused_folder(error),
         ExportError::Motion(MotionError::TooFast { .. }) => {
             CommandError::input(design, format!("{error}; move the keyframes apart, or use --stretch"))
         }

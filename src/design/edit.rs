@@ -323,14 +323,6 @@ fn put_term(design: &mut Design, kind: &TermKind, term: Option<Term>) -> Option<
     old
 }
 
-/// Replaces the path of the texture, or takes it away.
-///
-/// # Errors
-/// What makes the design unsound; the design stays as it was.
-pub fn set_texture(design: &mut Design, texture: Option<String>) -> Result<(), EditError> {
-    set(design, |d| std::mem::replace(&mut d.texture, texture), |d, old| d.texture = old)
-}
-
 /// Replaces the drawing of the outline, or takes it away.
 ///
 /// # Errors
@@ -349,14 +341,6 @@ pub fn set_tracks(design: &mut Design, tracks: Vec<Track>) -> Result<(), EditErr
     }
     let drawing = design.drawing.clone().unwrap_or_else(|| Drawing::of(&design.outline));
     set_drawing(design, Some(Drawing { tracks, ..drawing }))
-}
-
-/// Replaces the factors on the moduli, or takes them away.
-///
-/// # Errors
-/// What makes the design unsound; the design stays as it was.
-pub fn set_stiffness_map(design: &mut Design, map: Option<Vec<f64>>) -> Result<(), EditError> {
-    set(design, |d| std::mem::replace(&mut d.stiffness_map, map), |d, old| d.stiffness_map = old)
 }
 
 /// A pose name that is free: `wanted` itself, or with a number behind it.

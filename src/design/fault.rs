@@ -13,7 +13,7 @@ pub struct DesignError {
     pub fault: Fault,
 }
 
-/// What is wrong at the place a [`DesignError`] names.
+/// The flaw at the place a [`DesignError`] names.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum Fault {
     #[error("{index} is out of range, the mesh has {len} {what}")]

@@ -205,7 +205,7 @@ pub fn is_design(path: &Path) -> bool {
     /// Enough for what an editor or a person may put before the version, bytes.
     const HEAD: u64 = 512;
     let mut head = Vec::new();
-    let read = std::fs::metadata(path).is_ok_and(|found| found.is_file() && found.len() > 0)
+    let read = files::is_taken(path)
         && std::fs::File::open(path).is_ok_and(|file| file.take(HEAD).read_to_end(&mut head).is_ok());
     let text = String::from_utf8_lossy(&head);
     let text = text.trim_start_matches('\u{feff}').trim_start();

@@ -107,12 +107,12 @@ impl History {
         Self::travel(&mut self.current, &mut self.redo, &mut self.undo)
     }
 
-    /// What [`History::undo`] would take back.
+    /// The label of the step that [`History::undo`] would take back.
     pub fn undo_label(&self) -> Option<&str> {
         self.gesture.as_ref().or(self.undo.last()).map(|step| step.label.as_str())
     }
 
-    /// What [`History::redo`] would repeat.
+    /// The label of the step that [`History::redo`] would repeat.
     pub fn redo_label(&self) -> Option<&str> {
         self.redo.last().filter(|_| self.gesture.is_none()).map(|step| step.label.as_str())
     }
@@ -127,7 +127,7 @@ impl History {
         self.saved = Some(self.current.clone());
     }
 
-    /// The document exists nowhere but here (a new one, a bundled example): modified until it is saved.
+    /// The document exists nowhere but here (a new one): modified until it is saved.
     pub fn mark_unsaved(&mut self) {
         self.saved = None;
     }

@@ -67,7 +67,7 @@ pub struct Design {
     pub fabrication: FabricationSettings,
     #[serde(default)]
     pub controller: ControllerSettings,
-    /// What its routings are to keep so that a hand can sew them.
+    /// The rules that its routings are to keep so that a hand can sew them.
     #[serde(default, skip_serializing_if = "is_default")]
     pub sewing: Rules,
     /// The parts that the outline was, or will be, drawn from; in its coordinates.

@@ -43,8 +43,8 @@ ranges! {
     ENCODER_LINES: "controller.encoder_lines", "", 1.0, 65535.0, "the export takes at most a quarter";
     GEAR_RATIO: "controller.gear_ratio", "", 1e-3, 1e5, "planetary gears reach 1500";
     TRACK_RATE: "controller.track_rate_hz", "Hz", 1e-2, 1e3, "a step takes a controller some ms";
-    SPEED: "controller.speed_rpm", "rpm", 1.0, 30000.0, "what the controllers take";
-    MOTOR_ACCELERATION: "controller.acceleration", "rev/s^2", 1.0, 30000.0, "what the controllers take";
+    SPEED: "controller.speed_rpm", "rpm", 1.0, 30000.0, "what the controllers take; the plan of the animation asks for no more than the field says";
+    MOTOR_ACCELERATION: "controller.acceleration", "rev/s^2", 1.0, 30000.0, "as controller.speed_rpm";
     HOLE_TO_SEAM: "sewing.hole_to_seam_mm", "mm", 0.0, 1e3, "0 lifts the rule inside the body";
     HOLE_TO_HOLE: "sewing.hole_to_hole_mm", "mm", 0.0, 1e3, "0 lifts the rule";
     MOST_HOLES: "sewing.most_holes", "", 0.0, 1e4, "as many as a routing may have";

@@ -5,7 +5,7 @@
 //! where the straight way between two of them would leave the body, the shortest way along mesh edges is put between.
 
 use super::{Design, FiberSet, MaterialPoint, Tendon};
-use crate::mesh::{self, BodyPoint, Mesh, MeshError, Request};
+use crate::mesh::{self, BodyPoint, Mesh, MeshError, MeshSpec};
 use crate::outline::{Outline, Point, polygon};
 use serde::Serialize;
 use std::cmp::Reverse;
@@ -18,7 +18,7 @@ const OUTSIDE: f64 = 0.004;
 /// Nearest nodes that are tried for a via point.
 const TRIED: usize = 24;
 
-/// What became of a design's parts.
+/// The changes of a design's parts.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Report {
     /// Before and after.
@@ -55,8 +55,8 @@ impl Report {
 ///
 /// # Errors
 /// [`MeshError`] where the outline has no such mesh.
-pub fn body(outline: &Outline, request: &Request, finer: usize) -> Result<(Mesh, FiberSet), MeshError> {
-    let coarse = mesh::build(outline, request)?.mesh;
+pub fn body(outline: &Outline, spec: &MeshSpec, finer: usize) -> Result<(Mesh, FiberSet), MeshError> {
+    let coarse = mesh::build(outline, spec)?.mesh;
     if finer <= 1 {
         return Ok((coarse, FiberSet::Edges));
     }
@@ -271,8 +271,8 @@ mod tests {
     use super::super::{EditError, bundled};
     use super::*;
 
-    fn remesh(design: &mut Design, request: &Request, finer: usize) -> Result<Report, EditError> {
-        let (mesh, set) = body(&design.outline, request, finer)?;
+    fn remesh(design: &mut Design, spec: &MeshSpec, finer: usize) -> Result<Report, EditError> {
+        let (mesh, set) = body(&design.outline, spec, finer)?;
         Ok(carry(design, mesh, set))
     }
 
@@ -282,8 +282,8 @@ mod tests {
             let design = example.design().unwrap();
             for fibers in [if k % 2 == 0 { 250 } else { 700 }] {
                 let mut history = History::new(design.clone());
-                let request = Request::fibers(fibers);
-                let report = history.edit("Remesh", |d| remesh(d, &request, 1)).unwrap();
+                let spec = MeshSpec::fibers(fibers);
+                let report = history.edit("Remesh", |d| remesh(d, &spec, 1)).unwrap();
                 let new = history.current().clone();
                 let what = format!("{} at {fibers}", example.name);
                 assert!(report.fibers[1].abs_diff(fibers) * 100 <= 3 * fibers, "{what}");
@@ -326,7 +326,7 @@ mod tests {
             name: "winch".into(),
             tendons: vec![Tendon { routing: MaterialPoint::through(routing), ratio: 1.0, slack_mm: 0.0 }],
         });
-        let report = remesh(&mut design, &Request::fibers(250), 1).unwrap();
+        let report = remesh(&mut design, &MeshSpec::fibers(250), 1).unwrap();
         design.validate().unwrap();
         let routing = &design.networks[0].tendons[0].routing;
         let at = |k: usize| routing[k].place(&design.mesh.nodes);
@@ -340,7 +340,7 @@ mod tests {
     #[test]
     fn a_coarse_fibre_set_lies_on_a_finer_mesh() {
         let mut design = bundled::ALL[0].design().unwrap();
-        let report = remesh(&mut design, &Request::fibers(414), 2).unwrap();
+        let report = remesh(&mut design, &MeshSpec::fibers(414), 2).unwrap();
         design.validate().unwrap();
         assert_eq!(design.fiber_routings().len(), 414);
         assert_eq!((report.fibers[1], report.triangles[1]), (414, design.mesh.triangles.len()));

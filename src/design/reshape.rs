@@ -5,7 +5,7 @@
 
 use super::remesh::{self, Report};
 use super::{Design, FiberSet};
-use crate::mesh::{Mesh, MeshError, Request};
+use crate::mesh::{Mesh, MeshError, MeshSpec};
 use crate::outline::{Drawing, Imported, Outline, Point};
 
 /// A body to be put in place of a design's own.
@@ -26,9 +26,9 @@ impl Body {
     ///
     /// # Errors
     /// [`MeshError`] where the outline has no such mesh.
-    pub fn new(imported: Imported, request: &Request, finer: usize, corner: Point) -> Result<Self, MeshError> {
-        let request = Request { tracks: imported.tracks().to_vec(), ..request.clone() };
-        let (mesh, fibers) = remesh::body(&imported.outline, &request, finer)?;
+    pub fn new(imported: Imported, spec: &MeshSpec, finer: usize, corner: Point) -> Result<Self, MeshError> {
+        let spec = MeshSpec { tracks: imported.tracks().to_vec(), ..spec.clone() };
+        let (mesh, fibers) = remesh::body(&imported.outline, &spec, finer)?;
         Ok(Self { outline: imported.outline, mesh, fibers, drawing: imported.drawing, corner })
     }
 }
@@ -86,7 +86,7 @@ mod tests {
         let imported = drawing.import(&Import::default()).unwrap();
         let corner = imported.drawn_box[0];
         assert!((corner[0] + 50.0).abs() < 1e-3 && corner[1].abs() < 0.5, "{corner:?}");
-        let body = Body::new(imported, &Request::fibers(500), 1, corner).unwrap();
+        let body = Body::new(imported, &MeshSpec::fibers(500), 1, corner).unwrap();
         let report = reshape(&mut design, body);
         design.validate().unwrap();
         assert_eq!(design.fiber_routings().len(), report.fibers[1]);

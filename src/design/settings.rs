@@ -78,8 +78,9 @@ pub struct ControllerSettings {
     pub encoder_lines: u32,
     pub gear_ratio: f64,
     pub track_rate_hz: f64,
+    /// Largest speed that the plan of an animation asks for, rpm of the motor.
     pub speed_rpm: u32,
-    /// rev/s^2.
+    /// Largest acceleration that it asks for, rev/s^2 of the motor.
     pub acceleration: u32,
 }
 

@@ -1,6 +1,6 @@
 //! What each stage found.
 
-/// What each stage of discovery found, for fig. 6. Edges are node pairs with the smaller id first.
+/// The result of each stage of discovery, for fig. 6. Edges are node pairs with the smaller id first.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Stages {
     /// Contraction of every edge of the activation graph, in the order of the edges given.

@@ -114,7 +114,7 @@ fn winch(
     out
 }
 
-/// What `targets` ask of a compiled plushie.
+/// The objective that `targets` are for a compiled plushie.
 pub fn objective(design: &Design, plushie: &Plushie, targets: &[Target]) -> Objective {
     let mu = plushie.model.body.material().shear_modulus();
     Objective {

@@ -34,7 +34,7 @@ pub(super) struct Work<'a> {
 }
 
 impl Compiled {
-    /// What a millimetre of cable does to a pose that was looked for with all effort; `None` where it was not.
+    /// The effect of a millimetre of cable on a pose that was looked for with all effort; `None` where it was not.
     pub fn play(
         &mut self,
         design: &Design,

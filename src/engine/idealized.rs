@@ -3,7 +3,7 @@
 use super::compile::View;
 use super::compiled::{Compiled, Work, compiled};
 use super::report::report;
-use super::request::Question;
+use super::request::Setpoint;
 use super::shape::Shape;
 use crate::design::Design;
 use crate::soft_ik::Actuation;
@@ -13,7 +13,7 @@ use std::time::Instant;
 pub(super) fn idealize(
     slot: &mut Option<Compiled>,
     design: &Design,
-    question: &Question,
+    setpoint: &Setpoint,
     activations: &[f64],
     beside: Option<&[f64]>,
     work: &Work,
@@ -27,9 +27,9 @@ pub(super) fn idealize(
     let count = plushie.fiber_elements.end;
     let all = Actuation { winches: plushie.winches.clone(), fixed: vec![0.0; count] };
     let fixed = all.contractions(activations);
-    let (targets, winches) = match question {
-        Question::Targets(targets) => (targets.as_slice(), plushie.fibers.clone()),
-        Question::Activations(_) => (&[][..], Vec::new()),
+    let (targets, winches) = match setpoint {
+        Setpoint::Targets(targets) => (targets.as_slice(), plushie.fibers.clone()),
+        Setpoint::Activations(_) => (&[][..], Vec::new()),
     };
     let beta = vec![0.0; winches.len()];
     let actuation = Actuation { winches, fixed };

@@ -26,7 +26,7 @@ pub use compiled::Effort;
 pub use friction::{Rubbed, Unrubbed, pose_with_friction};
 pub use measure::target_error;
 pub use play::Play;
-pub use request::{Outcome, Question, Request};
+pub use request::{Outcome, Request, Setpoint};
 pub use shape::{EQUILIBRIUM, NEAR_EQUILIBRIUM, Shape};
 pub use solver::Solver;
 pub use warning::Warning;

@@ -3,7 +3,7 @@
 use super::compile::View;
 use super::compiled::{Compiled, Work, compiled};
 use super::report::report;
-use super::request::Question;
+use super::request::Setpoint;
 use super::shape::Shape;
 use super::warning::Warning;
 use crate::design::Design;
@@ -11,19 +11,19 @@ use crate::soft_ik::Actuation;
 use std::time::Instant;
 
 /// The winches alone, towards the targets or at given activations.
-pub(super) fn realize(slot: &mut Option<Compiled>, design: &Design, question: &Question, work: &Work) -> Shape {
+pub(super) fn realize(slot: &mut Option<Compiled>, design: &Design, setpoint: &Setpoint, work: &Work) -> Shape {
     let clock = Instant::now();
     let compiled = match compiled(slot, design, View::Realizable) {
         Ok(compiled) => compiled,
         Err(message) => return Shape::at_rest(design, message),
     };
     let plushie = &compiled.plushie;
-    let (targets, actuation, beta) = match question {
-        Question::Targets(targets) => {
+    let (targets, actuation, beta) = match setpoint {
+        Setpoint::Targets(targets) => {
             let free = Actuation { winches: plushie.winches.clone(), fixed: vec![0.0; plushie.tendons.len()] };
             (targets.as_slice(), free, vec![0.0; plushie.winches.len()])
         }
-        Question::Activations(beta) => {
+        Setpoint::Activations(beta) => {
             let all = Actuation { winches: plushie.winches.clone(), fixed: vec![0.0; plushie.tendons.len()] };
             let held = Actuation { winches: Vec::new(), fixed: all.contractions(beta) };
             (&[][..], held, Vec::new())
@@ -38,7 +38,7 @@ pub(super) fn realize(slot: &mut Option<Compiled>, design: &Design, question: &Q
         shape.warning = Warning::of_play(design, targets, shape.target_error, play.as_ref());
     }
     shape.play = play;
-    if let Question::Activations(beta) = question {
+    if let Setpoint::Activations(beta) = setpoint {
         shape.activations_mm = beta.clone();
     }
     shape

@@ -11,7 +11,7 @@ pub struct Request {
     /// Chosen by the caller and returned in the outcome.
     pub id: u64,
     pub design: Arc<Design>,
-    pub question: Question,
+    pub setpoint: Setpoint,
     /// How much work a frame may take while a hand drags ([`super::Effort::Interactive`]).
     pub quality: Quality,
     /// A view that is not shown is not solved, see [`Request::solves`].
@@ -23,14 +23,15 @@ impl Request {
     /// Which plushies are solved: idealized, realizable. What is not shown is not, with one exception: the fibres of the
     /// idealized plushie add to what the winches reach, so where winches have to be searched for, they are.
     pub fn solves(&self) -> [bool; 2] {
-        let searched = matches!(&self.question, Question::Targets(targets) if !targets.is_empty());
+        let searched = matches!(&self.setpoint, Setpoint::Targets(targets) if !targets.is_empty());
         let builds_on_winches = self.show_idealized && searched && !self.design.networks.is_empty();
         [self.show_idealized, self.show_realizable || builds_on_winches]
     }
 }
 
+/// The state that the plushies are to take.
 #[derive(Clone, Debug)]
-pub enum Question {
+pub enum Setpoint {
     /// Pose both plushies towards these targets (none: the rest pose).
     Targets(Vec<Target>),
     /// Show the animation: winch activations given, mm, fibres passive.

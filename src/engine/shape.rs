@@ -29,13 +29,13 @@ pub struct Shape {
     pub iterations: usize,
     /// Numeric factorisations, those of statics included.
     pub factorizations: usize,
-    /// From the question to this shape.
+    /// From the request to this shape.
     pub milliseconds: f64,
     /// Whether this is the best pose that winding from rest was found to reach: looked for with all effort, not cut short.
     pub wound: bool,
-    /// What a millimetre of cable does to the pose, where it was looked for with all effort.
+    /// The effect of a millimetre of cable on the pose, where it was looked for with all effort.
     pub play: Option<Play>,
-    /// What the user should know.
+    /// A warning for the user.
     pub warning: Option<Warning>,
 }
 

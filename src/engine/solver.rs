@@ -3,7 +3,7 @@
 use super::compiled::{Compiled, Effort, Work};
 use super::idealized::idealize;
 use super::realizable::realize;
-use super::request::{Outcome, Question, Request};
+use super::request::{Outcome, Request, Setpoint};
 use std::sync::atomic::AtomicBool;
 
 /// Keeps compiled models and the last postures between requests.
@@ -24,15 +24,15 @@ impl Solver {
         let design = &request.design;
         let work = Work { effort, quality: request.quality, cancel };
         let [_, needed] = request.solves();
-        let realizable = needed.then(|| realize(&mut self.realizable, design, &request.question, &work));
+        let realizable = needed.then(|| realize(&mut self.realizable, design, &request.setpoint, &work));
         let idealized = request.show_idealized.then(|| {
-            let activations = match (&realizable, &request.question) {
+            let activations = match (&realizable, &request.setpoint) {
                 (Some(shape), _) => shape.activations_mm.clone(),
-                (None, Question::Activations(given)) => given.clone(),
-                (None, Question::Targets(_)) => vec![0.0; design.networks.len()],
+                (None, Setpoint::Activations(given)) => given.clone(),
+                (None, Setpoint::Targets(_)) => vec![0.0; design.networks.len()],
             };
             let beside = realizable.as_ref().map(|shape| shape.nodes.as_flattened());
-            idealize(&mut self.idealized, design, &request.question, &activations, beside, &work)
+            idealize(&mut self.idealized, design, &request.setpoint, &activations, beside, &work)
         });
         let realizable = realizable.filter(|_| request.show_realizable);
         Outcome { id: request.id, idealized, realizable, refined: effort == Effort::Thorough }
@@ -46,10 +46,10 @@ mod tests {
     use crate::design::{Design, Target, testing};
     use std::sync::Arc;
 
-    fn ask(solver: &mut Solver, design: &Design, question: Question, shown: [bool; 2]) -> Outcome {
+    fn ask(solver: &mut Solver, design: &Design, setpoint: Setpoint, shown: [bool; 2]) -> Outcome {
         let design = Arc::new(design.clone());
         let [show_idealized, show_realizable] = shown;
-        let request = Request { id: 0, design, question, quality: Quality::Balanced, show_idealized, show_realizable };
+        let request = Request { id: 0, design, setpoint, quality: Quality::Balanced, show_idealized, show_realizable };
         solver.solve(&request, &AtomicBool::new(false))
     }
 
@@ -62,16 +62,16 @@ mod tests {
     fn a_hidden_view_is_not_solved() {
         let rigged = testing::sample();
         let plain = Design { networks: Vec::new(), keyframes: Vec::new(), ..rigged.clone() };
-        let pose = || Question::Targets(rigged.poses[0].targets.clone());
-        for (design, question, shown) in [
+        let pose = || Setpoint::Targets(rigged.poses[0].targets.clone());
+        for (design, setpoint, shown) in [
             (&plain, pose(), [true, false]),
             (&plain, pose(), [false, true]),
             (&rigged, pose(), [false, true]),
-            (&rigged, Question::Targets(Vec::new()), [true, false]),
-            (&rigged, Question::Activations(vec![3.0, 1.0]), [true, false]),
+            (&rigged, Setpoint::Targets(Vec::new()), [true, false]),
+            (&rigged, Setpoint::Activations(vec![3.0, 1.0]), [true, false]),
         ] {
             let mut solver = Solver::default();
-            let outcome = ask(&mut solver, design, question, shown);
+            let outcome = ask(&mut solver, design, setpoint, shown);
             assert_eq!([outcome.idealized.is_some(), outcome.realizable.is_some()], shown);
             assert_eq!(worked(&solver), shown, "{} networks", design.networks.len());
         }
@@ -85,9 +85,9 @@ mod tests {
     #[test]
     fn a_view_looks_the_same_alone() {
         let design = testing::sample();
-        for question in [Question::Targets(Vec::new()), Question::Activations(vec![3.0, 1.0])] {
-            let together = ask(&mut Solver::default(), &design, question.clone(), [true, true]);
-            let alone = ask(&mut Solver::default(), &design, question, [true, false]);
+        for setpoint in [Setpoint::Targets(Vec::new()), Setpoint::Activations(vec![3.0, 1.0])] {
+            let together = ask(&mut Solver::default(), &design, setpoint.clone(), [true, true]);
+            let alone = ask(&mut Solver::default(), &design, setpoint, [true, false]);
             let [together, alone] = [together, alone].map(|outcome| outcome.idealized.unwrap());
             for (p, q) in together.nodes.iter().flatten().zip(alone.nodes.iter().flatten()) {
                 assert!((p - q).abs() < 1e-6, "{p} {q}");
@@ -104,12 +104,12 @@ mod tests {
         let design = Arc::new(design);
         let mut solver = Solver::default();
         let mut ask = |targets: &[Target], effort| {
-            let question = Question::Targets(targets.to_vec());
+            let setpoint = Setpoint::Targets(targets.to_vec());
             let quality = Quality::Balanced;
             let request = Request {
                 id: 0,
                 design: design.clone(),
-                question,
+                setpoint,
                 quality,
                 show_idealized: true,
                 show_realizable: true,
@@ -132,7 +132,7 @@ mod tests {
     #[test]
     fn a_shape_says_how_far_from_equilibrium_it_is() {
         let design = testing::sample();
-        let outcome = ask(&mut Solver::default(), &design, Question::Activations(vec![3.0, 1.0]), [true, true]);
+        let outcome = ask(&mut Solver::default(), &design, Setpoint::Activations(vec![3.0, 1.0]), [true, true]);
         for shape in [outcome.idealized.unwrap(), outcome.realizable.unwrap()] {
             assert!(shape.converged && shape.factorizations > 0 && shape.force_scale > 0.0);
             assert!(shape.distance_from_equilibrium() < EQUILIBRIUM, "{}", shape.distance_from_equilibrium());

@@ -85,7 +85,7 @@ impl Warning {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Question, Request, Solver};
+    use super::super::{Request, Setpoint, Solver};
     use super::*;
     use crate::design::{Pin, testing};
     use crate::mesh::BodyPoint;
@@ -103,7 +103,7 @@ mod tests {
             let request = Request {
                 id: 0,
                 design: Arc::new(design.clone()),
-                question: Question::Targets(Vec::new()),
+                setpoint: Setpoint::Targets(Vec::new()),
                 quality: Quality::Balanced,
                 show_idealized: false,
                 show_realizable: true,

@@ -6,10 +6,10 @@
 //! with the best state it has reached.
 //!
 //! A drag is followed with the effort its [`super::Quality`] allows, from one posture to the next, and may end short of
-//! equilibrium or in a worse pose than can be reached. So once nothing newer waits, the same question is asked again with all
+//! equilibrium or in a worse pose than can be reached. So once nothing newer waits, the same request is answered again with all
 //! effort, and the answer replaces the first one where it is better. Anything newer stops that at once.
 
-use super::{Effort, Outcome, Question, Request, Shape, Solver, Warning};
+use super::{Effort, Outcome, Request, Setpoint, Shape, Solver, Warning};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -188,7 +188,7 @@ fn next_request(shared: &Shared) -> Option<Request> {
 
 /// Only an inverse problem has more than one answer; forces that do not balance yet can go on to.
 fn can_be_bettered(request: &Request, outcome: &Outcome) -> bool {
-    let searched = matches!(&request.question, Question::Targets(targets) if !targets.is_empty());
+    let searched = matches!(&request.setpoint, Setpoint::Targets(targets) if !targets.is_empty());
     searched || [&outcome.idealized, &outcome.realizable].into_iter().flatten().any(|shape| !shape.converged)
 }
 
@@ -262,7 +262,7 @@ fn after_panic(request: &Request, last: Option<&Outcome>, panic: &(dyn Any + Sen
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Quality, Question};
+    use super::super::{Quality, Setpoint};
     use super::*;
     use crate::design::Design;
     use std::sync::atomic::AtomicUsize;
@@ -275,7 +275,7 @@ mod tests {
         Request {
             id,
             design: Arc::new(design),
-            question: Question::Targets(Vec::new()),
+            setpoint: Setpoint::Targets(Vec::new()),
             quality: Quality::Balanced,
             show_idealized: true,
             show_realizable: true,
@@ -381,7 +381,7 @@ mod tests {
         });
         let at = crate::mesh::BodyPoint { triangle: 0, weights: [1.0, 0.0, 0.0] };
         let target = crate::design::Target { at, to: [9.0, 9.0], weight: 1.0 };
-        let pose = |id| Request { question: Question::Targets(vec![target]), ..request(id) };
+        let pose = |id| Request { setpoint: Setpoint::Targets(vec![target]), ..request(id) };
         worker.submit(pose(1));
         woken.recv_timeout(LONG).unwrap();
         assert_eq!(worker.take().unwrap().id, 1);

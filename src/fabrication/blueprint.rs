@@ -5,7 +5,7 @@ use super::product::{Section, Source};
 use super::products::PRODUCTS;
 use super::writers;
 use crate::design::Design;
-use crate::files::folder::{self, Listed, MANIFEST};
+use crate::files::folder::{self, FolderError, Listed, MANIFEST};
 use crate::motion::{self, TooFast, Trajectory};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -18,7 +18,7 @@ const ANY_VERSION: &str = "plushwright-blueprint/";
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Options {
-    /// What to do where the animation is too fast for the motors.
+    /// Whether an animation that is too fast for the motors is refused or stretched.
     pub too_fast: TooFast,
 }
 
@@ -81,7 +81,7 @@ pub fn blueprint(design: &Design, options: &Options) -> Result<(Vec<File>, Manif
         remarks,
     };
     let json = serde_json::to_string_pretty(&manifest)
-        .map_err(|e| ExportError::Write { path: MANIFEST.into(), source: e.into() })?;
+        .map_err(|e| FolderError::Write { path: MANIFEST.into(), source: e.into() })?;
     files.push(File { name: MANIFEST.into(), bytes: (json + "\n").into_bytes() });
     Ok((files, manifest))
 }

@@ -27,7 +27,7 @@ pub fn judge_pose(design: &Design, nodes: &[Point]) -> Vec<Breach> {
     sewing::judge_pieces(rings.iter().map(Vec::as_slice), &rigs(&posed))
 }
 
-/// What the maker of a blueprint should know of the rules that it breaks, the most severe breaches first.
+/// Remarks for the maker of a blueprint on the rules that it breaks, the most severe breaches first.
 pub(super) fn remarks(design: &Design) -> Vec<String> {
     let breaches = judge_design(design);
     let names = winch_labels(design);

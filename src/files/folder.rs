@@ -21,10 +21,10 @@ const MOST_MANIFEST: u64 = 16 << 20;
 /// How often a place is looked at anew that others change at the same time.
 const TRIES: usize = 5;
 
-/// What a folder of ours holds.
+/// The contents of a folder of ours.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
-    /// What made the folder, and the version of its format: `plushwright-bench/1`.
+    /// The maker of the folder, and the version of its format: `plushwright-bench/1`.
     pub format: String,
     /// Every file but the manifest itself.
     pub files: Vec<Listed>,
@@ -44,7 +44,7 @@ pub struct Listed {
 #[derive(Debug, Error)]
 pub enum FolderError {
     #[error(
-        "{} exists and is not an earlier result of this command ({found:?} is in it): choose another folder",
+        "{} exists and is not an earlier result of the same kind ({found:?} is in it): choose another folder",
         super::shown(path)
     )]
     NotOurs { path: PathBuf, found: String },

@@ -23,7 +23,7 @@ pub(super) fn sync_folder(folder: &Path) {
     let _ = folder;
 }
 
-/// What is still to be named, beside its place: `.plushwright-`, six letters, `.tmp`.
+/// A file or folder that is still to be named, beside its place: `.plushwright-`, six letters, `.tmp`.
 pub(super) fn temporary() -> tempfile::Builder<'static, 'static> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(sweep::PREFIX).suffix(sweep::SUFFIX);

@@ -21,9 +21,9 @@ const LARGE: usize = 5000;
 /// Largest multiple of the asked count that is looked for instead, at first.
 const NEAREST_MOST: usize = 10;
 
-/// What mesh is wanted.
+/// Size, tracks and symmetry that a mesh is to have.
 #[derive(Clone, Debug)]
-pub struct Request {
+pub struct MeshSpec {
     pub size: Size,
     /// Polylines inside the body, mm, along which edges shall run, so that a thread can follow them.
     pub tracks: Vec<Vec<Point>>,
@@ -40,7 +40,7 @@ pub enum Size {
     EdgeMm(f64),
 }
 
-impl Request {
+impl MeshSpec {
     pub fn fibers(fibers: usize) -> Self {
         Self { size: Size::Fibers(fibers), tracks: Vec::new(), mirror: true }
     }
@@ -66,7 +66,7 @@ pub struct Meshed {
 /// one below it that has a mesh where none above was found;
 /// [`MeshError::TooFine`] where there is none, [`MeshError::TooIntricate`] where none was found within a bound on work.
 pub fn generate(outline: &Outline, fibers: usize) -> Result<Mesh, MeshError> {
-    build(outline, &Request::fibers(fibers)).map(|meshed| meshed.mesh)
+    build(outline, &MeshSpec::fibers(fibers)).map(|meshed| meshed.mesh)
 }
 
 /// The mesh that is asked for. See [`generate()`].
@@ -74,8 +74,8 @@ pub fn generate(outline: &Outline, fibers: usize) -> Result<Mesh, MeshError> {
 /// # Errors
 /// As [`build_or_finer`], and [`MeshError::Unreachable`] for a count that the outline does not allow; a size in mm that is too
 /// coarse for it gives the coarsest mesh there is instead.
-pub fn build(outline: &Outline, request: &Request) -> Result<Meshed, MeshError> {
-    match (request.size, build_or_finer(outline, request)?) {
+pub fn build(outline: &Outline, spec: &MeshSpec) -> Result<Meshed, MeshError> {
+    match (spec.size, build_or_finer(outline, spec)?) {
         (Size::Fibers(asked), (_, nearest)) if nearest != asked => Err(MeshError::Unreachable { asked, nearest }),
         (_, (meshed, _)) => Ok(meshed),
     }
@@ -88,26 +88,26 @@ pub fn build(outline: &Outline, request: &Request) -> Result<Meshed, MeshError> 
 /// As [`generate()`], but [`MeshError::Unreachable`] only for more than [`MAX_FIBERS`], or where there is only a mesh with fewer.
 /// [`MeshError::BadTrack`] for one that is not finite, [`MeshError::IntricateTracks`] where there is a mesh only without the
 /// tracks.
-pub fn build_or_finer(outline: &Outline, request: &Request) -> Result<(Meshed, usize), MeshError> {
+pub fn build_or_finer(outline: &Outline, spec: &MeshSpec) -> Result<(Meshed, usize), MeshError> {
     check(outline)?;
-    if !request.tracks.iter().flatten().flatten().all(|v| v.is_finite()) {
+    if !spec.tracks.iter().flatten().flatten().all(|v| v.is_finite()) {
         return Err(MeshError::BadTrack);
     }
-    let fibers = match request.size {
+    let fibers = match spec.size {
         Size::Fibers(fibers) => fibers,
         Size::EdgeMm(length) => fibers_of_length(outline, length),
     };
     if fibers > MAX_FIBERS {
         return Err(MeshError::Unreachable { asked: fibers, nearest: MAX_FIBERS });
     }
-    let mirror = request.mirror && request.tracks.is_empty();
+    let mirror = spec.mirror && spec.tracks.is_empty();
     let axis = if mirror { symmetry::axis(outline) } else { None };
     let half = axis.and_then(|(axis, off)| Some((axis, off, symmetry::half(outline, axis)?)));
     let half_pool = half.as_ref().map(|(_, _, half)| Pool::of(&half.outline));
     let half = half.as_ref().zip(half_pool.as_ref());
     let half = half.map(|((axis, off, half), pool)| (*axis, Subject::half(outline, half, pool, (*axis, *off), fibers)));
     let pool = Pool::of(outline);
-    let whole = Subject::whole(outline, &pool, &request.tracks, fibers);
+    let whole = Subject::whole(outline, &pool, &spec.tracks, fibers);
     // One half and its image, unless the whole gives better angles.
     let at = |fibers: usize, effort: Thoroughness| {
         let even = whole.even(fibers);
@@ -140,13 +140,13 @@ pub fn build_or_finer(outline: &Outline, request: &Request) -> Result<(Meshed, u
             Err(MeshError::Unreachable { asked: fibers, nearest: count })
         };
     }
-    Err(refusal(outline, request, whole.has_given_up()))
+    Err(refusal(outline, spec, whole.has_given_up()))
 }
 
 /// Why there is no mesh. Whether the tracks are the cause is tried out: without them it takes about as long as a mesh does.
-fn refusal(outline: &Outline, request: &Request, has_given_up: bool) -> MeshError {
-    let bare = Request { tracks: Vec::new(), ..request.clone() };
-    if !request.tracks.is_empty() && build_or_finer(outline, &bare).is_ok() {
+fn refusal(outline: &Outline, spec: &MeshSpec, has_given_up: bool) -> MeshError {
+    let bare = MeshSpec { tracks: Vec::new(), ..spec.clone() };
+    if !spec.tracks.is_empty() && build_or_finer(outline, &bare).is_ok() {
         MeshError::IntricateTracks
     } else if has_given_up {
         MeshError::TooIntricate
@@ -296,7 +296,7 @@ mod tests {
 
     #[test]
     fn tracks_are_named_where_they_are_the_cause() {
-        let tracked = |track: Vec<Point>| Request { tracks: vec![track], ..Request::fibers(60) };
+        let tracked = |track: Vec<Point>| MeshSpec { tracks: vec![track], ..MeshSpec::fibers(60) };
         let along = tracked(vec![[20.0, 30.0], [180.0, 30.0]]);
         for has_given_up in [false, true] {
             let why = refusal(&rectangle(200.0, 60.0), &along, has_given_up);
@@ -306,7 +306,7 @@ mod tests {
         // Where there is no mesh without them either, or no track at all, it is the outline.
         let none = refusal(&Outline::default(), &along, true);
         assert_eq!(none, MeshError::TooIntricate);
-        assert_eq!(refusal(&rectangle(200.0, 60.0), &Request::fibers(60), true), MeshError::TooIntricate);
+        assert_eq!(refusal(&rectangle(200.0, 60.0), &MeshSpec::fibers(60), true), MeshError::TooIntricate);
     }
 
     #[test]

@@ -23,7 +23,7 @@ mod tracks;
 mod tri;
 mod triangulate;
 
-pub use generate::{MAX_FIBERS, Meshed, Request, Size, build, build_or_finer, generate};
+pub use generate::{MAX_FIBERS, MeshSpec, Meshed, Size, build, build_or_finer, generate};
 pub use subdivide::subdivided;
 pub use symmetry::{Axis, axis, is_mirrored};
 

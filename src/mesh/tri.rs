@@ -90,7 +90,7 @@ impl Tri {
         self.corners[t].map(|n| self.points[n])
     }
 
-    /// The same edge from its other side.
+    /// The other side of an edge.
     pub fn twin(&self, side: Side) -> Option<Side> {
         let u = self.across[side.0][side.1];
         let [a, b] = self.ends(side);

@@ -28,7 +28,7 @@ const STOP_SPEED: f64 = 0.25;
 /// Time beyond what the way to zero takes before motors are switched off, s: a motion that was broken off still has speed, a load slows the motor.
 const STOP_MARGIN_S: f64 = 1.0;
 
-/// What is sent to the drives, in three parts: see the module.
+/// The commands for the drives, in three parts: see the module.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Programs {
     pub setup: Program,
@@ -116,12 +116,17 @@ pub fn stopping_s(design: &Design, trajectory: &Trajectory) -> f64 {
     (Trapezoid::shortest(revolutions(farthest), slowly) + starts_s + STOP_MARGIN_S).ceil()
 }
 
-/// Time on the line of a command and its reply at the factory's setting, s: 9600 baud, ten bits a byte, `OK` and its end.
+/// Time on the line of a command and its reply `OK` with its end, s.
 pub fn line_s(command: &str) -> f64 {
+    const REPLY_BYTES: usize = 4;
+    carried_s(command.len() + TERMINATOR.len() + REPLY_BYTES)
+}
+
+/// Time that so many bytes take on the line at the factory's setting, s: 9600 baud; a start bit, eight bits and a stop bit each.
+pub fn carried_s(bytes: usize) -> f64 {
     const BAUD: f64 = 9600.0;
     const BITS_A_BYTE: f64 = 10.0;
-    const REPLY_BYTES: usize = 4;
-    BITS_A_BYTE * (command.len() + TERMINATOR.len() + REPLY_BYTES) as f64 / BAUD
+    BITS_A_BYTE * bytes as f64 / BAUD
 }
 
 /// Speed on the way to zero, rpm.

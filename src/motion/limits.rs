@@ -9,7 +9,7 @@ pub const MAX_NODES: usize = 255;
 /// Largest encoder resolution, counts per revolution.
 pub const MAX_RESOLUTION: u32 = 65535;
 
-/// What a winch's motor can do, mm and s of cable.
+/// Largest speed and acceleration of a winch, mm and s of cable.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// mm/s.

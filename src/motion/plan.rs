@@ -13,7 +13,7 @@ use crate::design::animation::SAME_TIME_S;
 use crate::design::{Design, Easing};
 use serde::{Deserialize, Serialize};
 
-/// What became of the animation on its way to the motors.
+/// A change that the animation took on its way to the motors.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Note {
     /// A keyframe lets out more than the just-slack rest length, where line may leave the spool: it stops there.
@@ -27,7 +27,7 @@ pub enum Note {
     Rounded { winch: String, from_s: f64, to_s: f64 },
 }
 
-/// What to do with a section that no motor can follow.
+/// The treatment of a section that no motor can follow.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum TooFast {
     /// Refuse the animation, and say what it would need.
@@ -55,7 +55,7 @@ const LONGER: f64 = 0.01;
 /// The lead runs at this part of speed and acceleration: nobody waits for it, and everybody watches it.
 const LEAD: f64 = 0.5;
 
-/// What a design's motors can do, in mm of cable on a spool of ratio 1.
+/// Largest speed and acceleration of a design's motors, in mm of cable on a spool of ratio 1.
 pub fn limits(design: &Design) -> Limits {
     let motor = &design.controller;
     let mm_per_revolution = 4.0 * f64::from(motor.encoder_lines) / counts_per_mm(design);

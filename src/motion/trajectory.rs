@@ -16,7 +16,7 @@ pub struct Trajectory {
     pub lengths_mm: Vec<Vec<f64>>,
     /// Encoder counts of the rounded lengths.
     pub counts: Vec<Vec<i64>>,
-    /// What became of the animation on the way.
+    /// Changes that the animation took on the way.
     pub notes: Vec<Note>,
 }
 

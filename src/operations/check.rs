@@ -3,7 +3,7 @@
 use super::posing::{self, solve};
 use super::{Cancelled, Context, NoSuchPose, Unbalanced, View};
 use crate::design::{Design, EditError, Pose, TendonSettings, edit};
-use crate::engine::{Question, Rubbed, Shape, Unrubbed, Warning, pose_with_friction, target_error};
+use crate::engine::{Rubbed, Setpoint, Shape, Unrubbed, Warning, pose_with_friction, target_error};
 use crate::fabrication::{judge_design, judge_pose};
 use crate::motion::winch_labels;
 use crate::sewing::Breach;
@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::sync::Arc;
 
-/// What is checked.
+/// The scope of a check.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Options {
@@ -34,7 +34,7 @@ pub enum Error {
     Cancelled(#[from] Cancelled),
 }
 
-/// What the solver has to say about a pose.
+/// A note of the solver about a pose.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Note {
     /// The figures are those of the nearest state found.
@@ -179,7 +179,7 @@ struct Posed {
 }
 
 fn pose_figures(design: &Design, pose: &Pose, friction: f64, context: &Context) -> Result<Posed, Cancelled> {
-    let shapes = solve(design, Question::Targets(pose.targets.clone()), [true, true], context)?;
+    let shapes = solve(design, Setpoint::Targets(pose.targets.clone()), [true, true], context)?;
     let mut notes: Vec<Note> = Unbalanced::of(&pose.name, &shapes).into_iter().map(Note::Unbalanced).collect();
     for (view, shape) in [View::Idealized, View::Realizable].into_iter().zip(&shapes) {
         let warning = shape.warning.clone();

@@ -31,7 +31,7 @@ impl<'a> Context<'a> {
         Self { progress: Some(progress), cancel }
     }
 
-    /// What the solvers ask at every step.
+    /// The flag that the solvers ask at every step.
     pub fn cancel(&self) -> &'a AtomicBool {
         self.cancel
     }

@@ -31,3 +31,11 @@ impl FiberCount {
         }
     }
 }
+
+/// More fibres than were asked for: the fewest that the outline allows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the outline needs more than {asked} fibers; it has {count}")]
+pub struct MoreFibers {
+    pub asked: usize,
+    pub count: usize,
+}

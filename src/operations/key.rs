@@ -4,10 +4,10 @@ use super::posing::{self, solve};
 use super::{Cancelled, Context, NoSuchPose, Unbalanced};
 use crate::design::edit::{self, EditError};
 use crate::design::{Design, Easing, Keyframe};
-use crate::engine::{Question, Shape};
+use crate::engine::Setpoint;
 use serde::{Deserialize, Serialize};
 
-/// What is put on the timeline, and when.
+/// The pose that is put on the timeline, and when.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Options {
@@ -32,7 +32,7 @@ pub enum Error {
     Cancelled(#[from] Cancelled),
 }
 
-/// What the keyframe's maker should know.
+/// A note for the keyframe's maker.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Note {
     /// The activations are the best that were found.
@@ -58,20 +58,16 @@ pub fn prepare(design: &Design, options: &Options, context: &Context) -> Result<
     let (activations_mm, notes) = match pose {
         None => (vec![0.0; design.networks.len()], Vec::new()),
         Some(pose) => {
-            let question = Question::Targets(posing::targets(design, pose)?);
-            let [_, shape] = solve(design, question, [false, true], context)?;
-            if shape.activations_mm.len() != design.networks.len() {
+            let setpoint = Setpoint::Targets(posing::targets(design, pose)?);
+            let shapes = solve(design, setpoint, [false, true], context)?;
+            let activations_mm = shapes[1].activations_mm.clone();
+            if activations_mm.len() != design.networks.len() {
                 return Err(Error::Unsolved);
             }
-            (shape.activations_mm.clone(), unbalanced(design, pose, shape))
+            (activations_mm, Unbalanced::of(pose, &shapes).into_iter().map(Note::Unbalanced).collect())
         }
     };
     Ok(Keyed { keyframe: Keyframe { time_s, activations_mm, pose: pose.clone(), easing }, notes })
-}
-
-fn unbalanced(design: &Design, pose: &str, realizable: Shape) -> Vec<Note> {
-    let shapes = [posing::at_rest(design), realizable];
-    Unbalanced::of(pose, &shapes).into_iter().map(Note::Unbalanced).collect()
 }
 
 impl Keyed {

@@ -52,7 +52,7 @@ pub mod reshape;
 pub mod rig;
 
 pub use context::{Cancelled, Context, Progress};
-pub use fibers::FiberCount;
+pub use fibers::{FiberCount, MoreFibers};
 pub use posing::{NoSuchPose, Unbalanced, View};
 
 use crate::design::Design;

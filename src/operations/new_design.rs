@@ -1,9 +1,9 @@
 //! An outline becomes a meshed design.
 
-use super::{Cancelled, Context, FiberCount};
+use super::{Cancelled, Context, FiberCount, MoreFibers};
 use crate::design::{Design, MAX_NAME_CHARS, TendonSettings};
 use crate::files::is_hidden;
-use crate::mesh::{self, Mesh, MeshError, Request};
+use crate::mesh::{self, Mesh, MeshError, MeshSpec};
 use crate::outline::{self, Changes, Import, Imported, Outline, OutlineError};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -33,11 +33,11 @@ pub enum Error {
     Cancelled(#[from] Cancelled),
 }
 
-/// What the design's maker should know besides what was [changed](Changes) in the outline.
+/// A note for the design's maker besides what was [changed](Changes) in the outline.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Note {
-    #[error("the outline needs more than {asked} fibers; it has {count}")]
-    MoreFibers { asked: usize, count: usize },
+    #[error(transparent)]
+    MoreFibers(#[from] MoreFibers),
 }
 
 /// A design, and what lies between it and the file.
@@ -70,18 +70,18 @@ pub fn run(bytes: &[u8], options: &Options, context: &Context) -> Result<Made, E
 fn meshed(imported: Imported, options: &Options) -> Result<(Design, Changes, Vec<Note>), Error> {
     let name = named(&options.name);
     let (asked, more) = options.fibers.wanted(None);
-    let request = Request { tracks: imported.tracks().to_vec(), ..Request::fibers(asked) };
+    let spec = MeshSpec { tracks: imported.tracks().to_vec(), ..MeshSpec::fibers(asked) };
     let Imported { outline, mesh, changes, drawing, .. } = imported;
     if let (Some((nodes, triangles)), FiberCount::Usual) = (mesh, options.fibers) {
         let mesh = Mesh { nodes, triangles };
         mesh.validate()?;
         return Ok((begun(name, outline, mesh), changes, Vec::new()));
     }
-    let (meshed, count) = mesh::build_or_finer(&outline, &request)?;
+    let (meshed, count) = mesh::build_or_finer(&outline, &spec)?;
     if count != asked && !more {
         return Err(MeshError::Unreachable { asked, nearest: count }.into());
     }
-    let notes = if count == asked { Vec::new() } else { vec![Note::MoreFibers { asked, count }] };
+    let notes = if count == asked { Vec::new() } else { vec![MoreFibers { asked, count }.into()] };
     Ok((Design { drawing, ..begun(name, outline, meshed.mesh) }, changes, notes))
 }
 
@@ -134,7 +134,7 @@ mod tests {
             panic!("{:?}", few(FiberCount::Exactly(3)))
         };
         let wish = few(FiberCount::AtLeast(3)).unwrap();
-        assert_eq!(wish.notes, [Note::MoreFibers { asked: 3, count: nearest }]);
+        assert_eq!(wish.notes, [Note::MoreFibers(MoreFibers { asked: 3, count: nearest })]);
     }
 
     #[test]

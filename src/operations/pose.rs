@@ -19,13 +19,13 @@ const STEPS_PER_MM: f64 = 1e3;
 /// Places of the body at rest that are nearer than this count as one: far below what anybody types, far above rounding.
 const SAME_MM: f64 = 1e-3;
 
-/// What is pinned and pulled. Places are in mm and mean points of the body at rest.
+/// Places that are pinned and pulled. They are in mm and mean points of the body at rest.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Options {
     /// Name of the pose, which is made where it is missing.
     pub name: String,
-    /// What is held where it is at rest.
+    /// Places that are held where they are at rest.
     pub pins: Vec<Point>,
     pub targets: Vec<Move>,
 }

@@ -2,7 +2,7 @@
 
 use super::{Cancelled, Context};
 use crate::design::{Design, Target};
-use crate::engine::{Effort, Quality, Question, Request, Shape, Solver, Warning};
+use crate::engine::{Effort, Quality, Request, Setpoint, Shape, Solver, Warning};
 use std::fmt;
 use std::sync::Arc;
 
@@ -78,14 +78,14 @@ pub(super) fn targets(design: &Design, pose: &str) -> Result<Vec<Target>, NoSuch
 /// Both plushies, idealized first, solved from rest; one that is not `wanted` stays at rest.
 pub(super) fn solve(
     design: &Design,
-    question: Question,
+    setpoint: Setpoint,
     wanted: [bool; 2],
     context: &Context,
 ) -> Result<[Shape; 2], Cancelled> {
     let request = Request {
         id: 0,
         design: Arc::new(design.clone()),
-        question,
+        setpoint,
         quality: Quality::Accurate,
         show_idealized: wanted[0],
         show_realizable: wanted[1],

@@ -5,13 +5,13 @@ use crate::defaults;
 use crate::design::edit::{EditError, set_tracks};
 use crate::design::remesh::{body, carry};
 use crate::design::{Design, FiberSet};
-use crate::mesh::{Mesh, MeshError, Request, Size};
+use crate::mesh::{Mesh, MeshError, MeshSpec, Size};
 use crate::outline::drawing::Track;
 use serde::{Deserialize, Serialize};
 
 pub use crate::design::remesh::Report;
 
-/// What mesh is wanted.
+/// Size, tracks and symmetry of the mesh.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Options {
@@ -69,8 +69,8 @@ pub fn prepare(design: &Design, options: &Options, context: &Context) -> Result<
     let mut with_tracks = design.clone();
     set_tracks(&mut with_tracks, tracks.clone())?;
     let changed = (with_tracks.tracks() != design.tracks()).then(|| tracks.clone());
-    let request = Request { size: options.size, tracks, mirror: options.mirror };
-    let (mesh, fibers) = body(&design.outline, &request, options.finer)?;
+    let spec = MeshSpec { size: options.size, tracks, mirror: options.mirror };
+    let (mesh, fibers) = body(&design.outline, &spec, options.finer)?;
     context.check()?;
     Ok(Remeshed { mesh, fibers, tracks: changed })
 }

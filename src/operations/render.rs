@@ -5,14 +5,14 @@ use super::{Cancelled, Context, NoSuchPose, Unbalanced};
 use crate::design::animation::activations_at;
 use crate::design::texture::find;
 use crate::design::{Design, file};
-use crate::engine::{Question, Shape};
+use crate::engine::{Setpoint, Shape};
 use crate::picture::{self, Texture};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// What is drawn, and how large.
+/// Contents and size of the picture.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Options {
@@ -23,7 +23,7 @@ pub struct Options {
     pub texture: bool,
 }
 
-/// What the plushies do in the picture.
+/// The state of the plushies in the picture.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum What {
     #[default]
@@ -53,7 +53,7 @@ pub enum Error {
     Cancelled(#[from] Cancelled),
 }
 
-/// What is to be known of the picture.
+/// A note on the picture.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Note {
     /// Drawn without the texture that the design names.
@@ -88,18 +88,18 @@ pub struct Rendered {
 /// # Errors
 /// There is no such pose or no animation; the picture is too large for the memory; [`Error::Cancelled`].
 pub fn run(design: &Design, from: &Path, options: &Options, context: &Context) -> Result<Rendered, Error> {
-    let (question, place) = match &options.what {
-        What::Rest => (Question::Targets(Vec::new()), "rest".to_owned()),
-        What::Pose(pose) => (Question::Targets(posing::targets(design, pose)?), pose.clone()),
+    let (setpoint, place) = match &options.what {
+        What::Rest => (Setpoint::Targets(Vec::new()), "rest".to_owned()),
+        What::Pose(pose) => (Setpoint::Targets(posing::targets(design, pose)?), pose.clone()),
         What::Time(_) if design.keyframes.is_empty() => return Err(Error::NoKeyframes),
-        What::Time(time) => (Question::Activations(activations_at(design, *time)), format!("{time} s")),
+        What::Time(time) => (Setpoint::Activations(activations_at(design, *time)), format!("{time} s")),
     };
     let mut notes = Vec::new();
-    let targets = match &question {
-        Question::Targets(targets) => targets.clone(),
-        Question::Activations(_) => Vec::new(),
+    let targets = match &setpoint {
+        Setpoint::Targets(targets) => targets.clone(),
+        Setpoint::Activations(_) => Vec::new(),
     };
-    let shapes = solve(design, question, [true, true], context)?;
+    let shapes = solve(design, setpoint, [true, true], context)?;
     let texture = if options.texture { texture(design, from, &mut notes) } else { None };
     let png = picture::png(design, &shapes, &targets, texture.as_ref(), options.size)
         .map_err(|error| Error::Picture(error.to_string()))?;

@@ -1,10 +1,10 @@
 //! Another silhouette for a design that may be posed and rigged already.
 
-use super::{Cancelled, Context, FiberCount};
+use super::{Cancelled, Context, FiberCount, MoreFibers};
 use crate::design::Design;
 use crate::design::edit::EditError;
 use crate::design::reshape::{Body, keep_tracks, reshape};
-use crate::mesh::{MeshError, Request};
+use crate::mesh::{MeshError, MeshSpec};
 use crate::outline::{self, Changes, Drawing, Import, Imported, OutlineError};
 use serde::{Deserialize, Serialize};
 
@@ -50,11 +50,11 @@ pub enum Error {
     Cancelled(#[from] Cancelled),
 }
 
-/// What the design's maker should know besides what was [changed](Changes) in the outline.
+/// A note for the design's maker besides what was [changed](Changes) in the outline.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Note {
-    #[error("the outline needs more than {asked} fibers; it has {count}")]
-    MoreFibers { asked: usize, count: usize },
+    #[error(transparent)]
+    MoreFibers(#[from] MoreFibers),
 }
 
 /// A body, ready to be put in the place of the design's own.
@@ -81,11 +81,11 @@ pub fn prepare(design: &Design, source: Source, options: &Options, context: &Con
     keep_tracks(design, &mut imported);
     let changes = imported.changes.clone();
     let (asked, more) = options.fibers.wanted(Some(design.fiber_routings().len()));
-    let of = |imported: Imported, fibers| Body::new(imported, &Request::fibers(fibers), options.finer, corner);
+    let of = |imported: Imported, fibers| Body::new(imported, &MeshSpec::fibers(fibers), options.finer, corner);
     let mut notes = Vec::new();
     let body = match of(imported.clone(), asked) {
         Err(MeshError::Unreachable { nearest, .. }) if more && nearest > asked && options.finer <= 1 => {
-            notes.push(Note::MoreFibers { asked, count: nearest });
+            notes.push(MoreFibers { asked, count: nearest }.into());
             of(imported, nearest)?
         }
         body => body?,
@@ -160,7 +160,10 @@ mod tests {
             prepare(&design, Source::Drawing(&drawing), &options, &Context::new(&go))
         };
         assert!(matches!(of(FiberCount::Exactly(3)), Err(Error::Mesh(MeshError::Unreachable { asked: 3, .. }))));
-        assert!(matches!(of(FiberCount::AtLeast(3)).unwrap().notes[..], [Note::MoreFibers { asked: 3, .. }]));
+        assert!(matches!(
+            of(FiberCount::AtLeast(3)).unwrap().notes[..],
+            [Note::MoreFibers(MoreFibers { asked: 3, .. })]
+        ));
     }
 
     #[test]

@@ -13,12 +13,8 @@ pub use crate::rigging::{Method, RigOptions as Options, TendonChoice};
 /// Why there is no rig.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Error {
-    #[error("the design has no pose with targets, so there is nothing to rig for")]
-    NoTargets,
-    #[error("the body has no model: a triangle has no area, or the mesh is too large for the memory")]
-    NoModel,
-    #[error("no network brings any pose closer to its targets")]
-    NothingFound,
+    #[error(transparent)]
+    Rig(RigError),
     #[error(transparent)]
     Key(key::Error),
     #[error(transparent)]
@@ -27,7 +23,25 @@ pub enum Error {
     Cancelled(#[from] Cancelled),
 }
 
-/// What the rig's maker should know.
+impl From<RigError> for Error {
+    fn from(error: RigError) -> Self {
+        match error {
+            RigError::Cancelled => Self::Cancelled(Cancelled),
+            error => Self::Rig(error),
+        }
+    }
+}
+
+impl From<key::Error> for Error {
+    fn from(error: key::Error) -> Self {
+        match error {
+            key::Error::Cancelled(cancelled) => Self::Cancelled(cancelled),
+            error => Self::Key(error),
+        }
+    }
+}
+
+/// A note for the rig's maker.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Note {
     /// About a keyframe of the timeline that was laid out.
@@ -58,12 +72,7 @@ pub fn prepare(design: &Design, options: &Options, context: &mut Context) -> Res
     let mut progress = |step| context.tell(&Progress::Rig(step));
     let bare = options.fresh.then(|| without_networks(design));
     let from = bare.as_ref().unwrap_or(design);
-    let mut rigged = rigging::rig(from, options, &mut progress, cancel).map_err(|error| match error {
-        RigError::NoTargets => Error::NoTargets,
-        RigError::NoModel => Error::NoModel,
-        RigError::NothingFound => Error::NothingFound,
-        RigError::Cancelled => Error::Cancelled(Cancelled),
-    })?;
+    let mut rigged = rigging::rig(from, options, &mut progress, cancel)?;
     context.check()?;
     let notes = if rigged.keyframes.is_empty() {
         lay_out(&mut rigged, context)?
@@ -92,17 +101,10 @@ fn key_again(design: &mut Design, context: &Context) -> Result<Vec<Note>, Error>
     for keyframe in design.keyframes.clone() {
         let Keyframe { time_s, pose: Some(pose), easing, .. } = keyframe else { continue };
         let options = key::Options { pose: Some(pose), time_s, easing };
-        let keyed = key::run(design, &options, context).map_err(unkeyed)?;
+        let keyed = key::run(design, &options, context)?;
         notes.extend(keyed.notes.into_iter().map(Note::Key));
     }
     Ok(notes)
-}
-
-fn unkeyed(error: key::Error) -> Error {
-    match error {
-        key::Error::Cancelled(cancelled) => Error::Cancelled(cancelled),
-        error => Error::Key(error),
-    }
 }
 
 /// Lays the poses on the timeline, [`defaults::KEYFRAME_SPACING_S`] apart or as far as the motors need, with rest at both ends.
@@ -113,7 +115,7 @@ fn lay_out(design: &mut Design, context: &Context) -> Result<Vec<Note>, Error> {
     for (index, pose) in stops.enumerate() {
         let options =
             key::Options { pose, time_s: index as f64 * defaults::KEYFRAME_SPACING_S, easing: Easing::default() };
-        let keyed = key::run(design, &options, context).map_err(unkeyed)?;
+        let keyed = key::run(design, &options, context)?;
         notes.extend(keyed.notes.into_iter().map(Note::Key));
     }
     space_out(design);
@@ -189,7 +191,7 @@ mod tests {
         assert_eq!(design, before);
         design.poses.iter_mut().for_each(|pose| pose.targets.clear());
         let go = AtomicBool::new(false);
-        assert_eq!(run(&mut design, &Options::default(), &mut Context::new(&go)), Err(Error::NoTargets));
+        assert_eq!(run(&mut design, &Options::default(), &mut Context::new(&go)), Err(Error::Rig(RigError::NoTargets)));
     }
 
     #[test]

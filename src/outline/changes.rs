@@ -35,7 +35,7 @@ pub struct Change {
     pub asked: bool,
 }
 
-/// What lies between the painted areas and the outline.
+/// Steps and notes that lie between the painted areas and the outline.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Changes {
     /// Area of all that is painted, mm^2.
@@ -45,7 +45,7 @@ pub struct Changes {
     /// Area that the clean-up added or removed without being asked, as a part of the silhouette's area: at most 2 %.
     pub unasked: f64,
     pub steps: Vec<Change>,
-    /// What the reader and the clean-up have to say besides. Whoever writes this down words them.
+    /// Notes of the reader and the clean-up. Whoever writes this down words them.
     #[serde(skip)]
     pub notes: Vec<Note>,
 }

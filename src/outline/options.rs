@@ -8,7 +8,7 @@ pub const MAX_FILE_BYTES: usize = 48 << 20;
 /// Sizes that a plushie can have, mm. Others are slips, and their squares and cubes would lose digits.
 pub(super) const SIZES_MM: RangeInclusive<f64> = 1e-2..=1e6;
 
-/// What to do about several pieces.
+/// The treatment of several pieces.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Pieces {
     #[default]
@@ -17,7 +17,7 @@ pub enum Pieces {
     Largest,
 }
 
-/// What to do about holes.
+/// The treatment of holes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Holes {
     #[default]
@@ -25,7 +25,7 @@ pub enum Holes {
     Fill,
 }
 
-/// What to do about a rectangle that fills the page below everything else.
+/// The treatment of a rectangle that fills the page below everything else.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Background {
     #[default]
@@ -46,7 +46,7 @@ pub struct Import {
     pub smooth_mm: f64,
     /// Parts thinner than this are widened, mm. `None`: hairlines alone, as long as they change little.
     pub min_width_mm: Option<f64>,
-    /// What a plain number or a pixel measures, mm, whatever the file says. An SVG has units of its own.
+    /// Length of a plain number or a pixel, mm, whatever the file says. An SVG has units of its own.
     pub unit_mm: Option<f64>,
     /// Difference from the background, 0 to 255, from which a pixel is ink; `None` finds it.
     pub threshold: Option<u8>,

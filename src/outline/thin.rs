@@ -30,7 +30,7 @@ const DISC: usize = 12;
 /// Rounds of joining pinched points, each with larger discs.
 const ROUNDS: usize = 5;
 
-/// What was widened.
+/// Shapes with their thin parts widened.
 pub(super) struct Widened {
     pub shapes: Shapes,
     pub parts: usize,

@@ -33,6 +33,13 @@ pub trait Energy: Send + Sync {
     /// Adds `d2E/dx2`, one 2 x 2 block per pair of stencil nodes.
     fn add_hessian(&self, x: &[f64], form: HessianForm, out: &mut Scatter);
 
+    /// The energy that a shift of the whole body by `by` adds, of a term that does not move along: the same in every state. Zero where
+    /// the term does not depend on where the body is.
+    fn of_shift(&self, by: [f64; 2]) -> f64 {
+        let _ = by;
+        0.0
+    }
+
     /// Largest step `t <= 1` along `dx` that stays inside the domain with a margin.
     fn step_limit(&self, x: &[f64], dx: &[f64]) -> f64 {
         let _ = (x, dx);

@@ -68,7 +68,6 @@ pub fn answer(problem: &Problem, options: &Options) -> Result<Document, ProblemE
     let mut inner = frame.inside(problem);
     let model = take_model(&mut inner)?;
     let mut work = Work {
-        problem,
         inner: &inner,
         frame: &frame,
         model,
@@ -92,7 +91,6 @@ pub fn answer(problem: &Problem, options: &Options) -> Result<Document, ProblemE
 
 /// What the parts of an answer share.
 struct Work<'a> {
-    problem: &'a Problem,
     /// The problem in its frame; `model` is of this one.
     inner: &'a Problem,
     frame: &'a Frame,
@@ -144,7 +142,7 @@ fn free_actuation(problem: &Problem) -> Result<Actuation, ProblemError> {
 
 impl Work<'_> {
     fn statics(&mut self) -> Result<(), ProblemError> {
-        let (state, x) = settle(self.problem, self.inner, self.frame, &mut self.model, self.stop);
+        let (state, x) = settle(self.inner, self.frame, &mut self.model, self.stop);
         let out = &mut self.out;
         out.x = Some(state.x);
         out.energy = Some(state.energy);

@@ -37,12 +37,11 @@ pub fn equilibrium(problem: &Problem, stop: &dyn Fn() -> bool) -> Result<Statics
     let frame = Frame::of(problem);
     let mut inner = frame.inside(problem);
     let mut model = take_model(&mut inner)?;
-    Ok(settle(problem, &inner, &frame, &mut model, stop).0)
+    Ok(settle(&inner, &frame, &mut model, stop).0)
 }
 
 /// [`equilibrium`] in a model that is built already, and the coordinates in the frame.
 pub(super) fn settle(
-    problem: &Problem,
     inner: &Problem,
     frame: &Frame,
     model: &mut Model,
@@ -66,7 +65,7 @@ pub(super) fn settle(
     let unit = frame.force();
     let answer = Statics {
         x: frame.points(&state.x),
-        energy: state.energy * frame.energy() + potential_of_origin(problem, frame),
+        energy: (state.energy + potential_of_origin(model, frame)) * frame.energy(),
         tensions: tensions.iter().map(|t| t * unit).collect(),
         pin_forces: pins.iter().map(|f| f.map(|v| v * unit)).collect(),
         residual: residual * unit,
@@ -80,10 +79,47 @@ pub(super) fn settle(
     (answer, state.x)
 }
 
-/// What terms that depend on where the body is have lost with the move into the frame, J: the energy in gravity of the whole mass at
-/// the frame's origin.
-fn potential_of_origin(problem: &Problem, frame: &Frame) -> f64 {
-    let (Some(g), Some(density)) = (problem.gravity, problem.surface_density) else { return 0.0 };
-    let area: f64 = problem.mesh.triangles.iter().map(|t| problem.mesh.area(t)).sum();
-    -density * area * (g[0] * frame.origin[0] + g[1] * frame.origin[1])
+/// The energy that optional terms have lost with the move into the frame, in its units: that of the shift of the body to the frame's origin.
+fn potential_of_origin(model: &Model, frame: &Frame) -> f64 {
+    let origin = frame.origin.map(|o| o / frame.length);
+    model.terms.iter().map(|term| term.of_shift(origin)).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::{Value, json};
+
+    const ORIGIN: [f64; 2] = [7.0, -3.0];
+    const GRAVITY: [f64; 2] = [0.4, -9.81];
+    const DENSITY: f64 = 0.06;
+
+    /// Statics of a square of 0.1 m at [`ORIGIN`] that hangs from two corners, with more in the file.
+    fn hanging(more: &Value) -> Statics {
+        let [x, y] = ORIGIN;
+        let nodes = json!([[x, y], [x + 0.1, y], [x + 0.1, y + 0.1], [x, y + 0.1]]);
+        let pins = [2, 3].map(|node| json!({ "node": node, "target": nodes[node], "K": 1e6 }));
+        let mut file = json!({
+            "format": "plushwright-problem/1",
+            "mesh": { "nodes": nodes, "triangles": [[0, 1, 2], [0, 2, 3]] },
+            "material": { "mu": 1e3, "kappa": 1e3 },
+            "pins": pins,
+        });
+        for (key, value) in more.as_object().unwrap() {
+            file[key] = value.clone();
+        }
+        let (problem, _) = crate::problem::read(&file.to_string()).unwrap();
+        equilibrium(&problem, &|| false).unwrap()
+    }
+
+    #[test]
+    fn gravity_has_the_same_energy_as_a_field_and_among_the_terms() {
+        let field = hanging(&json!({ "gravity": GRAVITY, "surface_density": DENSITY }));
+        let term =
+            hanging(&json!({ "terms": [{ "Gravity": { "acceleration": GRAVITY, "surface_density": DENSITY } }] }));
+        assert_eq!(field, term);
+        // The body hardly gives: its weight at the middle of the square.
+        let closed = -DENSITY * 0.01 * (GRAVITY[0] * (ORIGIN[0] + 0.05) + GRAVITY[1] * (ORIGIN[1] + 0.05));
+        assert!((field.energy - closed).abs() < 1e-3 * closed.abs(), "{:e} and {closed:e}", field.energy);
+    }
 }

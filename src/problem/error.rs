@@ -2,7 +2,7 @@
 
 use std::fmt::Display;
 
-/// What is wrong with a problem file: one line that names the key and the offending index.
+/// The error of a problem file: one line that names the key and the offending index.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ProblemError {
     #[error("malformed JSON: {0}")]

@@ -2,7 +2,7 @@
 
 use crate::physics::{Cause, Model};
 
-/// What kept a part of the answer from converging. The best state reached is in the answer all the same.
+/// The reason why a part of the answer did not converge. The best state reached is in the answer all the same.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Failure {
     #[error("{part}: {cause}")]
@@ -50,7 +50,7 @@ fn piece(node: usize, whole: bool) -> String {
 }
 
 impl Failure {
-    /// What statics ended with, and which piece of the body is free if that is why.
+    /// The cause that statics ended with, and which piece of the body is free if that is why.
     pub(super) fn of(part: Part, cause: Cause, model: &Model) -> Self {
         match (cause, model.loose().first()) {
             (Cause::Cancelled, _) => Self::TimeBudget { part },

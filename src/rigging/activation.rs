@@ -1,7 +1,7 @@
 //! The activation graph of a pose: what Algorithm 2 works on.
 
 use crate::design::{Design, Target};
-use crate::engine::{Effort, Quality, Question, Request, Shape, Solver};
+use crate::engine::{Effort, Quality, Request, Setpoint, Shape, Solver};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -18,7 +18,7 @@ impl ActivationGraph {
         let request = Request {
             id: 0,
             design: Arc::new(design.clone()),
-            question: Question::Targets(targets.to_vec()),
+            setpoint: Setpoint::Targets(targets.to_vec()),
             quality: Quality::Accurate,
             show_idealized: true,
             show_realizable: false,

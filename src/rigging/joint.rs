@@ -19,10 +19,10 @@ const BETTERED: usize = 60;
 const CLOSELY: usize = 16;
 /// Islands, layouts that live on one, and children of a round on each.
 const ISLANDS: usize = 4;
-const ALIVE: usize = 3;
-const CHILDREN: usize = 3;
+const ALIVE: usize = 4;
+const CHILDREN: usize = 4;
 /// Rounds after which the worst island is given up.
-const ERA: usize = 12;
+const ERA: usize = 25;
 /// Steps of improvement: of a first look, of a child, of the last one.
 const LOOK: usize = 4;
 const STEPS: usize = 12;
@@ -41,12 +41,11 @@ pub struct Joint<'a> {
 }
 
 impl<'a> Joint<'a> {
-    /// Tries the first layouts: those given, and random ones.
+    /// Tries the first layouts.
     pub fn new(
         task: &'a Task<'a>,
         ground: &'a Ground<'a>,
         shape: Shape,
-        given: Vec<Layout>,
         seed: u64,
         stop: &(dyn Fn() -> bool + Sync),
     ) -> Self {
@@ -57,7 +56,6 @@ impl<'a> Joint<'a> {
             let layout = ground.layout(&shape, random);
             linear.as_ref().map_or(layout.clone(), |linear| bettered(ground, &shape, linear, layout, random))
         });
-        let layouts: Vec<Layout> = given.into_iter().chain(layouts).collect();
         let looked = in_order(&layouts, |layout| {
             let begun = task.begin(layout.clone(), stop)?;
             Some(task.improve(begun, LOOK, false, stop))

@@ -26,16 +26,6 @@ pub struct Spot {
 }
 
 impl Layout {
-    /// The layout of networks on a mesh.
-    pub fn of(networks: &[Network], mesh: &Mesh) -> Self {
-        let place = |point: &MaterialPoint| point.place(&mesh.nodes);
-        let winches = networks.iter().filter_map(|network| {
-            let cables = network.tendons.iter().map(|t| t.routing.iter().skip(1).map(place).collect());
-            Some(Placed { at: place(network.winch()?), cables: cables.collect() })
-        });
-        Self { winches: winches.collect() }
-    }
-
     /// All points that can be moved: each winch, then the points of its cables.
     pub fn spots(&self) -> Vec<Spot> {
         let mut out = Vec::new();
@@ -90,12 +80,18 @@ impl Layout {
         self.winches.iter().map(rig).collect()
     }
 
-    pub fn tendons(&self) -> usize {
-        self.winches.iter().map(|w| w.cables.len()).sum()
-    }
-
     /// Holes between winches and ends.
     pub fn holes(&self) -> usize {
         self.winches.iter().flat_map(|w| &w.cables).map(|cable| cable.len() - 1).sum()
     }
+}
+
+/// Networks that are there, as the rules of sewing see them.
+pub fn rigs_of(networks: &[Network], mesh: &Mesh) -> Vec<sewing::Rig> {
+    let place = |point: &MaterialPoint| point.place(&mesh.nodes);
+    let rigs = networks.iter().filter_map(|network| {
+        let cables = network.tendons.iter().map(|t| t.routing.iter().map(place).collect());
+        Some(sewing::Rig { winch: place(network.winch()?), cables: cables.collect() })
+    });
+    rigs.collect()
 }

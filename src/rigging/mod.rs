@@ -1,17 +1,24 @@
-//! Finds winches and tendons: networks are generated, tried out by simulation, judged, and the best accepted.
+//! Finds winches and tendons.
 //!
 //! | file | holds |
 //! | --- | --- |
-//! | `generators/` | where candidate networks come from, one way a file |
-//! | `criteria/` | what makes one network better than another, one measure a file |
-//! | `trial` | a design wound from rest towards a pose: what is really reached |
-//! | `rank` | many candidates tried out and put in order |
-//! | `polish` | small changes of a network's paths, as long as they help |
+//! | `search` | a rig for all poses, without a hand: all winches together, or winch by winch |
+//! | `joint` | the search for all winches together: islands of layouts, changed and improved |
+//! | `layout`, `moves` | where winches and cables are at rest; random layouts, and random changes of one |
+//! | `refine` | all points of a layout and all activations improved together, on exact sensitivities |
+//! | `linear_score` | layouts ranked by the body linearised at rest, before any is simulated |
+//! | `sewable` | the rules of sewing as figures that a search brings to zero |
+//! | `prune` | points, tendons and winches that cost little are left out |
+//! | `truth` | what a check says of a rig: what is told in the end |
+//! | `greedy` | the paper's loop: solve, discover, try out, accept, winch by winch (section 3) |
 //! | `propose` | networks for one pose, for somebody to choose from |
-//! | `search` | the design loop over all poses, without a hand (section 3) |
+//! | `generators/`, `criteria/` | where their candidates come from, and what makes one better than another |
+//! | `trial`, `rank` | a design wound from rest towards a pose; many candidates tried out and put in order |
 //!
-//! The score of Algorithm 2 is a heuristic, and small differences in activations change the network it finds. So what counts
-//! is the pose error that a simulated network really reaches.
+//! The score of Algorithm 2 is a heuristic: small differences in activations change the network it finds, and it knows one pose. The joint
+//! search asks the body. A point of a cable is a point of the body, with exact derivatives of every pose's miss by its place
+//! ([`crate::soft_ik::routing`]); so a layout runs downhill by itself, rules included, and chance has only to find the valley. Both count
+//! what a simulated network really reaches, wound from rest.
 
 pub mod activation;
 mod candidate;
@@ -20,17 +27,17 @@ pub mod criterion;
 pub mod generator;
 pub mod generators;
 mod greedy;
-pub mod joint;
-pub mod layout;
+mod joint;
+mod layout;
 mod linear_score;
-pub mod moves;
+mod moves;
 mod options;
 mod propose;
 mod prune;
 mod rank;
-pub mod refine;
+mod refine;
 mod search;
-pub mod sewable;
+mod sewable;
 mod trial;
 mod truth;
 
@@ -39,3 +46,6 @@ pub use options::{BadTendons, Method, Progress, RigError, RigOptions, TendonChoi
 pub use propose::{Proposal, propose};
 pub use search::rig;
 pub use trial::{Reached, Scrutiny, Trial};
+
+#[cfg(test)]
+mod tests;

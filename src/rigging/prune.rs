@@ -3,8 +3,9 @@
 use super::layout::Layout;
 use super::moves::Shape;
 use super::refine::{Fit, Task};
-use super::search::SERVED;
 
+/// All poses served to this part of their rest errors need no better rig.
+pub(super) const SERVED: f64 = 0.005;
 /// What is left out may make the worst pose worse by this part.
 const PRICE: f64 = 0.03;
 /// Steps of improvement after something was left out.

@@ -3,28 +3,27 @@
 use super::candidate::unused_name;
 use super::greedy;
 use super::joint::Joint;
+use super::layout::rigs_of;
 use super::moves::{Ground, Shape};
 use super::options::{Method, Progress, RigError, RigOptions, TendonChoice};
-use super::prune::pruned;
+use super::prune::{SERVED, pruned};
 use super::refine::{Fit, Task};
 use super::sewable::Sewable;
 use super::truth::realised;
 use crate::design::{Design, Network, remesh};
 use crate::engine::target_error;
-use crate::mesh::{Mesh, Request};
+use crate::mesh::{Mesh, MeshSpec};
 use crate::outline::Outline;
 use crate::threads::in_order;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// All poses served to this part of their rest errors need no better rig.
-pub(super) const SERVED: f64 = 0.005;
 /// Bodies of more fibres are searched on a mesh of about so many, and what is found is improved on their own.
 const COARSE: usize = 430;
 const FINE: usize = 700;
 /// Layouts that are finished and compared by what a check says of them.
 const FINALISTS: usize = 3;
 /// Rounds without a gain of a hundredth after which a search is over.
-const PATIENCE: usize = 20;
+const PATIENCE: usize = 30;
 
 /// The design with winches for its poses, in addition to those that it has.
 ///
@@ -107,7 +106,7 @@ fn coarser(design: &Design) -> Option<Design> {
     if design.mesh.edges().len() <= FINE {
         return None;
     }
-    let (mesh, set) = remesh::body(&design.outline, &Request::fibers(COARSE), 1).ok()?;
+    let (mesh, set) = remesh::body(&design.outline, &MeshSpec::fibers(COARSE), 1).ok()?;
     let mut coarse = design.clone();
     remesh::carry(&mut coarse, mesh, set);
     Some(coarse)
@@ -115,7 +114,9 @@ fn coarser(design: &Design) -> Option<Design> {
 
 fn sewable<'a>(design: &'a Design, rim: &'a Outline, options: &RigOptions) -> Option<Sewable<'a>> {
     let gap_mm = design.fabrication.turning_gap_mm;
-    options.rules.then(|| Sewable::new(design.sewing, &design.outline, rim, gap_mm))
+    options
+        .rules
+        .then(|| Sewable::new(design.sewing, &design.outline, rim, gap_mm, rigs_of(&design.networks, &design.mesh)))
 }
 
 /// The best few layouts that a search finds on the design's own mesh; those that keep the rules, where any do.
@@ -130,7 +131,7 @@ fn layouts(
     let sewable = sewable(design, &outline, options);
     let task = Task::new(design, sewable.as_ref(), &design.networks);
     let ground = Ground::new(&design.mesh, sewable.as_ref());
-    let mut joint = Joint::new(&task, &ground, shape.clone(), Vec::new(), options.seed, &stop);
+    let mut joint = Joint::new(&task, &ground, shape.clone(), options.seed, &stop);
     let (mut best, mut since) = (f64::INFINITY, 0);
     for round in 0..options.rounds {
         let Some(fit) = joint.best() else { break };

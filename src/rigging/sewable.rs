@@ -29,14 +29,16 @@ pub struct Sewable<'a> {
     outline: &'a Outline,
     rim: &'a Outline,
     gap_mm: f64,
+    /// Winches that are there and stay.
+    fixed: Vec<sewing::Rig>,
 }
 
 impl<'a> Sewable<'a> {
     /// `rim`: the boundary of the mesh at rest.
-    pub fn new(rules: Rules, outline: &'a Outline, rim: &'a Outline, gap_mm: f64) -> Self {
+    pub fn new(rules: Rules, outline: &'a Outline, rim: &'a Outline, gap_mm: f64, fixed: Vec<sewing::Rig>) -> Self {
         let bodies = [outline, rim].map(Body::new);
         let housing_mm = sewing::largest_housing(&bodies[0], rules.housing_mm);
-        Self { rules: Rules { housing_mm, ..rules }, bodies, outline, rim, gap_mm }
+        Self { rules: Rules { housing_mm, ..rules }, bodies, outline, rim, gap_mm, fixed }
     }
 
     /// Distance to the seam, negative outside of the body.
@@ -50,12 +52,15 @@ impl<'a> Sewable<'a> {
         of(self.outline).max(of(self.rim))
     }
 
-    /// Whether a layout keeps every rule at rest.
+    /// Whether a layout keeps every rule at rest; what the winches that are there break among themselves does not count.
     pub fn is_kept(&self, layout: &Layout) -> bool {
         let rigs = layout.rigs();
         let inside = |cable: &Vec<Point>| cable.windows(2).all(|s| self.outside(s[0], s[1]) <= TOLERANCE_MM);
         rigs.iter().flat_map(|rig| &rig.cables).all(inside)
-            && self.bodies.iter().all(|body| sewing::judge(&self.rules, body, &rigs, self.gap_mm).is_empty())
+            && self.bodies.iter().all(|body| {
+                let broken = |rigs: &[sewing::Rig]| sewing::judge(&self.rules, body, rigs, self.gap_mm).len();
+                broken(&[&rigs, &self.fixed[..]].concat()) == broken(&self.fixed)
+            })
     }
 
     /// By how much every rule is broken at every place: 0 where it is kept, 1 by about as much as the rule allows.
@@ -70,21 +75,22 @@ impl<'a> Sewable<'a> {
 
     fn figures(&self, layout: &Layout, moved: Option<(Spot, &[f64])>) -> Vec<f64> {
         let Rules { housing_mm, between_housings_mm, .. } = self.rules;
-        let rigs = layout.rigs();
+        // Those that stay come last: no spot is theirs.
+        let (rigs, own) = ([&layout.rigs(), &self.fixed[..]].concat(), layout.winches.len());
         let mut out = Figures { moved, values: Vec::new() };
-        for (k, rig) in rigs.iter().enumerate() {
+        for (k, rig) in rigs.iter().enumerate().take(own) {
             out.put(out.winch(k), || below(self.depth(rig.winch), 0.5 * housing_mm));
-            for (i, other) in rigs[..k].iter().enumerate() {
+            for (i, other) in rigs.iter().enumerate().filter(|(i, _)| *i < k || *i >= own) {
                 let apart = || below(distance(rig.winch, other.winch), housing_mm + between_housings_mm);
                 out.put(out.winch(k) || out.winch(i), apart);
+            }
+            for cable in self.fixed.iter().flat_map(|rig| &rig.cables) {
+                out.put(out.winch(k), || below(passing(cable, rig.winch), 0.5 * housing_mm));
             }
             for (j, cable) in rig.cables.iter().enumerate() {
                 self.cable(k, j, cable, &mut out);
                 for (i, other) in rigs.iter().enumerate().filter(|(i, _)| *i != k) {
-                    out.put(out.cable(k, j) || out.winch(i), || {
-                        let pieces = cable.windows(2).map(|s| distance_to_segment(s[0], s[1], other.winch));
-                        below(pieces.fold(f64::INFINITY, f64::min), 0.5 * housing_mm)
-                    });
+                    out.put(out.cable(k, j) || out.winch(i), || below(passing(cable, other.winch), 0.5 * housing_mm));
                 }
                 let others =
                     rigs.iter().enumerate().flat_map(|(i, rig)| rig.cables.iter().enumerate().map(move |c| (i, c)));
@@ -131,6 +137,12 @@ impl<'a> Sewable<'a> {
                 let apart = || below(distance(p, layout.point(other)), self.rules.hole_to_hole_mm);
                 out.put(out.spot(spot) || out.spot(other), apart);
             }
+            for rig in &self.fixed {
+                let ends = rig.cables.iter().flat_map(|cable| cable.iter().skip(1));
+                for hole in std::iter::once(&rig.winch).chain(ends) {
+                    out.put(out.spot(spot), || below(distance(p, *hole), self.rules.hole_to_hole_mm));
+                }
+            }
         }
     }
 }
@@ -168,6 +180,11 @@ impl Figures<'_> {
     fn place(&self, winch: usize, cable: usize, k: usize) -> bool {
         self.spot(Spot { winch, cable: k.checked_sub(1).map(|k| (cable, k)) })
     }
+}
+
+/// How near a cable passes a point, mm.
+fn passing(cable: &[Point], p: Point) -> f64 {
+    cable.windows(2).map(|s| distance_to_segment(s[0], s[1], p)).fold(f64::INFINITY, f64::min)
 }
 
 /// `polygon::length`, without its care for figures near the ends of the range.
@@ -208,6 +225,11 @@ mod tests {
         Layout { winches: [1, 2, 3].map(|count| winch(count, &mut point)).to_vec() }
     }
 
+    /// A winch that stays.
+    fn fixed() -> Vec<sewing::Rig> {
+        vec![sewing::Rig { winch: [30.0, 170.0], cables: vec![vec![[30.0, 170.0], [100.0, 190.0]]] }]
+    }
+
     fn square() -> Outline {
         Outline { outer: vec![[0.0, 0.0], [200.0, 0.0], [200.0, 200.0], [0.0, 200.0]], holes: vec![] }
     }
@@ -215,7 +237,7 @@ mod tests {
     #[test]
     fn a_moved_spot_changes_what_it_touches_and_nothing_else() {
         let outline = square();
-        let sewable = Sewable::new(Rules::default(), &outline, &outline, 60.0);
+        let sewable = Sewable::new(Rules::default(), &outline, &outline, 60.0, fixed());
         let random = &mut Random::new(3);
         for _ in 0..20 {
             let layout = random_layout(random);
@@ -232,7 +254,7 @@ mod tests {
     #[test]
     fn without_violations_every_rule_is_kept() {
         let outline = square();
-        let sewable = Sewable::new(Rules::default(), &outline, &outline, 60.0);
+        let sewable = Sewable::new(Rules::default(), &outline, &outline, 60.0, fixed());
         let random = &mut Random::new(9);
         let (mut kept, mut broken) = (0, 0);
         for _ in 0..4000 {

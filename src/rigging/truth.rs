@@ -1,7 +1,7 @@
 //! What a rig really reaches: what a check of the finished design says.
 
 use crate::design::{Design, Target};
-use crate::engine::{Effort, Quality, Question, Request, Shape, Solver};
+use crate::engine::{Effort, Quality, Request, Setpoint, Shape, Solver};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -10,7 +10,7 @@ pub fn realised(design: &Design, targets: &[Target], cancel: &AtomicBool) -> Opt
     let request = Request {
         id: 0,
         design: Arc::new(design.clone()),
-        question: Question::Targets(targets.to_vec()),
+        setpoint: Setpoint::Targets(targets.to_vec()),
         quality: Quality::Accurate,
         show_idealized: false,
         show_realizable: true,

@@ -3,7 +3,7 @@
 use crate::defaults;
 use serde::{Deserialize, Serialize};
 
-/// What every routing is to keep. Each figure can be changed; a rule is lifted by a figure that nothing breaks.
+/// Limits that every routing is to keep. Each figure can be changed; a rule is lifted by a figure that nothing breaks.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Rules {

@@ -20,6 +20,9 @@ const DRAFT_PART: usize = 4;
 const ACCURATE_FACTORIZATIONS: usize = 200;
 
 impl Quality {
+    /// From the fastest to the most accurate.
+    pub const ALL: [Self; 3] = [Self::Draft, Self::Balanced, Self::Accurate];
+
     /// Numeric factorisations that a frame with this many free elements may take.
     pub fn factorizations(self, elements: usize) -> usize {
         let balanced = (BALANCED_WORK / elements.max(1)).clamp(1, BALANCED_FACTORIZATIONS);
@@ -51,7 +54,7 @@ pub struct Phases {
     pub line_search: f64,
 }
 
-/// What a frame took and reached.
+/// Cost and result of a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Frame {
     pub iterations: usize,

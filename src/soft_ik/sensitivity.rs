@@ -23,7 +23,7 @@ pub fn gradient(question: &mut Question, x: &[f64], contractions: &[f64]) -> Opt
     Some(gradient_with_factor(question, x, contractions))
 }
 
-/// The same with the exact Hessian at `x` already factorised.
+/// [`gradient`] with the exact Hessian at `x` already factorised.
 pub fn gradient_with_factor(question: &mut Question, x: &[f64], contractions: &[f64]) -> Gradient {
     let model = &mut *question.model;
     let objective = question.objective;

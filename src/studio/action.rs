@@ -46,7 +46,7 @@ pub enum Action {
     DismissMessage(u64),
 }
 
-/// What is asked for while the outline is drawn.
+/// An action on the outline that is drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Sketch {
     Open(bool),

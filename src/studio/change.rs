@@ -65,7 +65,7 @@ pub enum Change {
     },
 }
 
-/// What a change brought about and should be picked out now.
+/// The part that a change made and that should be picked out now.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Made {
     Nothing,

@@ -26,10 +26,10 @@ pub struct Finished {
     pub outcome: Outcome,
 }
 
-/// What a job of a panel came to; the panel alone knows what it is.
+/// The result of a job of a panel; the panel alone knows what it is.
 pub type Told = Arc<dyn Any + Send + Sync>;
 
-/// What a job came to.
+/// The result of a job.
 pub enum Outcome {
     Proposed(Vec<Proposal>),
     Remeshed(Result<Box<Remeshed>, remesh::Error>),
@@ -39,7 +39,8 @@ pub enum Outcome {
     Imported(Result<Box<New>, Box<Refused>>),
     Exported {
         folder: PathBuf,
-        result: Result<(), String>,
+        /// Its remarks.
+        result: Result<Vec<String>, String>,
     },
     Textured {
         path: PathBuf,
@@ -139,7 +140,7 @@ impl Jobs {
         running
     }
 
-    /// What wakes the window up.
+    /// The function that wakes the window up.
     pub fn wake(&self) -> Wake {
         self.wake.clone()
     }

@@ -33,7 +33,7 @@ pub struct Keeper {
     writing: Option<JoinHandle<Result<(), String>>>,
 }
 
-/// What is to be kept: a document that is not saved as it is.
+/// Work that is to be kept: a document that is not saved as it is.
 #[derive(Clone, Debug)]
 pub struct Work {
     pub design: Arc<Design>,
@@ -42,7 +42,7 @@ pub struct Work {
     pub facts: Facts,
 }
 
-/// What [`Work`] is put together from.
+/// The parts that [`Work`] is put together from.
 pub struct Sources<'a> {
     pub design: &'a Arc<Design>,
     pub drawing: Option<&'a Drawing>,
@@ -73,7 +73,7 @@ pub struct Facts {
     pub origin: Option<PathBuf>,
     /// The texture that it names.
     pub texture: Option<String>,
-    /// What that file held when it was read.
+    /// The content of that file when it was read.
     pub seen: Option<Stamp>,
 }
 
@@ -87,7 +87,7 @@ pub struct Abandoned {
     lock: File,
 }
 
-/// What [`Keeper::follow`] came to.
+/// The result of [`Keeper::follow`].
 pub enum Kept {
     /// All is kept, or there is nothing to keep.
     All,
@@ -223,7 +223,7 @@ impl Work {
 }
 
 impl Abandoned {
-    /// What other windows left behind, the newest last. Folders with nothing in them are cleared away; one that cannot be read
+    /// Work that other windows left behind, the newest last. Folders with nothing in them are cleared away; one that cannot be read
     /// stays, and its path is told.
     pub fn find(store: &Store) -> (Vec<Self>, Vec<PathBuf>) {
         let (mut found, mut unreadable) = (Vec::new(), Vec::new());

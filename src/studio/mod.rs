@@ -127,9 +127,9 @@ pub fn services() -> Services {
             // That nothing was found is told where the proposals would be.
             propose::for_targets(design, targets, parameters, &Context::new(cancel)).unwrap_or_default()
         }),
-        export: Arc::new(|design, folder| {
-            export::run(design, folder, &export::Options::default(), &Context::new(&AtomicBool::new(false)))
-                .map(drop)
+        export: Arc::new(|design, folder, options| {
+            export::run(design, folder, options, &Context::new(&AtomicBool::new(false)))
+                .map(|manifest| manifest.remarks)
                 .map_err(|error| match error {
                     export::Error::Export(error) => words::unexported(&error),
                     export::Error::Cancelled(_) => error.to_string(),

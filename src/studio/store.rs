@@ -2,7 +2,7 @@
 //! rules): work that was not saved, which files are open, recent files and settings.
 
 use super::canvas::Plushie;
-use super::session::{QUALITIES, Views};
+use super::session::Views;
 use crate::engine::Quality;
 use crate::files::{self, sha256};
 use crate::picture::Shown;
@@ -123,7 +123,7 @@ impl Store {
         Ok(file.try_lock().is_ok().then_some(file))
     }
 
-    /// What was remembered; the defaults where there is nothing or nothing that can be read.
+    /// The settings that were remembered; the defaults where there is nothing or nothing that can be read.
     pub fn settings(&self) -> Settings {
         let text = files::read(&self.root.join("settings.ron"), MOST_BYTES).ok();
         text.and_then(|text| ron::de::from_bytes(&text).ok()).unwrap_or_default()
@@ -160,7 +160,7 @@ impl Settings {
     }
 
     pub fn quality(&self) -> Option<Quality> {
-        QUALITIES.into_iter().find(|quality| self.quality.as_deref() == Some(&format!("{quality:?}")))
+        Quality::ALL.into_iter().find(|quality| self.quality.as_deref() == Some(&format!("{quality:?}")))
     }
 }
 

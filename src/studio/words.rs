@@ -1,9 +1,13 @@
 //! What the core has to say, in the words of the window: its controls by name.
 
 use crate::fabrication::ExportError;
-use crate::operations::{Progress, key, new_design, remesh, reshape, rig};
+use crate::motion::MotionError;
+use crate::operations::{MoreFibers, Progress, key, new_design, remesh, reshape, rig};
 use crate::outline::{Change, Changes, Note, OutlineError, Remedy};
-use crate::rigging;
+use crate::rigging::{self, RigError};
+
+/// The choice in the dialog of the export that gives motors the time they need.
+pub const STRETCH: &str = "Stretch what is too quick";
 
 /// The steps and notes of a clean-up, a line each.
 pub fn changes(changes: &Changes) -> impl Iterator<Item = String> {
@@ -42,7 +46,7 @@ pub fn unmade(error: &new_design::Error) -> String {
 }
 
 /// Fibres besides those asked for, of an import or of a new body.
-pub fn more_fibers(asked: usize, count: usize) -> String {
+pub fn more_fibers(MoreFibers { asked, count }: MoreFibers) -> String {
     format!("The outline needs more than {asked} fibres; it has {count}.")
 }
 
@@ -96,18 +100,33 @@ pub fn progress(step: &Progress) -> String {
 /// Why there is no rig.
 pub fn unrigged(error: &rig::Error) -> String {
     match error {
-        rig::Error::NoTargets => "No pose has a target yet: drag a point of the body first.".to_owned(),
-        rig::Error::NothingFound => {
+        rig::Error::Rig(RigError::NoTargets) => "No pose has a target yet: drag a point of the body first.".to_owned(),
+        rig::Error::Rig(RigError::NothingFound) => {
             "No network brings any pose closer to its targets. Try more winches or tendons.".to_owned()
         }
         error => format!("Rig: {error}"),
     }
 }
 
+/// The remarks on a blueprint as one message, the first in full; `None` where there are none.
+pub fn remarks(remarks: &[String]) -> Option<String> {
+    /// Those that are told in full: more would cover the plushies. The README of the blueprint has them all.
+    const IN_FULL: usize = 4;
+    let told: Vec<String> = remarks.iter().take(IN_FULL).map(|remark| format!("\n- {remark}")).collect();
+    let rest = match remarks.len().saturating_sub(IN_FULL) {
+        0 => String::new(),
+        more => format!("\n{more} more are in its README.txt."),
+    };
+    (!remarks.is_empty()).then(|| format!("Mind of the blueprint:{}{rest}", told.concat()))
+}
+
 /// Why there is no blueprint.
 pub fn unexported(error: &ExportError) -> String {
     match error {
         ExportError::NoNetworks => format!("{error}: propose and accept one first"),
+        ExportError::Motion(MotionError::TooFast { .. }) => {
+            format!("{error}; move the keyframes apart, or choose “{STRETCH}” in the dialog of the export")
+        }
         error => error.to_string(),
     }
 }

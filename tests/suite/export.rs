@@ -3,6 +3,7 @@
 use crate::support::{Random, rectangle, rigged};
 use plushwright::design::{Design, Easing, Keyframe, MaterialPoint, Network, Tendon, animation};
 use plushwright::fabrication::{self, ExportError, Manifest, Options, blueprint, export};
+use plushwright::files::folder::FolderError;
 use plushwright::motion::{MotionError, Plan, TooFast, winch_labels};
 use roxmltree::{Document, Node};
 use sha2::{Digest, Sha256};
@@ -171,10 +172,11 @@ fn a_narrow_notch_is_remarked() {
 fn holes_on_the_seam_are_remarked() {
     let mut design = rigged();
     let (_, manifest) = blueprint(&design, &Options::default()).expect("a blueprint");
-    assert!(!manifest.remarks.iter().any(|r| r.contains("seam or next")), "{:?}", manifest.remarks);
+    assert!(!manifest.remarks.iter().any(|r| r.contains("from the seam")), "{:?}", manifest.remarks);
     design.networks[0].tendons[0].routing = MaterialPoint::through([10, 0]);
     let (_, manifest) = blueprint(&design, &Options::default()).expect("a blueprint");
-    assert!(manifest.remarks.iter().any(|r| r.contains("next to it: hole 2.")), "{:?}", manifest.remarks);
+    let told = |r: &&String| r.contains("tendon 1: hole 1 from the winch is 0.0 mm from the seam");
+    assert_eq!(manifest.remarks.iter().filter(told).count(), 1, "{:?}", manifest.remarks);
 }
 
 #[test]
@@ -515,7 +517,10 @@ fn the_folder_appears_whole_or_not_at_all() {
 
     fs::write(dir.join("my notes.txt"), "mine").expect("written");
     let refused = export(&design, &dir, &Options::default()).expect_err("somebody's file is in it");
-    assert!(matches!(&refused, ExportError::NotOurs { found, .. } if found == "my notes.txt"), "{refused}");
+    assert!(
+        matches!(&refused, ExportError::Folder(FolderError::NotOurs { found, .. }) if found == "my notes.txt"),
+        "{refused}"
+    );
     assert_eq!(fs::read_to_string(dir.join("my notes.txt")).expect("still there"), "mine");
 
     let other = parent.path().join("other");

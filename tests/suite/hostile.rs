@@ -4,6 +4,7 @@
 
 use plushwright::design::file::{self, TextError};
 use plushwright::fabrication::{ExportError, Options, blueprint};
+use plushwright::files::folder::FolderError;
 use std::fs;
 use std::ops::Range;
 use std::path::Path;
@@ -87,7 +88,7 @@ fn what_no_field_takes_is_refused_by_name_and_the_rest_makes_a_finite_blueprint(
                         let written = String::from_utf8_lossy(&file.bytes);
                         assert!(is_finite(&written), "{name}, {value} in {}: {}", around(&text, place), file.name);
                     }),
-                    Err(ExportError::Write { source, .. }) => panic!("{source}"),
+                    Err(ExportError::Folder(FolderError::Write { source, .. })) => panic!("{source}"),
                     Err(refused) => assert!(is_finite(&refused.to_string()), "{refused}"),
                 }
                 assert!(started.elapsed() < PATIENCE, "{name}, {value} in {}", around(&text, place));

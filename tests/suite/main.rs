@@ -32,6 +32,8 @@ mod properties;
 mod recovery;
 #[cfg(unix)]
 mod replacing;
+#[cfg(unix)]
+mod rig;
 mod soft_ik;
 #[cfg(feature = "studio")]
 mod studio;

@@ -4,7 +4,7 @@ use crate::support::shapes::{nasty, ring};
 use plushwright::design::reshape::{self, Body};
 use plushwright::design::{Design, edit, remesh};
 use plushwright::mesh::quality::{Fit, MeshQuality};
-use plushwright::mesh::{self, MeshError, Request, Size};
+use plushwright::mesh::{self, MeshError, MeshSpec, Size};
 use plushwright::outline::{self, Drawing, Import, Outline, Point, polygon, svg};
 
 /// Kinds of outlines in `shapes`.
@@ -60,7 +60,7 @@ fn a_symmetric_outline_gives_a_mesh_that_is_its_own_mirror_image() {
         let drawing = std::fs::read(format!("{}/assets/{name}.svg", env!("CARGO_MANIFEST_DIR"))).unwrap();
         let outline = svg::read(&drawing, None).unwrap();
         for fibers in [414, 2000] {
-            let meshed = mesh::build(&outline, &Request::fibers(fibers)).unwrap();
+            let meshed = mesh::build(&outline, &MeshSpec::fibers(fibers)).unwrap();
             let axis = meshed.axis.unwrap_or_else(|| panic!("{name} at {fibers} is not symmetric"));
             assert!(mesh::is_mirrored(&meshed.mesh, axis), "{name}");
             // To the bit, about an upright axis.
@@ -75,7 +75,7 @@ fn a_symmetric_outline_gives_a_mesh_that_is_its_own_mirror_image() {
         .into_iter()
         .map(|p| [c * p[0] - s * p[1], s * p[0] + c * p[1]])
         .collect();
-    let meshed = mesh::build(&Outline { outer: drop, holes: vec![] }, &Request::fibers(300)).unwrap();
+    let meshed = mesh::build(&Outline { outer: drop, holes: vec![] }, &MeshSpec::fibers(300)).unwrap();
     assert!(meshed.axis.is_some_and(|axis| mesh::is_mirrored(&meshed.mesh, axis)));
 }
 
@@ -83,8 +83,8 @@ fn a_symmetric_outline_gives_a_mesh_that_is_its_own_mirror_image() {
 fn edges_run_along_the_tracks() {
     let outline = Outline { outer: ring([0.0; 2], 200, |_| 100.0), holes: vec![] };
     let tracks = vec![vec![[-60.0, 0.0], [0.0, 10.0], [60.0, 0.0]], vec![[38.0, -50.0], [24.0, 60.0]]];
-    let request = Request { size: Size::Fibers(500), tracks: tracks.clone(), mirror: true };
-    let mesh = mesh::build(&outline, &request).unwrap().mesh;
+    let spec = MeshSpec { size: Size::Fibers(500), tracks: tracks.clone(), mirror: true };
+    let mesh = mesh::build(&outline, &spec).unwrap().mesh;
     check("disc with tracks", &outline, 500, &mesh);
     for track in &tracks {
         assert!(off_edges(&mesh, track).is_empty(), "no edge at {:?}", off_edges(&mesh, track));
@@ -111,7 +111,7 @@ const DRAWING: &str = "(parts: [
 #[test]
 fn the_tracks_of_a_drawing_are_edges_of_every_mesh_of_it() {
     let imported = Drawing::read(DRAWING.as_bytes()).unwrap().import(&Import::default()).unwrap();
-    let Body { outline, mesh, drawing, .. } = Body::new(imported.clone(), &Request::fibers(400), 1, [0.0; 2]).unwrap();
+    let Body { outline, mesh, drawing, .. } = Body::new(imported.clone(), &MeshSpec::fibers(400), 1, [0.0; 2]).unwrap();
     let mut design = Design { drawing, ..Design::new("limb", outline, mesh) };
     // 30 mm to the right of the corner, and 30 mm above it.
     assert_eq!(design.tracks(), [[[160.0, 50.0], [90.0, 35.0], [-1e7 + 30.0, 35.0]]]);
@@ -125,11 +125,11 @@ fn the_tracks_of_a_drawing_are_edges_of_every_mesh_of_it() {
         assert!(low * 1000 <= design.mesh.triangles.len(), "{what}: {low}");
     };
     check(&design, "new");
-    let request = Request { tracks: design.tracks().to_vec(), ..Request::fibers(800) };
-    let (mesh, fibers) = remesh::body(&design.outline, &request, 2).unwrap();
+    let spec = MeshSpec { tracks: design.tracks().to_vec(), ..MeshSpec::fibers(800) };
+    let (mesh, fibers) = remesh::body(&design.outline, &spec, 2).unwrap();
     remesh::carry(&mut design, mesh, fibers);
     check(&design, "another resolution");
-    let body = Body::new(imported, &Request::fibers(500), 1, [0.0; 2]).unwrap();
+    let body = Body::new(imported, &MeshSpec::fibers(500), 1, [0.0; 2]).unwrap();
     reshape::reshape(&mut design, body);
     check(&design, "another body");
     // A silhouette that was not drawn keeps them too.
@@ -137,7 +137,7 @@ fn the_tracks_of_a_drawing_are_edges_of_every_mesh_of_it() {
     let mut plain = outline::import(&plain, &Import::default()).unwrap();
     edit::set_tracks(&mut design, vec![vec![[120.0, 110.0], [180.0, 110.0]]]).unwrap();
     reshape::keep_tracks(&design, &mut plain);
-    reshape::reshape(&mut design, Body::new(plain, &Request::fibers(571), 1, [0.0; 2]).unwrap());
+    reshape::reshape(&mut design, Body::new(plain, &MeshSpec::fibers(571), 1, [0.0; 2]).unwrap());
     assert!(off_edges(&design.mesh, &[[120.0, 110.0], [180.0, 110.0]]).is_empty());
 }
 
@@ -145,8 +145,8 @@ fn the_tracks_of_a_drawing_are_edges_of_every_mesh_of_it() {
 fn a_size_in_mm_is_met() {
     let outline = Outline { outer: ring([0.0; 2], 200, |_| 100.0), holes: vec![] };
     for length in [6.0, 12.0, 25.0] {
-        let request = Request { size: Size::EdgeMm(length), ..Request::fibers(0) };
-        let mean = MeshQuality::of(&mesh::build(&outline, &request).unwrap().mesh).mean_edge;
+        let spec = MeshSpec { size: Size::EdgeMm(length), ..MeshSpec::fibers(0) };
+        let mean = MeshQuality::of(&mesh::build(&outline, &spec).unwrap().mesh).mean_edge;
         assert!((mean / length - 1.0).abs() < 0.15, "{mean} {length}");
     }
 }

@@ -4,7 +4,8 @@ use super::support::window::{Window, click, drag, on_screen, open, press, sessio
 use eframe::egui::accesskit::Role;
 use eframe::egui::{self, Key, Modifiers, vec2};
 use egui_kittest::kittest::Queryable;
-use plushwright::design::{Design, file};
+use plushwright::design::{Design, Easing, Keyframe, file};
+use plushwright::fabrication::Manifest;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -262,22 +263,64 @@ fn a_rig_with_fixed_options_is_the_same_both_ways() {
     same(&window, &folder.path().join("rigged.plush"));
 }
 
-#[test]
-fn a_blueprint_is_the_same_both_ways() {
-    let (folder, mut window) = rigged();
-    run(folder.path(), &["export", "bar.plush", "-o", "cli"]);
-    press(&mut window, Modifiers::COMMAND, Key::E);
-    type_path(&mut window, &folder.path().join("window"));
-    press(&mut window, Modifiers::NONE, Key::Enter);
+/// The window's export has the files of the program's, byte for byte.
+#[track_caller]
+fn same_blueprint(folder: &Path, cli: &str, by_hand: &str) {
     let files = |name: &str| {
-        let mut files: Vec<_> = fs::read_dir(folder.path().join(name)).unwrap().map(|e| e.unwrap().path()).collect();
+        let mut files: Vec<_> = fs::read_dir(folder.join(name)).unwrap().map(|e| e.unwrap().path()).collect();
         files.sort();
         files
     };
-    let [cli, by_hand] = [files("cli"), files("window")];
+    let [cli, by_hand] = [files(cli), files(by_hand)];
     assert!(cli.len() > 4 && cli.len() == by_hand.len(), "{cli:?} {by_hand:?}");
     for (a, b) in cli.iter().zip(&by_hand) {
         assert_eq!(a.file_name(), b.file_name());
         assert!(fs::read(a).unwrap() == fs::read(b).unwrap(), "{}", a.display());
     }
+}
+
+/// Exports with what was chosen in the dialog.
+fn export(window: &mut Window, folder: &Path, choose: impl Fn(&mut Window)) {
+    press(window, Modifiers::COMMAND, Key::E);
+    type_path(window, folder);
+    choose(window);
+    window.get_by_label("Path").focus();
+    window.step();
+    press(window, Modifiers::NONE, Key::Enter);
+    settle(window);
+}
+
+#[test]
+fn a_blueprint_is_the_same_both_ways() {
+    let (folder, mut window) = rigged();
+    run(folder.path(), &["export", "bar.plush", "-o", "cli"]);
+    export(&mut window, &folder.path().join("window"), |_| ());
+    same_blueprint(folder.path(), "cli", "window");
+}
+
+#[test]
+fn what_is_too_quick_is_refused_or_stretched_the_same_both_ways() {
+    let (folder, window) = rigged();
+    let mut design = Design::clone(session(&window).design());
+    let key = |time_s, mm| Keyframe { time_s, activations_mm: vec![mm], pose: None, easing: Easing::Smooth };
+    design.keyframes = vec![key(0.0, 0.0), key(0.01, 30.0)];
+    let path = folder.path().join("quick.plush");
+    file::write(&path, &design).unwrap();
+    let mut window = self::window(design, Some(path));
+    run(folder.path(), &["export", "quick.plush", "-o", "cli", "--stretch"]);
+
+    let told = |window: &Window| -> Vec<String> {
+        session(window).messages().list().iter().map(|message| message.text.clone()).collect()
+    };
+    let folder = folder.path();
+    export(&mut window, &folder.join("window"), |_| ());
+    assert!(!folder.join("window").exists());
+    assert!(told(&window).iter().any(|text| text.contains("“Stretch what is too quick”")), "{:?}", told(&window));
+
+    export(&mut window, &folder.join("window"), |window| click(window, "Stretch what is too quick"));
+    same_blueprint(folder, "cli", "window");
+    let manifest: Manifest = serde_json::from_slice(&fs::read(folder.join("cli/manifest.json")).unwrap()).unwrap();
+    assert!(!manifest.remarks.is_empty());
+    let shown = told(&window).concat();
+    assert!(manifest.remarks.iter().take(4).all(|remark| shown.contains(remark.as_str())), "{shown}");
 }

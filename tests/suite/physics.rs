@@ -314,7 +314,8 @@ fn gravity_moves_with_the_weight() {
     let gravity = Gravity::new(&body.nodal_areas(mesh.nodes.len()), 0.6, [0.0, -9.8]);
     let x = mesh.flat();
     let lifted = moved(&x, 0.0, [5.0, 2.0]);
-    assert!((gravity.value(&lifted) - gravity.value(&x) - 0.6 * 1.5 * 9.8 * 2.0).abs() < 1e-11);
+    let raised = gravity.value(&lifted) - gravity.value(&x);
+    assert!((raised - 0.6 * 1.5 * 9.8 * 2.0).abs() < 1e-11 && (raised - gravity.of_shift([5.0, 2.0])).abs() < 1e-11);
     let weight: f64 = term_gradient(&gravity, &x).iter().skip(1).step_by(2).sum();
     assert!((weight - 0.6 * 1.5 * 9.8).abs() < 1e-12);
 }

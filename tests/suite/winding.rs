@@ -56,11 +56,11 @@ fn budget(iterations: usize) -> Budget<'static> {
     Budget { iterations, stop: NEVER }
 }
 
-fn ask(rig: &Rig, question: engine::Question, effort: Effort) -> Outcome {
+fn ask(rig: &Rig, setpoint: engine::Setpoint, effort: Effort) -> Outcome {
     let request = Request {
         id: 0,
         design: Arc::new(rig.design.clone()),
-        question,
+        setpoint,
         quality: Quality::Accurate,
         show_idealized: false,
         show_realizable: true,
@@ -69,7 +69,7 @@ fn ask(rig: &Rig, question: engine::Question, effort: Effort) -> Outcome {
 }
 
 fn shown(rig: &Rig) -> Shape {
-    ask(rig, engine::Question::Targets(rig.targets.clone()), Effort::Thorough).realizable.unwrap()
+    ask(rig, engine::Setpoint::Targets(rig.targets.clone()), Effort::Thorough).realizable.unwrap()
 }
 
 #[test]
@@ -192,7 +192,7 @@ fn play_is_what_a_millimetre_of_cable_does() {
     let shown = shown(&posed.rig);
     let play = shown.play.unwrap();
     let off = |by: f64| {
-        let activations = engine::Question::Activations(vec![shown.activations_mm[0] + by]);
+        let activations = engine::Setpoint::Activations(vec![shown.activations_mm[0] + by]);
         let shape = ask(&posed.rig, activations, Effort::Interactive).realizable.unwrap();
         target_error(&posed.rig.design, &posed.rig.targets, &shape.nodes)
     };

@@ -6,7 +6,7 @@ use crate::problem::{Problem, Statics};
 pub struct Row {
     pub group: &'static str,
     pub name: &'static str,
-    /// What is swept, with its unit.
+    /// The figure that is swept, with its unit.
     pub swept: &'static str,
     pub cases: Vec<Case>,
 }
@@ -17,14 +17,14 @@ pub struct Case {
     pub at: String,
     pub problem: Problem,
     pub bar: Bar,
-    /// What is known of the answer: its error, as a part of the body length.
+    /// The error of an answer of which more is known, as a part of the body length.
     pub exact: Option<Exact>,
 }
 
 /// The error of an answer against a closed form.
 pub type Exact = Box<dyn Fn(&Statics) -> f64>;
 
-/// What must come out of a case.
+/// The requirement on a case.
 #[derive(Clone, Debug)]
 pub enum Bar {
     /// Statics that converge.
@@ -52,7 +52,7 @@ pub const BAR: Threshold = Threshold { residual: 1e-8, iterations: 200, determin
 /// Digits of an `f64`.
 const DIGITS: f64 = 16.0;
 
-/// What happened to a case.
+/// The result of a case.
 #[derive(Clone, Debug, Default)]
 pub struct Outcome {
     pub iterations: usize,
@@ -104,7 +104,7 @@ impl Case {
 }
 
 impl Bar {
-    /// What the outcome falls short in; empty if it passes.
+    /// The ways in which the outcome falls short; empty if it passes.
     pub fn judge(&self, outcome: &Outcome) -> Vec<String> {
         let mut short = Vec::new();
         let mut require = |holds: bool, what: String| {

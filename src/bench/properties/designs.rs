@@ -4,7 +4,7 @@ use crate::design::{
     Design, Easing, EditError, Gravity, History, Keyframe, Material, MaterialPoint, Network, Pin, Pose, Target, Tendon,
     edit, file,
 };
-use crate::engine::{Question, Request, Shape, Solver};
+use crate::engine::{Request, Setpoint, Shape, Solver};
 use crate::mesh::{BodyPoint, Mesh};
 use crate::outline::Outline;
 use crate::physics::terms::GRAVITY;
@@ -80,14 +80,14 @@ fn text(design: &Design) -> Result<String, String> {
 
 /// Asks for both plushies and looks at what would be shown.
 fn show(solver: &mut Solver, design: &Arc<Design>, random: &mut Random) -> Result<(), String> {
-    let question = match random.index(3) {
-        0 => Question::Activations(design.networks.iter().map(|_| random.between(-20.0, 60.0)).collect()),
-        _ => Question::Targets(design.poses.first().map(|p| p.targets.clone()).unwrap_or_default()),
+    let setpoint = match random.index(3) {
+        0 => Setpoint::Activations(design.networks.iter().map(|_| random.between(-20.0, 60.0)).collect()),
+        _ => Setpoint::Targets(design.poses.first().map(|p| p.targets.clone()).unwrap_or_default()),
     };
     let request = Request {
         id: 0,
         design: design.clone(),
-        question,
+        setpoint,
         quality: Quality::Draft,
         show_idealized: random.index(4) > 0,
         show_realizable: random.index(4) > 0,

@@ -32,7 +32,7 @@ pub fn problem(seed: u64, number: u64) -> Drawn {
 /// A problem, and what was done to it.
 pub struct Drawn {
     pub problem: Problem,
-    /// What makes it unsound: it must be refused.
+    /// The flaw that makes it unsound: it must be refused.
     pub broken: Option<&'static str>,
 }
 

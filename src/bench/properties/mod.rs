@@ -24,7 +24,7 @@ pub struct Properties {
     pub first: usize,
 }
 
-/// What came of a run.
+/// The result of a run.
 #[derive(Clone, Debug, Default)]
 pub struct Found {
     /// How many problems ended in each way of [`End::ALL`].
@@ -32,7 +32,7 @@ pub struct Found {
     pub sequences: usize,
     /// Edits that took effect and were undone and redone.
     pub edits: usize,
-    /// What does not hold: the kind (`problem`, `design`), its number, and what is wrong.
+    /// Each property that does not hold: the kind (`problem`, `design`), its number, and what is wrong.
     pub violations: Vec<(&'static str, usize, String)>,
 }
 

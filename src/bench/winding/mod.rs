@@ -15,7 +15,7 @@ use super::{BenchError, Cell, Report, Session, Table};
 use crate::design::Target;
 use crate::engine::compile::{Plushie, View, compile, objective};
 use crate::engine::target_error;
-use crate::engine::{Effort, Quality, Question as Asked, Request, Shape, Solver};
+use crate::engine::{Effort, Quality, Request, Setpoint, Shape, Solver};
 use crate::soft_ik::contraction::GaussNewton;
 use crate::soft_ik::winding::{self, Care, Search};
 use crate::soft_ik::{Actuation, Budget, Method, Objective, Posture, Question};
@@ -26,7 +26,7 @@ use std::time::Instant;
 pub const SCANNED: [usize; 2] = [200, 30];
 /// States of a scan that are wound from rest once more at most, for each rig.
 const PROVED: usize = 40;
-/// What an answer may miss, as a part of the error at rest.
+/// Largest part of the error at rest that an answer may miss.
 pub const MISSING: f64 = 0.01;
 /// Two values of `O` are the same where they differ by at most this part of the whole decrease.
 const SAME_VALUE: f64 = 1e-4;
@@ -39,7 +39,7 @@ pub const RUNS: usize = 5;
 /// Parts of the ranges from which the Gauss-Newton method starts; the best counts.
 const STARTS: [f64; 3] = [0.0, 0.35, 0.7];
 
-/// What to study.
+/// Shapes and rigs of the study.
 pub struct Winding {
     pub shapes: Vec<String>,
     /// Rigs of each number of winches, one to three, over all shapes.
@@ -265,7 +265,7 @@ fn shown(rig: &Rig, session: &Session) -> Shape {
     let request = Request {
         id: 0,
         design: Arc::new(rig.design.clone()),
-        question: Asked::Targets(rig.targets.clone()),
+        setpoint: Setpoint::Targets(rig.targets.clone()),
         quality: Quality::Accurate,
         show_idealized: false,
         show_realizable: true,

@@ -17,8 +17,6 @@ const TEXT_MM: f64 = 4.0;
 /// Line widths, mm: visible on paper, and below what lasers take for an area to engrave.
 const STITCH_MM: f64 = 0.1;
 const NOTE_MM: f64 = 0.15;
-/// A tendon hole this near to the seam tears out or gets sewn over, mm.
-const SEAM_CLEARANCE_MM: f64 = 3.0;
 /// Half the width of the cross that marks a pin, mm.
 const PIN_MARK_MM: f64 = 3.0;
 /// Half the length of the ticks at the ends of the turning gap, mm.
@@ -48,6 +46,7 @@ pub(super) fn make(source: &Source<'_>) -> Result<Part, ExportError> {
         "  One unit is one millimetre. Measure the 100 mm line before you cut. Red hairlines are cut (holes first), blue lines
   are sewn, green marks are for you. The seam allowance is {} mm. Put front and back together with their outer
   sides facing, sew along the blue line, leave the marked gap open, turn, stuff, close the gap by hand.
+  Where a hole lies on the seam or next to it, lead the cable through the seam after sewing.
 ",
         source.design.fabrication.seam_allowance_mm
     );
@@ -108,14 +107,6 @@ fn remarks(design: &Design, shapes: &[Vec<Vec<Point>>], gap_mm: f64) -> Vec<Stri
     let cut_outs: usize = shapes.iter().map(|s| s.len().saturating_sub(1)).sum();
     if cut_outs > design.outline.holes.len() {
         remarks.push("Seam allowances meet in a narrow notch: snip between the seams after sewing.".into());
-    }
-    let near = |(_, hole): &(usize, Point)| design.outline.distance(*hole) < SEAM_CLEARANCE_MM;
-    let on_seam: Vec<String> =
-        holes(design).into_iter().enumerate().filter(near).map(|(i, _)| (i + 1).to_string()).collect();
-    if !on_seam.is_empty() {
-        let which = on_seam.join(", ");
-        remarks
-            .push(format!("On the seam or next to it: hole {which}. Sew first, then lead the cable through the seam."));
     }
     remarks
 }

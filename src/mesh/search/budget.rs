@@ -36,7 +36,7 @@ impl WorkBudget {
         self.done.set(self.done.get().saturating_add(work));
     }
 
-    /// What is done when, from now on, this part of all work is spent.
+    /// The work that is done when, from now on, this part of all work is spent.
     pub fn after_share(&self, part: f64) -> usize {
         self.done.get() + (part * self.most as f64) as usize
     }

@@ -7,7 +7,7 @@ use crate::mesh::tracks::Sampled;
 use crate::outline::{Outline, Point};
 use std::cell::{Cell, OnceCell, RefCell};
 
-/// What is to be meshed: an outline, or one half of it.
+/// The outline that is to be meshed, or one half of it.
 pub(in crate::mesh) struct Subject<'a> {
     /// The whole, for its size and its fit.
     pub(super) whole: &'a Outline,
@@ -17,7 +17,7 @@ pub(in crate::mesh) struct Subject<'a> {
     pub(super) sampled: RefCell<Option<(f64, Option<Sampled>)>>,
     pub(super) axis: Option<Axis>,
     pub(super) height: f64,
-    /// What is lost of the closeness by taking the image of one half for the other, mm.
+    /// The closeness that is lost by taking the image of one half for the other, mm.
     pub(super) off: f64,
     /// Vertices of the outline.
     pub(super) vertices: usize,

@@ -3,6 +3,7 @@
 //! A drive moves towards its target with the acceleration AC up to the speed SP, and slows down with DEC so that it stands still
 //! there. Nothing pulls at it.
 
+use crate::motion::classic::{TERMINATOR, carried_s};
 use crate::motion::link::{Link, LinkError, Reply};
 use std::collections::VecDeque;
 
@@ -40,14 +41,9 @@ struct Drive {
     velocity: f64,
 }
 
-/// From the factory.
-const BAUD: f64 = 9600.0;
-/// A start bit, eight bits and a stop bit.
-const BITS_A_BYTE: f64 = 10.0;
 /// Step of the simulation, s: a drive is where it would be to within its way in one step.
 const TICK_S: f64 = 1e-3;
-/// Ends a command; replies end with one more byte.
-const COMMAND_END: usize = 1;
+/// Bytes that end a reply.
 const REPLY_END: usize = 2;
 /// A drive this near to its target is there, counts.
 const THERE: f64 = 0.5;
@@ -83,7 +79,7 @@ impl SimulatedLink {
 
     /// The time that so many bytes take on the line.
     fn carry(&mut self, bytes: usize) {
-        self.pass(BITS_A_BYTE * bytes as f64 / BAUD);
+        self.pass(carried_s(bytes));
     }
 }
 
@@ -98,7 +94,7 @@ impl Link for SimulatedLink {
         if !self.open {
             return Err(LinkError::Closed);
         }
-        self.carry(command.len() + COMMAND_END);
+        self.carry(command.len() + TERMINATOR.len());
         let digits = command.len() - command.trim_start_matches(|c: char| c.is_ascii_digit()).len();
         let (node, order) = command.split_at(digits);
         let node = node.parse::<usize>().ok().and_then(|node| node.checked_sub(1));

@@ -34,7 +34,7 @@ impl Drawing {
         }
     }
 
-    /// What lies at a place, the topmost: a track within `reach`, or else the part that was drawn last, mm.
+    /// The topmost item at a place: a track within `reach`, or else the part that was drawn last, mm.
     pub fn under(&self, p: Point, reach: f64) -> Option<Item> {
         let on_track = self.tracks.iter().rposition(|track| track::distance(track, p) <= reach);
         let in_part = || self.parts.iter().rposition(|part| part.primitive.contains(p));

@@ -33,7 +33,7 @@ const MAX_MM: f64 = 1e7;
 /// How far the drawing of an outline may stray from it, as a fraction of the longer side of its box: less than the mesh does.
 const FIT_FRACTION: f64 = 2.5e-3;
 
-/// What makes a silhouette, in the order in which it was drawn.
+/// The parts that make a silhouette, in the order in which it was drawn.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Drawing {
@@ -111,7 +111,7 @@ impl Drawing {
         Ok(())
     }
 
-    /// What the parts cover together: nothing to several pieces.
+    /// The area that the parts cover together: nothing to several pieces.
     ///
     /// # Errors
     /// [`OutlineError::TooComplex`].

@@ -67,6 +67,10 @@ impl Energy for Gravity {
         -self.forces.iter().zip(x.chunks_exact(2)).map(|(f, p)| f[0] * p[0] + f[1] * p[1]).sum::<f64>()
     }
 
+    fn of_shift(&self, by: [f64; 2]) -> f64 {
+        -self.forces.iter().map(|f| f[0] * by[0] + f[1] * by[1]).sum::<f64>()
+    }
+
     fn add_gradient(&self, _x: &[f64], gradient: &mut [f64]) {
         for (f, g) in self.forces.iter().zip(gradient.chunks_exact_mut(2)) {
             g[0] -= f[0];

@@ -19,7 +19,7 @@ pub(super) struct Rows {
     pub force: Vec<f64>,
     /// `d2L/dbeta^2` of the explicit terms alone: `lambda sum (r/alpha_0)^2`.
     pub explicit: Vec<f64>,
-    /// What the change of the tangent adds to it: exact, and where that is not negative.
+    /// The change of the tangent's part in it: exact, and where that is not negative.
     pub change: [Vec<f64>; 2],
     /// `U''' G p` of every element where the Lagrangian is concave in its deformation, else zero.
     pub concave: Vec<f64>,

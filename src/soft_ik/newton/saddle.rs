@@ -175,7 +175,7 @@ impl Saddle {
         if step.iter().all(|d| d.is_finite()) { Ok(step) } else { Err(NotConvex) }
     }
 
-    /// What the step found last adds to the slopes of the undamped model, winch by winch.
+    /// The change of the slopes of the undamped model by the step found last, winch by winch.
     pub fn change_of_slopes(&self, rows: &Rows, step: &[f64]) -> Vec<f64> {
         let form = self.form;
         let change = |(j, d): (usize, &f64)| rows.product(&self.stencils, j, &self.z, form) + rows.weight(j, form) * d;

@@ -19,7 +19,7 @@ pub(super) struct Subproblem<'a> {
     pub nu: f64,
 }
 
-/// What the solution works in; kept between subproblems.
+/// Arrays that the solution works in; kept between subproblems.
 #[derive(Default)]
 pub(super) struct Dual {
     gradient: Vec<f64>,

@@ -12,7 +12,7 @@ use super::dual::{axpy, dot};
 /// Least cosine of the angle between `s` and `w`: below it `z` would be long and say little about `S`.
 const LEAST_COSINE: f64 = 0.03;
 
-/// What the last step has shown of the curvature.
+/// The curvature that the last step has shown.
 pub(super) struct Secant {
     /// `J` where the last step began, row after row, `z` below it, and the step; nothing where there is no such step.
     jacobian: Vec<f64>,

@@ -8,7 +8,7 @@ use crate::soft_ik::{Phases, Question};
 /// stiffness of its own and lets the body buckle where the real cable would not, so a stiffer one is given this stiffness.
 const SOFT: f64 = 10.0;
 
-/// What runs work in.
+/// Arrays that runs work in.
 pub(in crate::soft_ik) struct Workspace {
     pub(super) cables: Cables,
     /// Right-hand sides and solutions `[Y, v, u]`, of each degree of freedom all columns (see [`Cables::rates`]).

@@ -19,7 +19,7 @@ pub(super) const SMALL: usize = 8;
 const LAGGING: f64 = 3e-3;
 const SECOND_TRIES: usize = 1;
 
-/// What the fibres' method keeps between frames.
+/// The state that the fibres' method keeps between frames.
 pub(super) struct Fibers {
     pub work: Workspace,
     pub run: Run,

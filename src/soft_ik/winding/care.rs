@@ -5,7 +5,7 @@ use super::walk::Pace;
 /// Up to this many winches, the lines lie on a lattice.
 pub const LATTICE: usize = 3;
 
-/// What a search for wound states may cost, and what it must prove.
+/// Bounds on the cost of a search for wound states, and the proof it owes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Care {
     /// Parts of a winch's range between lines, for one, two and three winches; powers of two.

@@ -29,7 +29,7 @@ pub struct Proof {
     same: f64,
 }
 
-/// What is known so far.
+/// The verdict so far.
 pub enum Verdict {
     Open,
     /// The posture in which winding ends, however many steps it takes.

@@ -33,7 +33,7 @@ pub fn scrub(session: &mut Session, time_s: f64) {
     session.picked.mode = if session.design().keyframes.is_empty() { Mode::Pose } else { Mode::Animation };
 }
 
-/// What is seen becomes a keyframe: the animation at the playhead at once, a pose as soon as its activations are worked out.
+/// Makes a keyframe of what is seen: the animation at the playhead at once, a pose as soon as its activations are worked out.
 pub fn add_keyframe(session: &mut Session) {
     if session.design().networks.is_empty() {
         return session.messages.warning(words::unkeyed(&Error::NoNetworks));

@@ -7,9 +7,11 @@ use super::{import, keep, open, paths, replace, save, sheet};
 use crate::defaults;
 use crate::design::file::is_design;
 use crate::files;
+use crate::operations::export;
 use crate::studio::action::Sketch;
 use crate::studio::jobs::{New, Outcome, Refused};
 use crate::studio::session::{Dialog, FREEHAND, FileAction, PathDialog, Picking, Purpose, Resolution, Session};
+use crate::studio::words;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -72,7 +74,7 @@ fn go_on(session: &mut Session, action: FileAction) {
         FileAction::Recover => keep::recover(session),
         FileAction::DiscardWork => keep::discard_work(session),
         FileAction::RecoverLater => keep::recover_later(session),
-        FileAction::ExportPath(folder) => export(session, folder),
+        FileAction::ExportPath { folder, options } => export(session, folder, options),
         FileAction::CloseDialog if session.files.dialog == Some(Dialog::Recover) => keep::recover_later(session),
         FileAction::CloseDialog => {
             session.files.dialog = None;
@@ -162,19 +164,24 @@ pub fn take_import(session: &mut Session, result: Result<Box<New>, Box<Refused>>
     }
 }
 
-pub fn take_export(session: &mut Session, folder: &Path, result: Result<(), String>) {
+pub fn take_export(session: &mut Session, folder: &Path, result: Result<Vec<String>, String>) {
     match result {
-        Ok(()) => session.messages.info(format!("The blueprint is in {}", files::shown(folder))),
+        Ok(remarks) => {
+            session.messages.info(format!("The blueprint is in {}", files::shown(folder)));
+            if let Some(text) = words::remarks(&remarks) {
+                session.messages.warning(text);
+            }
+        }
         Err(why) => session.messages.error(format!("The export failed: {why}")),
     }
 }
 
-fn export(session: &mut Session, folder: PathBuf) {
+fn export(session: &mut Session, folder: PathBuf, options: export::Options) {
     session.files.dialog = None;
     session.files.working = Some("Exporting the blueprint");
     let (design, export) = (session.design().clone(), session.services.export.clone());
     session.files.running = Some(session.jobs.start("Export", move |_| {
-        let result = export(&design, &folder);
+        let result = export(&design, &folder, &options);
         Outcome::Exported { folder, result }
     }));
 }

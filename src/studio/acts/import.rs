@@ -2,8 +2,8 @@
 
 use super::replace;
 use crate::files;
-use crate::operations::Context;
 use crate::operations::new_design::{self, Made, Note, Options};
+use crate::operations::{Context, export};
 use crate::outline;
 use crate::studio::jobs::{New, Outcome, Refused};
 use crate::studio::keeping::Kept;
@@ -34,8 +34,8 @@ pub fn open_imported(session: &mut Session) {
     for line in words::changes(&changes) {
         session.messages.info(line);
     }
-    for Note::MoreFibers { asked, count } in notes {
-        session.messages.info(words::more_fibers(asked, count));
+    for Note::MoreFibers(more) in notes {
+        session.messages.info(words::more_fibers(more));
     }
     // It is nowhere but here.
     session.document.mark_unsaved();
@@ -52,6 +52,7 @@ pub fn ask_again(session: &mut Session, refused: Refused) {
         purpose: Purpose::Import,
         path: path.to_string_lossy().into_owned(),
         import: choice,
+        export: export::Options::default(),
         trouble: Some(why),
     }));
 }

@@ -1,5 +1,6 @@
 //! Asking for a path.
 
+use crate::operations::export;
 use crate::outline;
 use crate::studio::jobs::Outcome;
 use crate::studio::session::{Dialog, ImportChoice, PathDialog, Picking, Purpose, Session};
@@ -22,6 +23,7 @@ pub fn show_path_dialog(session: &mut Session, purpose: Purpose) {
         purpose,
         path: path.to_string_lossy().into_owned(),
         import: ImportChoice::default(),
+        export: export::Options::default(),
         trouble: None,
     }));
 }

@@ -119,8 +119,8 @@ pub fn give_body(session: &mut Session, hands_off: bool) {
     for line in words::changes(&changes) {
         session.messages.info(line);
     }
-    for Note::MoreFibers { asked, count } in notes {
-        session.messages.info(words::more_fibers(asked, count));
+    for Note::MoreFibers(more) in notes {
+        session.messages.info(words::more_fibers(more));
     }
 }
 

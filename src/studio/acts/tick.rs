@@ -2,7 +2,7 @@
 
 use super::{animate, discover, edit, filing, mesh, rig, sheet, texture};
 use crate::design::animation;
-use crate::engine::Question;
+use crate::engine::Setpoint;
 use crate::studio::canvas::Plushie;
 use crate::studio::jobs::{Finished, Outcome, Running};
 use crate::studio::session::{Mode, Session};
@@ -33,12 +33,12 @@ pub fn tick(session: &mut Session, now_s: f64, passed_s: f64, hands_off: bool) {
 /// Asks the solver for what the views show.
 fn ask(session: &mut Session) {
     let design = session.design().clone();
-    let question = match session.picked.mode {
-        Mode::Pose => Question::Targets(session.targets().to_vec()),
-        Mode::Animation => Question::Activations(animation::activations_at(&design, session.playback.time_s)),
+    let setpoint = match session.picked.mode {
+        Mode::Pose => Setpoint::Targets(session.targets().to_vec()),
+        Mode::Animation => Setpoint::Activations(animation::activations_at(&design, session.playback.time_s)),
     };
     let shows = [Plushie::Idealized, Plushie::Realizable].map(|plushie| session.look.views.shows(plushie));
-    session.solver.ask(design, question, shows);
+    session.solver.ask(design, setpoint, shows);
 }
 
 /// A job is over.

@@ -3,7 +3,7 @@
 use crate::outline::Point;
 use eframe::egui::{Pos2, Rect, Vec2, pos2};
 
-/// What a viewport shows: a point in its middle and a scale. Both views share one, so that they compare.
+/// The part of the plane that a viewport shows: a point in its middle and a scale. Both views share one, so that they compare.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     /// mm.

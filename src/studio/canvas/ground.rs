@@ -12,7 +12,7 @@ use crate::studio::action::Sketch;
 use crate::studio::session::Session;
 use eframe::egui::{Pos2, Rect};
 
-/// What a tool is given: what there is, where it is shown, and how.
+/// The canvas as a tool is given it: what there is, where it is shown, and how.
 #[derive(Clone, Copy)]
 pub struct Canvas<'a> {
     pub session: &'a Session,
@@ -21,7 +21,7 @@ pub struct Canvas<'a> {
     pub ground: Ground<'a>,
 }
 
-/// What lies under the tool.
+/// The thing that a tool works on.
 #[derive(Clone, Copy)]
 pub enum Ground<'a> {
     /// The body of a plushie, as it is shown; nothing where it is not solved yet.
@@ -44,7 +44,7 @@ impl Canvas<'_> {
         self.camera.to_body(self.rect, p)
     }
 
-    /// What of the plushie lies under a point; of the outline nothing.
+    /// The part of the plushie under a point; of the outline nothing.
     pub fn hit(&self, p: Point) -> Hit {
         match self.ground {
             Ground::Plushie(_, Some(shape)) => {

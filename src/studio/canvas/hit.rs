@@ -11,7 +11,7 @@ pub const NODE_REACH: f32 = 5.0;
 /// How far outside the body it can still be grabbed, logical pixels.
 pub const EDGE_REACH: f32 = 7.0;
 
-/// What the pointer would act on, most specific first.
+/// The thing that the pointer would act on, most specific first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Hit {
     /// Target of the current pose, by its index: its goal or its handle on the body.

@@ -121,7 +121,7 @@ fn handles(painter: &Painter, canvas: &Canvas<'_>, item: Item, color: Color32, b
     }
 }
 
-/// What the sheet is and what can be done on it. `busy`: something is being drawn.
+/// Captions that say what the sheet is and what can be done on it. `busy`: something is being drawn.
 pub fn captions(ui: &Ui, canvas: &Canvas<'_>, hint: &str, busy: bool) {
     let Canvas { session, rect, .. } = *canvas;
     let painter = ui.painter_at(rect);

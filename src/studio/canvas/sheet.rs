@@ -14,14 +14,14 @@ use eframe::egui::{Rect, Role, Sense, Ui, WidgetInfo};
 /// Shown where nothing is drawn yet, mm.
 const EMPTY_SHEET: (Point, Point) = ([0.0, 0.0], [300.0, 240.0]);
 
-/// What the sheet remembers from frame to frame.
+/// The state that the sheet keeps from frame to frame.
 #[derive(Default)]
 pub struct State {
     surface: Surface,
 }
 
 impl State {
-    /// What is drawn, worked out anew only where it has changed.
+    /// The surface of a drawing, worked out anew only where it has changed.
     pub fn surface(&mut self, drawing: &Drawing) -> &Surface {
         self.surface.follow(drawing);
         &self.surface

@@ -20,7 +20,7 @@ pub struct Command {
     pub while_typing: bool,
     pub scope: Scope,
     pub places: &'static [Place],
-    /// What is only being drawn is put into the drawing first.
+    /// Whether a part that is only being drawn is put into the drawing first.
     pub ends_drawing: bool,
     /// Whether it is on, of one that can be.
     pub on: Option<Ask<bool>>,

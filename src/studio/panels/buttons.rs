@@ -76,7 +76,7 @@ fn square(ui: &mut Ui, session: &Session, command: &'static Command, side: f32, 
     show(ui, session, command, actions, |ui| icons::draw_button(ui, icon, command.label(session), on, side));
 }
 
-/// What stands in the place of a button while it is at work.
+/// A spinner with a way to cancel, in the place of a button that is at work.
 pub fn meshing(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     ui.horizontal(|ui| {
         ui.add(Spinner::new());

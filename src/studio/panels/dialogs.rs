@@ -3,12 +3,14 @@
 use super::widgets::primary;
 use crate::files::shown;
 use crate::mesh::MAX_FIBERS;
-use crate::operations::FiberCount;
+use crate::motion::TooFast;
+use crate::operations::{FiberCount, export};
 use crate::outline::{Background, Holes, Import, Pieces};
 use crate::studio::action::{Action, Actions, FileAction};
 use crate::studio::session::ImportChoice;
 use crate::studio::session::Session;
 use crate::studio::session::{Dialog, PathDialog, Purpose, Why};
+use crate::studio::words;
 use eframe::egui::{
     Align, CollapsingHeader, Context, DragValue, Grid, Id, Key, Layout, Modal, RichText, TextEdit, Ui, emath,
 };
@@ -144,6 +146,9 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, actions: &mut Actio
     if dialog.purpose == Purpose::Import {
         import_settings(ui, &mut edited);
     }
+    if dialog.purpose == Purpose::Export {
+        export_settings(ui, &mut edited.export);
+    }
     let path = Path::new(edited.path.trim());
     let is_known = path.exists() && !path.is_dir();
     let is_wrong = !is_known && !path.is_dir() && !path.as_os_str().is_empty();
@@ -179,6 +184,13 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, actions: &mut Actio
         // Before anything that closes the dialog.
         actions.insert(0, Action::File(FileAction::EditDialog(edited)));
     }
+}
+
+fn export_settings(ui: &mut Ui, options: &mut export::Options) {
+    let mut stretch = options.too_fast == TooFast::Stretch;
+    let tip = "Give the animation more time where its motors are too slow for it; otherwise it is refused";
+    ui.checkbox(&mut stretch, words::STRETCH).on_hover_text(tip);
+    options.too_fast = if stretch { TooFast::Stretch } else { TooFast::Refuse };
 }
 
 fn import_settings(ui: &mut Ui, edited: &mut PathDialog) {

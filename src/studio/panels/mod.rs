@@ -2,6 +2,7 @@
 //!
 //! A panel of the inspector is a file, and a line in [`ALL`].
 
+pub mod accuracy;
 pub mod buttons;
 pub mod dialogs;
 mod discovery;
@@ -13,7 +14,6 @@ pub mod outline;
 pub mod palette;
 mod panel;
 pub mod poses;
-pub mod quality;
 mod settings;
 mod sewable;
 pub mod shortcuts;

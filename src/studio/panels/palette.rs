@@ -10,7 +10,7 @@ use eframe::egui::{
 /// Width of the list, and its greatest height, logical pixels.
 const SIZE: [f32; 2] = [460.0, 360.0];
 
-/// What is being looked for, and which of what was found is chosen.
+/// The text that is looked for, and which of the commands found is chosen.
 #[derive(Default)]
 pub struct State {
     words: String,

@@ -10,12 +10,12 @@ pub struct Entry {
     pub id: &'static str,
     /// Of its tab.
     pub label: &'static str,
-    /// What it shows, as a sentence.
+    /// Its contents, as a sentence.
     pub tip: &'static str,
     pub make: fn() -> Box<dyn Panel>,
 }
 
-/// What stands below a tab. It reads the session and asks for actions; what it remembers is for the eye alone.
+/// The contents of a tab. It reads the session and asks for actions; what it remembers is for the eye alone.
 pub trait Panel {
     fn show(&mut self, ui: &mut Ui, session: &Session, actions: &mut Actions);
 }

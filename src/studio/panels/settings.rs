@@ -211,12 +211,19 @@ fn controller(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     );
     number(ui, "Gear ratio", ": 1", "Motor revolutions per turn of the spool", &mut c.gear_ratio, 0.1..=5000.0);
     number(ui, "Track rate", "Hz", "Samples a second in the winch tracks", &mut c.track_rate_hz, 1.0..=1000.0);
-    count(ui, "Speed limit", "rpm", "Motor speed limit written to the controller", &mut c.speed_rpm, 1..=30000);
+    count(
+        ui,
+        "Speed limit",
+        "rpm",
+        "Largest motor speed that the plan of the animation asks for",
+        &mut c.speed_rpm,
+        1..=30000,
+    );
     count(
         ui,
         "Acceleration",
         "rev/s²",
-        "Motor acceleration limit written to the controller",
+        "Largest motor acceleration that the plan of the animation asks for",
         &mut c.acceleration,
         1..=30000,
     );

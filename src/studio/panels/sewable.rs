@@ -30,7 +30,7 @@ pub struct Sewable {
 }
 
 impl Sewable {
-    /// What is known of the design as it is now; asks for a judgement where the newest one is of another. `owner`: the panel.
+    /// The breaches known of the design as it is now; asks for a judgement where the newest one is of another. `owner`: the panel.
     pub fn breaches<'a>(&mut self, owner: &'static str, session: &'a Session, actions: &mut Actions) -> &'a [Breach] {
         let design = session.design();
         let told = session.tasks().told::<Judged>(owner);

@@ -1,6 +1,6 @@
 //! The lines at the bottom: what can be done, what the solver is at, and for each view what its shape cost and is worth.
 
-use super::quality;
+use super::accuracy;
 use crate::engine::{EQUILIBRIUM, NEAR_EQUILIBRIUM, Shape};
 use crate::studio::canvas::Plushie;
 use crate::studio::commands::command::Scope;
@@ -77,7 +77,7 @@ fn state(session: &Session) -> String {
     } else {
         "settled"
     };
-    format!("{} quality, {what}", quality::name(session.solver.quality))
+    format!("{} quality, {what}", accuracy::name(session.solver.quality))
 }
 
 /// Time, target error and balance of a view, in columns of fixed width; whether forces balance as far as can be seen.
@@ -132,7 +132,8 @@ mod tests {
 
     #[test]
     fn figures_keep_their_width() {
-        let services = Services { propose: Arc::new(|_, _, _, _| Vec::new()), export: Arc::new(|_, _| Ok(())) };
+        let services =
+            Services { propose: Arc::new(|_, _, _, _| Vec::new()), export: Arc::new(|_, _, _| Ok(Vec::new())) };
         let session = Session::new(crate::studio::blank::design(), None, Arc::new(|| ()), services);
         for (milliseconds, residual, converged) in [(0.04, 0.0, true), (12.3, 3e-12, true), (4321.0, 0.5, false)] {
             let shape = Shape { milliseconds, residual, converged, force_scale: 1.0, ..Shape::default() };

@@ -1,6 +1,6 @@
 //! The row on top: files, undo, tools, what is shown, discovery, export.
 
-use super::{buttons, quality};
+use super::{accuracy, buttons};
 use crate::design::bundled;
 use crate::files;
 use crate::studio::action::{Action, Actions, FileAction};
@@ -20,7 +20,7 @@ pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
             group(ui, session, of, actions);
             gap(ui);
         }
-        ui.add_enabled_ui(!session.sketching().open, |ui| quality::show(ui, session, actions));
+        ui.add_enabled_ui(!session.sketching().open, |ui| accuracy::show(ui, session, actions));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.add_space(4.0);
             ui.spacing_mut().item_spacing.x = 6.0;

@@ -81,12 +81,12 @@ impl Document {
         beside.filter(|p| !p.as_os_str().is_empty()).or_else(|| std::env::current_dir().ok()).unwrap_or_default()
     }
 
-    /// What its file is called where it has none.
+    /// A name for its file where it has none.
     pub fn file_name(&self) -> String {
         format!("{}.plush", plain(&self.design().name))
     }
 
-    /// What the folder of its blueprint is called.
+    /// A name for the folder of its blueprint.
     pub fn folder_name(&self) -> String {
         format!("{}-blueprint", plain(&self.design().name))
     }

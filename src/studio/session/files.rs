@@ -2,6 +2,7 @@
 
 use super::import_choice::ImportChoice;
 use crate::design::Design;
+use crate::operations::export;
 use crate::studio::jobs::{New, Running};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -24,7 +25,10 @@ pub enum FileAction {
         choice: ImportChoice,
     },
     SavePath(PathBuf),
-    ExportPath(PathBuf),
+    ExportPath {
+        folder: PathBuf,
+        options: export::Options,
+    },
     CloseDialog,
     /// Something was typed.
     EditDialog(PathDialog),
@@ -46,7 +50,7 @@ pub enum FileAction {
     Quit,
 }
 
-/// What a path is wanted for.
+/// The purpose of a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
     Open,
@@ -55,7 +59,7 @@ pub enum Purpose {
     Export,
 }
 
-/// What stands over the window.
+/// A dialog over the window.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Dialog {
     /// There are unsaved changes; what was wanted is done afterwards.
@@ -84,6 +88,7 @@ pub struct PathDialog {
     pub purpose: Purpose,
     pub path: String,
     pub import: ImportChoice,
+    pub export: export::Options,
     /// Why what was asked for last could not be had.
     pub trouble: Option<String>,
 }
@@ -91,13 +96,13 @@ pub struct PathDialog {
 #[derive(Default)]
 pub struct Files {
     pub dialog: Option<Dialog>,
-    /// What a thread is busy with, ready to be shown.
+    /// The work that a thread is busy with, ready to be shown.
     pub working: Option<&'static str>,
     /// Waits for saving to succeed.
     pub(crate) after_save: Option<FileAction>,
     /// The document whose changes may be dropped, as was answered.
     pub(crate) granted: Option<Arc<Design>>,
-    /// What that thread is at.
+    /// The job of that thread.
     pub(crate) running: Option<Running>,
     /// Waits for an answer about the document that it would replace.
     pub(crate) imported: Option<Box<New>>,
@@ -145,7 +150,7 @@ impl Purpose {
         }
     }
 
-    /// What the button says.
+    /// The text of the button.
     pub fn verb(self) -> &'static str {
         match self {
             Self::Open => "Open",
@@ -163,7 +168,7 @@ impl PathDialog {
             Purpose::Open => FileAction::OpenPath(path),
             Purpose::Import => FileAction::ImportPath { path, choice: self.import.clone() },
             Purpose::SaveAs => FileAction::SavePath(path),
-            Purpose::Export => FileAction::ExportPath(path),
+            Purpose::Export => FileAction::ExportPath { folder: path, options: self.export },
         }
     }
 }

@@ -19,17 +19,17 @@ pub struct Resolution {
 
 #[derive(Default)]
 pub struct Meshing {
-    /// What the controls say; `None`: that of the design.
+    /// The resolution of the controls; `None`: that of the design.
     pub(crate) wanted: Option<Resolution>,
     pub running: Option<Running>,
-    /// What the body that is being made was drawn as.
+    /// The drawing of the body that is being made.
     pub(crate) drawn: Drawing,
     /// That body, until the hand rests.
     pub(crate) made: Option<Box<Reshaped>>,
 }
 
 impl Meshing {
-    /// What is wanted, or else what the design has.
+    /// The resolution that is wanted, or else that of the design.
     pub(crate) fn resolution(&self, &Figures { fibers, edges, .. }: &Figures) -> Resolution {
         let present = || {
             let finer = (edges as f64 / fibers.max(1) as f64).sqrt().round() as usize;

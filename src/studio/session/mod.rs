@@ -33,6 +33,6 @@ pub use rigging::{RigChoice, Rigging};
 pub use safety::Safety;
 pub use session::{Export, Propose, Services, Session};
 pub use sketching::{FREEHAND, Sketching};
-pub use solver::{QUALITIES, Shapes, Solver};
+pub use solver::{Shapes, Solver};
 pub use tasks::{Task, Tasks};
 pub use texturing::{Found, Texturing};

@@ -1,6 +1,6 @@
 //! What stands over the window for the keyboard's sake, and names that are typed.
 
-/// What stands over the window for the keyboard's sake.
+/// A sheet over the window for the keyboard's sake.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Overlay {
     /// Every command by name.
@@ -9,7 +9,7 @@ pub enum Overlay {
     Shortcuts,
 }
 
-/// What gets another name.
+/// The thing that gets another name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Renamed {
     Pose(usize),

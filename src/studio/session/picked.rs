@@ -2,7 +2,7 @@
 
 use crate::design::Design;
 
-/// What is picked out.
+/// The part that is picked out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Selection {
     Nothing,

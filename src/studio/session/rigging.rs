@@ -6,7 +6,7 @@ use crate::rigging::BadTendons;
 use crate::studio::jobs::{Running, cancel};
 use std::sync::{Arc, Mutex};
 
-/// What may be built, as the panel has it.
+/// The options of a rig, as the panel has them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigChoice {
     pub max_winches: usize,
@@ -47,7 +47,7 @@ impl RigChoice {
 pub struct Rigging {
     pub choice: RigChoice,
     pub running: Option<Running>,
-    /// What was done last, from the thread.
+    /// The step that was done last, from the thread.
     pub(crate) step: Arc<Mutex<String>>,
 }
 
@@ -56,7 +56,7 @@ impl Rigging {
         cancel(&mut self.running);
     }
 
-    /// What was done last.
+    /// The step that was done last.
     pub fn step(&self) -> String {
         self.step.lock().map(|step| step.clone()).unwrap_or_default()
     }

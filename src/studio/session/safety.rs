@@ -12,13 +12,13 @@ use std::time::Duration;
 pub struct Safety {
     pub(crate) store: Option<Store>,
     pub(crate) keeper: Option<Keeper>,
-    /// What is to be kept.
+    /// The work that is to be kept.
     pub(crate) revision: Option<Revision>,
     /// Says to other windows that the file is open here.
     pub(crate) claim: Option<File>,
-    /// What the document's file held when it was read or written last.
+    /// The content of the document's file when it was read or written last.
     pub(crate) seen: Option<Stamp>,
-    /// What is still to be offered, the newest last.
+    /// Work that is still to be offered, the newest last.
     pub(crate) abandoned: Vec<Abandoned>,
     pub(crate) settings: Settings,
     pub(crate) scribe: Option<Scribe>,

@@ -20,6 +20,7 @@ use crate::design::{Design, Target};
 use crate::discovery::Parameters;
 use crate::engine::{Quality, Request};
 use crate::files::Stamp;
+use crate::operations::export;
 use crate::outline::Drawing;
 use crate::picture::Texture;
 use crate::picture::layers::{Layer, Textured};
@@ -34,8 +35,8 @@ use std::sync::atomic::AtomicBool;
 
 /// Makes proposals for a design and the targets of a pose.
 pub type Propose = Arc<dyn Fn(&Design, &[Target], &Parameters, &AtomicBool) -> Vec<Proposal> + Send + Sync>;
-/// Writes the blueprint of a design into a folder.
-pub type Export = Arc<dyn Fn(&Design, &Path) -> Result<(), String> + Send + Sync>;
+/// Writes the blueprint of a design into a folder, and returns its remarks.
+pub type Export = Arc<dyn Fn(&Design, &Path, &export::Options) -> Result<Vec<String>, String> + Send + Sync>;
 
 /// The long work that is done elsewhere; tests put their own in.
 #[derive(Clone)]
@@ -140,7 +141,7 @@ impl Session {
         self.tools.contains(&id)
     }
 
-    /// What stands over the window.
+    /// The overlay over the window.
     pub fn overlay(&self) -> Option<Overlay> {
         self.overlay
     }
@@ -150,7 +151,7 @@ impl Session {
         self.renaming.as_ref()
     }
 
-    /// What commands are about when nothing is pointed at.
+    /// The part that commands are about when nothing is pointed at.
     pub fn selected(&self) -> Hit {
         match self.picked.selection {
             Selection::Target(index) => Hit::Target(index),
@@ -188,7 +189,7 @@ impl Session {
         self.working().is_some()
     }
 
-    /// What threads are busy with, ready to be shown.
+    /// The work that threads are busy with, ready to be shown.
     pub fn working(&self) -> Option<&'static str> {
         let keying = self.keying.is_some().then_some("Working out the keyframe");
         let rigging = self.rigging.running.is_some().then_some("Looking for winches and tendons");
@@ -213,7 +214,7 @@ impl Session {
         self.document.history.in_gesture()
     }
 
-    /// Whether the shapes answer the newest question; while the outline is drawn none is asked.
+    /// Whether the shapes answer the newest request; while the outline is drawn there is none.
     pub fn is_settled(&self) -> bool {
         self.sketching.open || self.solver.is_settled()
     }
@@ -228,7 +229,7 @@ impl Session {
         self.solver.quality
     }
 
-    /// What the solver was asked last.
+    /// The newest request to the solver.
     pub fn request(&self) -> Option<&Request> {
         self.solver.asked.as_ref()
     }
@@ -238,7 +239,7 @@ impl Session {
         self.discovery.shown()
     }
 
-    /// What the solver has to say about the newest shapes.
+    /// The solver's warning about the newest shapes.
     pub fn solver_warning(&self) -> Option<&str> {
         self.solver.warning.as_deref()
     }

@@ -12,7 +12,7 @@ pub const FREEHAND: &str = "tool.freehand";
 pub struct Sketching {
     pub open: bool,
     pub cut: bool,
-    /// What is picked out, and which point of a path or track.
+    /// The item that is picked out, and which point of a path or track.
     pub item: Option<Item>,
     pub point: Option<usize>,
     /// Something is being drawn that is not in the drawing yet.

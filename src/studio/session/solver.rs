@@ -1,13 +1,10 @@
-//! What is asked of the solver, and what it answers. The newest question wins; the last good shapes stay.
+//! What is asked of the solver, and what it answers. The newest request wins; the last good shapes stay.
 
 use crate::design::Design;
 use crate::engine::worker::Worker;
-use crate::engine::{NEAR_EQUILIBRIUM, Quality, Question, Request, Shape};
+use crate::engine::{NEAR_EQUILIBRIUM, Quality, Request, Setpoint, Shape};
 use crate::studio::jobs::Wake;
 use std::sync::Arc;
-
-/// From the fastest to the most accurate.
-pub const QUALITIES: [Quality; 3] = [Quality::Draft, Quality::Balanced, Quality::Accurate];
 
 /// The newest good shapes.
 #[derive(Default)]
@@ -64,15 +61,15 @@ impl Solver {
         before.mesh != design.mesh
     }
 
-    /// Whether the shapes answer the newest question.
+    /// Whether the shapes answer the newest request.
     pub fn is_settled(&self) -> bool {
         let resting = !self.worker.is_busy();
         resting && self.asked.as_ref().is_some_and(|asked| self.answered_id == Some(asked.id))
     }
 
     pub fn next_quality(&mut self) {
-        let next = QUALITIES.into_iter().skip_while(|quality| *quality != self.quality).nth(1);
-        self.quality = next.unwrap_or(QUALITIES[0]);
+        let next = Quality::ALL.into_iter().skip_while(|quality| *quality != self.quality).nth(1);
+        self.quality = next.unwrap_or(Quality::ALL[0]);
     }
 
     /// Takes what the worker has found for a body of so many nodes.
@@ -103,9 +100,9 @@ impl Solver {
     }
 
     /// Submits what should be seen, if that is not what was asked last.
-    pub fn ask(&mut self, design: Arc<Design>, question: Question, [show_idealized, show_realizable]: [bool; 2]) {
+    pub fn ask(&mut self, design: Arc<Design>, setpoint: Setpoint, [show_idealized, show_realizable]: [bool; 2]) {
         let id = self.asked.as_ref().map_or(0, |asked| asked.id + 1);
-        let request = Request { id, design, question, quality: self.quality, show_idealized, show_realizable };
+        let request = Request { id, design, setpoint, quality: self.quality, show_idealized, show_realizable };
         if self.asked.as_ref().is_some_and(|asked| asked.id >= self.first_id && same(asked, &request)) {
             return;
         }
@@ -122,14 +119,14 @@ fn is_on_its_way(shape: &Shape) -> bool {
 /// Whether two requests have the same answer.
 fn same(a: &Request, b: &Request) -> bool {
     Arc::ptr_eq(&a.design, &b.design)
-        && same_question(&a.question, &b.question)
+        && same_setpoint(&a.setpoint, &b.setpoint)
         && (a.quality, a.show_idealized, a.show_realizable) == (b.quality, b.show_idealized, b.show_realizable)
 }
 
-fn same_question(a: &Question, b: &Question) -> bool {
+fn same_setpoint(a: &Setpoint, b: &Setpoint) -> bool {
     match (a, b) {
-        (Question::Targets(a), Question::Targets(b)) => a == b,
-        (Question::Activations(a), Question::Activations(b)) => a == b,
+        (Setpoint::Targets(a), Setpoint::Targets(b)) => a == b,
+        (Setpoint::Activations(a), Setpoint::Activations(b)) => a == b,
         _ => false,
     }
 }

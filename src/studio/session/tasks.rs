@@ -24,7 +24,7 @@ pub struct Tasks {
 }
 
 impl Tasks {
-    /// What the newest job of a panel came to.
+    /// The result of the newest job of a panel.
     pub fn told<T: Any>(&self, owner: &str) -> Option<&T> {
         self.told.get(owner)?.downcast_ref()
     }

@@ -9,7 +9,7 @@ use crate::studio::change::Change;
 use crate::studio::session::{Selection, Session};
 use eframe::egui::{CursorIcon, Key};
 
-/// What the hand holds in a view.
+/// The thing that the hand holds in a view.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Grip {
     #[default]

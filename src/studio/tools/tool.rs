@@ -23,12 +23,12 @@ pub struct Entry {
     pub keys: &'static [Keys],
     /// The canvas that it works on: the views, or the sheet of the outline.
     pub canvas: Scope,
-    /// What can be done with it, in a few words.
+    /// Its use, in a few words.
     pub hint: &'static str,
     pub make: fn() -> Box<dyn Tool>,
 }
 
-/// What a hand does on a canvas. A tool reads the session and asks for actions; a gesture is its own. Points are in mm.
+/// A way of working on a canvas by hand. A tool reads the session and asks for actions; a gesture is its own. Points are in mm.
 pub trait Tool {
     /// The hand takes hold, to move on without letting go.
     fn press(&mut self, _canvas: &Canvas<'_>, _at: Point, _actions: &mut Actions) {}
@@ -77,10 +77,10 @@ pub trait Tool {
 /// Another drawing of the outline.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drawn {
-    /// What was done, for undo.
+    /// The label of the step, for undo.
     pub what: &'static str,
     pub drawing: Drawing,
-    /// What is new in it.
+    /// The item that is new in it.
     pub new: Item,
 }
 

@@ -12,7 +12,7 @@ use crate::studio::tools::Tool;
 use eframe::egui::{Rect, Role, Sense, Ui, Vec2, WidgetInfo, pos2};
 use std::sync::Arc;
 
-/// What the views remember from frame to frame.
+/// The state that the views keep from frame to frame.
 #[derive(Default)]
 pub struct State {
     views: [View; 2],

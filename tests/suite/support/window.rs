@@ -61,9 +61,10 @@ pub fn proposal(design: &Design, error_after: f64) -> Proposal {
 pub fn services() -> Services {
     Services {
         propose: Arc::new(|design, _, _, _| vec![proposal(design, 0.05), proposal(design, 0.1)]),
-        export: Arc::new(|_, folder| {
+        export: Arc::new(|_, folder, _| {
             std::fs::create_dir(folder).map_err(|e| e.to_string())?;
-            std::fs::write(folder.join("pattern.svg"), "<svg/>").map_err(|e| e.to_string())
+            std::fs::write(folder.join("pattern.svg"), "<svg/>").map_err(|e| e.to_string())?;
+            Ok(Vec::new())
         }),
     }
 }

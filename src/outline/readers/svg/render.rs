@@ -21,7 +21,7 @@ const LAYER_MARGIN: f32 = 2.0;
 /// A drawing that leaves fewer pixels than this on the longer side is refused.
 const LEAST_PX: f64 = 64.0;
 
-/// What the drawing shows between the corners of a box (px, y up), with fewer pixels the more lies over each other.
+/// The picture of the drawing between the corners of a box (px, y up), with fewer pixels the more lies over each other.
 pub(super) fn texture(svg: &[u8], import: &Import, [low, high]: [Point; 2]) -> Result<RgbaImage, OutlineError> {
     let tree = tree(svg, &import.layers)?;
     let size = [high[0] - low[0], high[1] - low[1]];

@@ -3,7 +3,7 @@
 use crate::engine::Quality;
 use crate::studio::action::{Action, Actions};
 use crate::studio::commands::view::QUALITY;
-use crate::studio::session::{QUALITIES, Session};
+use crate::studio::session::Session;
 use eframe::egui::{Button, ComboBox, RichText, Ui, vec2};
 
 pub fn name(quality: Quality) -> &'static str {
@@ -32,7 +32,7 @@ pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     let label = ui.label(RichText::new("Quality").weak());
     ui.add_space(3.0);
     let combo = ComboBox::from_id_salt("quality").selected_text(name(quality)).width(84.0).show_ui(ui, |ui| {
-        for choice in QUALITIES {
+        for choice in Quality::ALL {
             let detail = RichText::new(explain(choice)).small().weak();
             let button = Button::selectable(choice == quality, name(choice)).right_text(detail);
             if ui.add(button.min_size(vec2(WIDTH, 24.0))).accessible_name(name(choice)).clicked() {
@@ -40,7 +40,7 @@ pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
             }
         }
     });
-    let choices = QUALITIES.map(|choice| format!("{}: {}", name(choice), explain(choice)));
+    let choices = Quality::ALL.map(|choice| format!("{}: {}", name(choice), explain(choice)));
     let tip = format!(
         "Quality: how much work a frame may take while the hand moves ({} for the next)\n\n{}\n\nWhen the hand rests, the \
          shape is refined to equilibrium with any of them.",

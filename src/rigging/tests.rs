@@ -1,0 +1,118 @@
+//! The joint search on a bar that bends: slopes, what is reached, rules kept, the same bits.
+
+use super::joint::Joint;
+use super::layout::{Layout, Placed};
+use super::moves::{Ground, Shape};
+use super::refine::Task;
+use super::sewable::Sewable;
+use super::{RigOptions, TendonChoice, rig};
+use crate::design::{Design, Pin, Pose, Target};
+use crate::mesh::{self, BodyPoint};
+use crate::outline::{Outline, Point};
+use crate::sewing::Rules;
+use std::sync::atomic::AtomicBool;
+
+const GO: &(dyn Fn() -> bool + Sync) = &|| false;
+
+/// A bar of 240 x 60 mm, held at the left, to be bent up at the right, and down.
+fn bar(fibers: usize) -> Design {
+    let corners = vec![[0.0, 0.0], [240.0, 0.0], [240.0, 60.0], [0.0, 60.0]];
+    let outline = Outline { outer: corners, holes: vec![] };
+    let mesh = mesh::generate(&outline, fibers).unwrap();
+    let mut design = Design::new("bar", outline, mesh);
+    let at = |p: Point| -> BodyPoint { design.mesh.locate_nearest(p, &design.mesh.nodes).unwrap().0 };
+    let pin = |p: Point| Pin { at: at(p), position: None, stiffness: 20.0 };
+    let target = |p: Point, to: Point| Target { at: at(p), to, weight: 1.0 };
+    let pins = vec![pin([0.0, 5.0]), pin([0.0, 55.0])];
+    let pose = |name: &str, up: f64| Pose {
+        name: name.into(),
+        targets: vec![
+            target([238.0, 30.0], [215.0, 30.0 + 70.0 * up]),
+            target([120.0, 30.0], [115.0, 30.0 + 15.0 * up]),
+        ],
+    };
+    let poses = vec![pose("up", 1.0), pose("down", -1.0)];
+    (design.pins, design.poses) = (pins, poses);
+    design
+}
+
+fn layout() -> Layout {
+    let winch = |y: f64, end: f64| Placed { at: [40.0, 30.0], cables: vec![vec![[120.0, y], [210.0, end]]] };
+    Layout { winches: vec![winch(48.0, 44.0), winch(12.0, 18.0)] }
+}
+
+#[test]
+fn improving_brings_the_cost_down_and_ends_where_no_point_wants_to_move() {
+    let design = bar(200);
+    let task = Task::new(&design, None, &[]);
+    let begun = task.begin(layout(), GO).unwrap();
+    let posed = task.improve(begun.clone(), 40, true, GO);
+    assert_eq!(posed.layout, begun.layout);
+    assert!(posed.cost < begun.cost);
+    let moved = task.improve(posed.clone(), 60, false, GO);
+    assert!(moved.worst() < 0.5 * posed.worst(), "{} after {}", moved.worst(), posed.worst());
+    // Differences: no small move of a point, activations improved again, gains more than a little.
+    for spot in moved.layout.spots() {
+        for axis in 0..2 {
+            for by in [-1.0, 1.0] {
+                let mut layout = moved.layout.clone();
+                layout.point_mut(spot)[axis] += by;
+                let Some(there) = task.resume(layout, &moved, GO) else { continue };
+                let there = task.improve(there, 20, true, GO);
+                assert!(there.cost > 0.5 * moved.cost, "{spot:?} {axis}: {} before {}", there.cost, moved.cost);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_fit_is_wound_from_rest_and_travels_to_a_finer_mesh() {
+    let (coarse, fine) = (bar(150), bar(900));
+    let task = Task::new(&coarse, None, &[]);
+    let fit = task.improve(task.begin(layout(), GO).unwrap(), 40, false, GO);
+    let wound = task.wound(fit.clone(), 0, GO).unwrap();
+    assert!(wound.worst() < fit.worst() + 0.01, "{} {}", wound.worst(), fit.worst());
+    let there = Task::new(&fine, None, &[]);
+    let moved = there.transferred(&fit, GO).unwrap();
+    assert!(moved.worst() < fit.worst() + 0.05, "{} {}", moved.worst(), fit.worst());
+}
+
+#[test]
+fn the_search_keeps_every_rule_and_gives_the_same_bits() {
+    let design = bar(80);
+    let outline = design.outline.clone();
+    let sewable = Sewable::new(Rules::default(), &outline, &outline, 60.0, Vec::new());
+    let task = Task::new(&design, Some(&sewable), &[]);
+    let ground = Ground::new(&design.mesh, Some(&sewable));
+    let shape = Shape { tendons: vec![[1, 1]; 2], most_holes: 4 };
+    let search = || {
+        let mut joint = Joint::new(&task, &ground, shape.clone(), 7, GO);
+        (0..2).for_each(|_| joint.advance(GO));
+        joint.finalists(1).remove(0)
+    };
+    let (once, again) = (search(), search());
+    assert_eq!((once.cost.to_bits(), &once.layout), (again.cost.to_bits(), &again.layout));
+    assert!(once.worst() < 0.3 && sewable.is_kept(&once.layout), "{} {:?}", once.worst(), once.layout);
+}
+
+#[test]
+fn a_rig_names_its_winches_and_what_a_check_would_say() {
+    let design = bar(80);
+    let go = AtomicBool::new(false);
+    let options =
+        RigOptions { max_winches: 2, tendons: TendonChoice::Between(1, 2), rounds: 1, ..RigOptions::default() };
+    let mut told = None;
+    let mut progress = |step| {
+        if let super::Progress::Found { errors, .. } = step {
+            told = Some(errors);
+        }
+    };
+    let rigged = rig(&design, &options, &mut progress, &go).unwrap();
+    rigged.validate().unwrap();
+    for (pose, (name, error)) in rigged.poses.iter().zip(told.unwrap()) {
+        let shape = super::truth::realised(&rigged, &pose.targets, &go).unwrap();
+        assert_eq!((&pose.name, shape.target_error.to_bits()), (&name, error.to_bits()));
+    }
+    let stopped = rig(&design, &options, &mut |_| (), &AtomicBool::new(true));
+    assert_eq!(stopped, Err(super::RigError::Cancelled));
+}

@@ -1,0 +1,49 @@
+//! `rig`: what it says is what `check` says, and what it makes can be sewn.
+
+use crate::files::{place, run};
+use serde_json::Value;
+use std::path::Path;
+
+fn succeed(folder: &Path, args: &[&str]) -> String {
+    let output = run(folder, args);
+    assert!(output.status.success(), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// Name, error and error at rest of every pose, and how many rules are broken, as `check` has them.
+fn checked(folder: &Path, design: &str) -> (Vec<(String, f64, f64)>, usize) {
+    let json: Value = serde_json::from_str(&succeed(folder, &["check", design, "--json"])).unwrap();
+    let pose = |pose: &Value| {
+        let figure = |key: &str| pose[key].as_f64().unwrap();
+        (pose["name"].as_str().unwrap().to_owned(), figure("error_realizable"), figure("error_rest"))
+    };
+    (json["poses"].as_array().unwrap().iter().map(pose).collect(), json["sewing"].as_array().map_or(0, Vec::len))
+}
+
+#[test]
+fn what_is_told_is_what_a_check_says_and_every_rule_is_kept() {
+    let folder = place();
+    let f = folder.path();
+    let told = succeed(f, &["rig", "bar.plush", "-o", "new.plush", "--fresh", "--max-winches", "1", "--rounds", "4"]);
+    let (poses, broken) = checked(f, "new.plush");
+    assert_eq!(broken, 0);
+    for (name, error, rest) in poses {
+        let found = format!("{name} {:.2} %", 100.0 * error);
+        assert!(told.contains(&found) && error < rest, "{found} in {told}");
+    }
+}
+
+#[test]
+fn parameters_of_algorithm_2_belong_to_it() {
+    let folder = place();
+    let f = folder.path();
+    let refused = run(f, &["rig", "bar.plush", "-o", "x.plush", "--phi", "0.5"]);
+    assert_eq!(refused.status.code(), Some(2));
+    let refused = String::from_utf8(refused.stderr).unwrap();
+    assert!(refused.contains("--phi is a parameter of --method algorithm2"), "{refused}");
+    let args = ["--method", "algorithm2", "--phi", "0.5", "--fresh", "--max-winches", "1", "--tendons", "1"];
+    let told = succeed(f, &[&["rig", "bar.plush", "-o", "x.plush"][..], &args].concat());
+    assert!(told.contains("candidate networks"), "{told}");
+    let (poses, _) = checked(f, "x.plush");
+    assert!(poses.iter().all(|(_, error, rest)| error < rest));
+}
