@@ -7,6 +7,7 @@ use crate::defaults;
 use crate::files::shown;
 use crate::operations::rig::{self, Error, Options, TendonChoice};
 use crate::operations::{Context, Progress};
+use crate::rigging;
 use crate::rigging::RigError;
 use clap::Args;
 use std::io::Write;
@@ -106,8 +107,18 @@ impl Rig {
             phi: self.phi,
         };
         let mut printed = Ok(());
+        let mut told = None;
         let mut progress = |step: &Progress| {
-            if printed.is_ok() {
+            // A round without a gain says nothing new.
+            let gain = match step {
+                Progress::Rig(rigging::Progress::Round { worst, holes, .. }) => {
+                    Some((format!("{:.1}", 100.0 * worst), *holes))
+                }
+                Progress::Rig(_) => None,
+            };
+            let news = gain.is_none() || gain != told;
+            told = gain;
+            if printed.is_ok() && news {
                 printed = say(out, &words::progress(step));
             }
         };

@@ -2,7 +2,7 @@
 
 use super::layout::Layout;
 use super::moves::Shape;
-use super::refine::{Fit, Task};
+use super::refine::{Fit, KEPT, Task};
 
 /// All poses served to this part of their rest errors need no better rig.
 pub(super) const SERVED: f64 = 0.005;
@@ -20,7 +20,7 @@ pub(super) fn pruned(task: &Task, shape: &Shape, fit: Fit, stop: &dyn Fn() -> bo
             let tried = fewer(&now.layout, shape).into_iter().filter_map(|(layout, kept)| {
                 let begun = task.resume(layout, &kept.map_or_else(|| now.clone(), |winch| now.without(winch)), stop)?;
                 let improved = task.wound(task.improve(begun, STEPS, false, stop), STEPS, stop)?;
-                let allowed = now.violation.max(1e-5);
+                let allowed = now.violation.max(KEPT);
                 (improved.worst() <= most && improved.violation <= allowed).then_some(improved)
             });
             let Some(next) = tried.min_by(|a, b| a.cost.total_cmp(&b.cost)) else { break };

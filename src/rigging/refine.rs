@@ -22,8 +22,9 @@ use crate::soft_ik::routing::{self, RoutingPoint};
 use crate::soft_ik::{Actuation, Objective, Posture, Question};
 use nalgebra::{DMatrix, DVector};
 
-/// Power of the misses.
+/// Power of the misses: while searching, and at the end, where nearly the worst pose alone counts.
 const POWER: f64 = 2.0;
+const SHARP: f64 = 5.0;
 /// `W`: a rule broken by a tenth weighs as much as a pose missed by a third of its way.
 const RULES: f64 = 1.0;
 /// `S`: small enough to cost a pose nothing that could be seen, and a winch without use stays at rest.
@@ -43,6 +44,8 @@ const EASIER: f64 = 0.3;
 const BARELY_TAUT: f64 = 1e-3;
 /// Activation in which poses are begun, as a part of the range.
 const FIRST_ACTIVATION: f64 = 0.25;
+/// A violation below this is within the margins that the search keeps.
+pub(super) const KEPT: f64 = 1e-5;
 /// Steps of improvement in another mesh.
 const TRANSFER_STEPS: usize = 15;
 /// Steps from rest in which an answer is wound, and by how much `C` may differ there.
@@ -60,6 +63,9 @@ pub struct Task<'a> {
     pub fixed: &'a [Network],
     /// The rim of the mesh, ring by ring.
     rings: Vec<Vec<usize>>,
+    /// Power of the misses, and the miss that counts the same with any.
+    power: f64,
+    whole: f64,
 }
 
 /// A layout and what it reaches.
@@ -112,7 +118,19 @@ impl<'a> Task<'a> {
             targets.iter().map(square).sum()
         };
         let poses = poses.map(|targets| (targets, miss(targets))).filter(|(_, miss)| *miss > 0.0).collect();
-        Self { design, poses, sewable, fixed, rings: design.mesh.boundary() }
+        Self { design, poses, sewable, fixed, rings: design.mesh.boundary(), power: POWER, whole: 1.0 }
+    }
+
+    /// A fit improved for its worst pose, at the others' expense; as it was where that gains nothing.
+    pub fn sharpened(&self, fit: Fit, steps: usize, stop: &dyn Fn() -> bool) -> Fit {
+        let whole = fit.misses.iter().fold(f64::MIN_POSITIVE, |m, f| m.max(*f));
+        let sharp = Task { poses: self.poses.clone(), rings: self.rings.clone(), power: SHARP, whole, ..*self };
+        let improved = || {
+            let begun = sharp.resume(fit.layout.clone(), &fit, stop)?;
+            sharp.wound(sharp.improve(begun, steps, false, stop), 0, stop)
+        };
+        let allowed = fit.violation.max(KEPT);
+        improved().filter(|new| new.worst() < fit.worst() && new.violation <= allowed).unwrap_or(fit)
     }
 
     fn build(&self, layout: &Layout) -> Option<Built> {
@@ -166,7 +184,8 @@ impl<'a> Task<'a> {
         let winches = &built.actuation.winches;
         let used =
             poses.iter().flat_map(|p| p.beta.iter().zip(winches)).map(|(b, w)| (b / w.upper).powi(2)).sum::<f64>();
-        let cost = misses.iter().map(|f| f.powf(POWER)).sum::<f64>() + RULES * violation + SPARING * used;
+        let missed = |f: &f64| (f / self.whole).powf(self.power) * self.whole.powf(POWER);
+        let cost = misses.iter().map(missed).sum::<f64>() + RULES * violation + SPARING * used;
         Fit { layout, poses, misses, violation, cost }
     }
 
@@ -313,7 +332,8 @@ impl Local {
             let first = moving + k * winches;
             let pose = PoseRows::new(built, k, posture, &points)?;
             let miss = fit.misses[k].max(least);
-            let weight = (2.0 * POWER * miss.powf(POWER - 1.0) / task.poses[k].1).sqrt();
+            let scale = task.power * (miss / task.whole).powf(task.power - 1.0) * task.whole.powf(POWER - 1.0);
+            let weight = (2.0 * scale / task.poses[k].1).sqrt();
             for (t, target) in built.objectives[k].targets.iter().enumerate() {
                 for (axis, offset) in target.offset(&posture.x).into_iter().enumerate() {
                     let scale = weight * target.weight.sqrt();

@@ -11,17 +11,21 @@ use super::refine::{Fit, Task};
 use super::sewable::Sewable;
 use super::truth::realised;
 use crate::design::{Design, Network, remesh};
+use crate::engine::friction::pose_with_friction;
 use crate::engine::target_error;
 use crate::mesh::{Mesh, MeshSpec};
 use crate::outline::Outline;
 use crate::threads::in_order;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::cmp::Ordering;
+use std::sync::atomic::{self, AtomicBool};
 
 /// Bodies of more fibres are searched on a mesh of about so many, and what is found is improved on their own.
 const COARSE: usize = 430;
 const FINE: usize = 700;
 /// Layouts that are finished and compared by what a check says of them.
-const FINALISTS: usize = 3;
+const FINALISTS: usize = 5;
+/// Steps by which the worst pose is improved in the end.
+const SHARPENING: usize = 40;
 /// Rounds without a gain of a hundredth after which a search is over.
 const PATIENCE: usize = 30;
 
@@ -67,23 +71,26 @@ fn together(
     let found: Vec<Fit> = match coarse {
         None => found,
         Some(_) => {
-            let (outline, stop) = (rim(&design.mesh), || cancel.load(Ordering::Relaxed));
+            let (outline, stop) = (rim(&design.mesh), || cancel.load(atomic::Ordering::Relaxed));
             let sewable = sewable(design, &outline, options);
             let task = Task::new(design, sewable.as_ref(), &design.networks);
             in_order(&found, |fit| task.transferred(fit, &stop)).into_iter().flatten().collect()
         }
     };
     let judged = in_order(&found, |fit| judged(design, fit, cancel));
-    if cancel.load(Ordering::Relaxed) {
+    if cancel.load(atomic::Ordering::Relaxed) {
         return Err(RigError::Cancelled);
     }
-    let worst = |errors: &[(String, f64, f64)]| errors.iter().map(|(_, error, rest)| error / rest).fold(0.0, f64::max);
-    let best = judged.into_iter().min_by(|a, b| worst(&a.1).total_cmp(&worst(&b.1)));
-    let Some((rigged, errors)) = best.filter(|(_, errors)| worst(errors) < 1.0) else {
+    let worst =
+        |poses: &[Judged], error: fn(&Judged) -> f64| poses.iter().map(|p| error(p) / p.rest).fold(0.0, f64::max);
+    // With friction where the design has it; a rig that has no figure there is the last choice.
+    let order = |poses: &[Judged]| (worst(poses, |p| p.rubbed), worst(poses, |p| p.error));
+    let best = judged.into_iter().min_by(|a, b| order(&a.1).partial_cmp(&order(&b.1)).unwrap_or(Ordering::Equal));
+    let Some((rigged, poses)) = best.filter(|(_, poses)| worst(poses, |p| p.error) < 1.0) else {
         return Err(RigError::NothingFound);
     };
     let tendons = rigged.networks[design.networks.len()..].iter().map(|n| n.tendons.len()).sum();
-    let errors = errors.into_iter().map(|(name, error, _)| (name, error)).collect();
+    let errors = poses.into_iter().map(|pose| (pose.name, pose.error)).collect();
     progress(Progress::Found { winches: rigged.networks.len() - design.networks.len(), tendons, errors });
     Ok(rigged)
 }
@@ -127,7 +134,7 @@ fn layouts(
     progress: &mut dyn FnMut(Progress),
     cancel: &AtomicBool,
 ) -> Result<Vec<Fit>, RigError> {
-    let (outline, stop) = (rim(&design.mesh), || cancel.load(Ordering::Relaxed));
+    let (outline, stop) = (rim(&design.mesh), || cancel.load(atomic::Ordering::Relaxed));
     let sewable = sewable(design, &outline, options);
     let task = Task::new(design, sewable.as_ref(), &design.networks);
     let ground = Ground::new(&design.mesh, sewable.as_ref());
@@ -147,8 +154,9 @@ fn layouts(
             return Err(RigError::Cancelled);
         }
     }
-    let mut finished =
-        in_order(&joint.finalists(FINALISTS), |fit| pruned(&task, shape, joint.finished(fit, &stop), &stop));
+    let mut finished = in_order(&joint.finalists(FINALISTS), |fit| {
+        task.sharpened(pruned(&task, shape, joint.finished(fit, &stop), &stop), SHARPENING, &stop)
+    });
     if stop() {
         return Err(RigError::Cancelled);
     }
@@ -160,8 +168,17 @@ fn layouts(
     Ok(finished)
 }
 
-/// The design with a layout's networks, and what a check says of every pose: its name, the error, that at rest, body lengths.
-fn judged(design: &Design, fit: &Fit, cancel: &AtomicBool) -> (Design, Vec<(String, f64, f64)>) {
+/// A pose as a check has it, errors in body lengths.
+struct Judged {
+    name: String,
+    error: f64,
+    /// With the design's friction at the holes; infinite where there is no such figure.
+    rubbed: f64,
+    rest: f64,
+}
+
+/// The design with a layout's networks, and what a check says of every pose.
+fn judged(design: &Design, fit: &Fit, cancel: &AtomicBool) -> (Design, Vec<Judged>) {
     let mut with = design.clone();
     if let Some(points) = fit.layout.located(&design.mesh) {
         for network in fit.layout.networks(&design.mesh, &points) {
@@ -172,11 +189,17 @@ fn judged(design: &Design, fit: &Fit, cancel: &AtomicBool) -> (Design, Vec<(Stri
     let count = with.networks.len();
     with.keyframes.iter_mut().for_each(|keyframe| keyframe.activations_mm.resize(count, 0.0));
     let poses = design.poses.iter().filter(|pose| !pose.targets.is_empty());
-    let errors = poses.map(|pose| {
-        let error = realised(&with, &pose.targets, cancel).map_or(f64::INFINITY, |shape| shape.target_error);
-        let rest = target_error(design, &pose.targets, &design.mesh.nodes);
-        (pose.name.clone(), error, rest.max(f64::MIN_POSITIVE))
+    let (mu, stop) = (design.tendons.friction, || cancel.load(atomic::Ordering::Relaxed));
+    let poses = poses.map(|pose| {
+        let shape = realised(&with, &pose.targets, cancel);
+        let error = shape.as_ref().map_or(f64::INFINITY, |shape| shape.target_error);
+        let rubbed = shape.filter(|_| mu > 0.0).map(|shape| {
+            let found = pose_with_friction(&with, &pose.targets, &shape.activations_mm, mu, &stop);
+            found.map_or(f64::INFINITY, |found| found.error)
+        });
+        let rest = target_error(design, &pose.targets, &design.mesh.nodes).max(f64::MIN_POSITIVE);
+        Judged { name: pose.name.clone(), error, rubbed: rubbed.unwrap_or(error), rest }
     });
-    let errors = errors.collect();
-    (with, errors)
+    let poses = poses.collect();
+    (with, poses)
 }
