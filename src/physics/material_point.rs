@@ -15,7 +15,7 @@ pub enum MaterialPoint {
     Inside(Box<Carriers>),
 }
 
-/// A weight nearer to 1 than this is that of a node: rounding of the search for the point's triangle.
+/// Weights nearer than this to those of a node are a node's: rounding of the search for the point's triangle.
 const ON_NODE: f64 = 1e-9;
 
 /// The nodes of a triangle and their weights.
@@ -35,7 +35,8 @@ impl From<usize> for MaterialPoint {
 impl MaterialPoint {
     /// A point of a triangle: its node, where it lies on one.
     pub fn of_triangle(nodes: [usize; 3], weights: [f64; 3]) -> Self {
-        match weights.iter().position(|&w| w >= 1.0 - ON_NODE) {
+        let on = |k: usize| (0..3).all(|i| (weights[i] - f64::from(u8::from(i == k))).abs() <= ON_NODE);
+        match (0..3).find(|&k| on(k)) {
             Some(k) => Self::Node(nodes[k]),
             None => Self::Inside(Box::new(Carriers { nodes, weights })),
         }
@@ -159,5 +160,34 @@ impl<'de> Deserialize<'de> for MaterialPoint {
             }
         }
         deserializer.deserialize_any(Reader)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_the_weights_of_a_node_make_one() {
+        let of = |weights| MaterialPoint::of_triangle([4, 7, 9], weights).node();
+        assert_eq!(of([0.0, 1.0, 0.0]), Some(7));
+        assert_eq!(of([1e-12, 1e-12, 1.0 - 2e-12]), Some(9));
+        for weights in
+            [[0.1, 0.9, 0.0], [1.0, 1.0, 0.0], [f64::INFINITY, 0.0, 0.0], [2.0, -1.0, 0.0], [f64::NAN, 0.0, 1.0]]
+        {
+            assert_eq!(of(weights), None, "{weights:?}");
+        }
+    }
+
+    #[test]
+    fn forces_are_the_transpose_of_places() {
+        let point = MaterialPoint::of_triangle([0, 2, 1], [0.2, 0.5, 0.3]);
+        let field = [1.0, 2.0, 3.0, 5.0, 8.0, 13.0];
+        let mut forces = [0.0; 6];
+        point.add([0.7, -0.4], &mut forces);
+        let [x, y] = point.at(&field);
+        let work: f64 = forces.iter().zip(field).map(|(f, v)| f * v).sum();
+        assert!((work - (0.7 * x - 0.4 * y)).abs() < 1e-14);
+        assert_eq!(point.place(&[[1.0, 2.0], [3.0, 5.0], [8.0, 13.0]]), [x, y]);
     }
 }
