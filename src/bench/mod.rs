@@ -14,7 +14,7 @@
 //! | [`properties`] | what holds for every problem and design, whatever is in it? |
 //! | [`linear`] | which sparse factorisation is the fastest for our Hessians? |
 //!
-//! A study draws all its random numbers from the session's seed ([`random`]), so that the same seed gives the same
+//! A study draws all its random numbers from the session's seed ([`crate::random`]), so that the same seed gives the same
 //! targets; times differ from run to run, so comparisons are always made within one run. Lengths are mm, times ms,
 //! target errors parts of the body length.
 

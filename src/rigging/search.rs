@@ -31,7 +31,7 @@ const PATIENCE: usize = 30;
 
 /// The design with winches for its poses, in addition to those that it has.
 ///
-/// [`Method::Joint`]: all new winches are searched for together ([`Joint`]), on a coarse mesh where the body's own is fine, what is
+/// [`Method::Joint`]: all new winches are searched for together (`joint`), on a coarse mesh where the body's own is fine, what is
 /// found is improved on its own mesh, points and tendons that cost little are left out, and what counts in the end is what a check
 /// says. [`Method::Algorithm2`]: winch by winch with the networks of Algorithm 2 as they are.
 ///
