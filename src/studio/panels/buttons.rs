@@ -39,7 +39,7 @@ pub fn tick(ui: &mut Ui, session: &Session, command: &'static Command, actions: 
     show(ui, session, command, actions, |ui| ui.checkbox(&mut on, command.label(session)));
 }
 
-/// [`widgets::primary`] of a command. `ready`: whether what the panel knows allows it.
+/// `widgets::primary` of a command. `ready`: whether what the panel knows allows it.
 pub fn primary(
     ui: &mut Ui,
     session: &Session,
