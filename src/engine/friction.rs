@@ -8,7 +8,7 @@ use crate::soft_ik::{self, Actuation, Question};
 
 /// A pose under friction. Errors are rms distances of the targets in body lengths.
 #[derive(Clone, Debug)]
-pub struct Rubbed {
+pub struct FrictionPose {
     /// Cable wound by each winch, mm: what serves the pose best when all cables have been pulled.
     pub activations_mm: Vec<f64>,
     pub error: f64,
@@ -21,7 +21,7 @@ pub struct Rubbed {
 
 /// Why there is no pose under friction.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum Unrubbed {
+pub enum FrictionPoseError {
     #[error(transparent)]
     Model(#[from] ModelError),
     #[error(transparent)]
@@ -48,7 +48,7 @@ pub fn pose_with_friction(
     frictionless: &[f64],
     mu: f64,
     stop: &dyn Fn() -> bool,
-) -> Result<Rubbed, Unrubbed> {
+) -> Result<FrictionPose, FrictionPoseError> {
     let mut plushie = compile(design, View::Realizable)?;
     let friction = plushie.friction(mu);
     let objective = objective(design, &plushie, targets);
@@ -59,7 +59,7 @@ pub fn pose_with_friction(
         let nodes: Vec<[f64; 2]> = x.chunks_exact(2).map(|p| [p[0], p[1]]).collect();
         target_error(design, targets, &nodes)
     };
-    Ok(Rubbed {
+    Ok(FrictionPose {
         error: error(&found.pulled.x),
         error_letting_out: found.let_out.map(|x| error(&x)),
         activations_mm: found.pulled.beta,

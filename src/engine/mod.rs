@@ -23,7 +23,7 @@ pub mod worker;
 pub use crate::soft_ik::Quality;
 pub use body_spec::BodySpec;
 pub use compiled::Effort;
-pub use friction::{Rubbed, Unrubbed, pose_with_friction};
+pub use friction::{FrictionPose, FrictionPoseError, pose_with_friction};
 pub use measure::target_error;
 pub use play::Play;
 pub use request::{Outcome, Request, Setpoint};

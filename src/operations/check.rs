@@ -3,7 +3,7 @@
 use super::posing::{self, solve};
 use super::{Cancelled, Context, NoSuchPose, Unbalanced, View};
 use crate::design::{Design, EditError, Pose, TendonSettings, edit};
-use crate::engine::{Rubbed, Setpoint, Shape, Unrubbed, Warning, pose_with_friction, target_error};
+use crate::engine::{FrictionPose, FrictionPoseError, Setpoint, Shape, Warning, pose_with_friction, target_error};
 use crate::fabrication::{judge_design, judge_pose};
 use crate::motion::winch_labels;
 use crate::sewing::Breach;
@@ -47,7 +47,7 @@ pub enum Note {
     /// Figures under friction that are missing, and why.
     Friction {
         pose: String,
-        why: Unrubbed,
+        why: FrictionPoseError,
     },
 }
 
@@ -213,7 +213,7 @@ fn rubbed(
     realizable: &Shape,
     friction: f64,
     context: &Context,
-) -> Result<([Option<f64>; 2], Option<Unrubbed>), Cancelled> {
+) -> Result<([Option<f64>; 2], Option<FrictionPoseError>), Cancelled> {
     // What is off equilibrium, or where nothing can be wound, has no friction to ask for.
     if friction <= 0.0 || !realizable.converged || design.networks.is_empty() || pose.targets.is_empty() {
         return Ok(([None; 2], None));
@@ -222,8 +222,8 @@ fn rubbed(
     let found = pose_with_friction(design, &pose.targets, &realizable.activations_mm, friction, &stop);
     context.check()?;
     Ok(match found {
-        Ok(Rubbed { error, error_letting_out: Ok(let_out), .. }) => ([Some(error), Some(let_out)], None),
-        Ok(Rubbed { error, error_letting_out: Err(why), .. }) => ([Some(error), None], Some(why.into())),
+        Ok(FrictionPose { error, error_letting_out: Ok(let_out), .. }) => ([Some(error), Some(let_out)], None),
+        Ok(FrictionPose { error, error_letting_out: Err(why), .. }) => ([Some(error), None], Some(why.into())),
         Err(why) => ([None; 2], Some(why)),
     })
 }

@@ -8,7 +8,7 @@
 
 use super::layout::Layout;
 use super::linear_score::Linear;
-use super::moves::{Ground, Shape};
+use super::moves::{Sampler, Topology};
 use super::refine::{Fit, Task};
 use crate::random::Random;
 use crate::threads::in_order;
@@ -23,6 +23,8 @@ const ALIVE: usize = 4;
 const CHILDREN: usize = 4;
 /// Rounds after which the worst island is given up.
 const ERA: usize = 25;
+/// One child in so many has winches of two parents.
+const CROSSED: usize = 6;
 /// Steps of improvement: of a first look, of a child, of the last one.
 const LOOK: usize = 4;
 const STEPS: usize = 12;
@@ -33,8 +35,8 @@ const SAME: f64 = 1e-3;
 /// The search; the best so far is there at any moment.
 pub struct Joint<'a> {
     task: &'a Task<'a>,
-    ground: &'a Ground<'a>,
-    shape: Shape,
+    sampler: &'a Sampler<'a>,
+    topology: Topology,
     seed: u64,
     round: u64,
     islands: Vec<Vec<Fit>>,
@@ -44,8 +46,8 @@ impl<'a> Joint<'a> {
     /// Tries the first layouts.
     pub fn new(
         task: &'a Task<'a>,
-        ground: &'a Ground<'a>,
-        shape: Shape,
+        sampler: &'a Sampler<'a>,
+        topology: Topology,
         seed: u64,
         stop: &(dyn Fn() -> bool + Sync),
     ) -> Self {
@@ -53,8 +55,8 @@ impl<'a> Joint<'a> {
         let numbers: Vec<usize> = (0..FIRST).collect();
         let layouts = in_order(&numbers, |&k| {
             let random = &mut Random::of(seed, "layout", k as u64);
-            let layout = ground.layout(&shape, random);
-            linear.as_ref().map_or(layout.clone(), |linear| bettered(ground, &shape, linear, layout, random))
+            let layout = sampler.layout(&topology, random);
+            linear.as_ref().map_or(layout.clone(), |linear| bettered(sampler, &topology, linear, layout, random))
         });
         let looked = in_order(&layouts, |layout| {
             let begun = task.begin(layout.clone(), stop)?;
@@ -72,7 +74,7 @@ impl<'a> Joint<'a> {
             islands[k % count].push(fit);
         }
         islands.iter_mut().for_each(keep);
-        Self { task, ground, shape, seed, round: 0, islands }
+        Self { task, sampler, topology, seed, round: 0, islands }
     }
 
     /// One more round. Does nothing where no layout was found.
@@ -88,11 +90,11 @@ impl<'a> Joint<'a> {
                 let random = &mut Random::of(self.seed, "child", number);
                 let parent = k % island.len();
                 let mut layout = island[parent].layout.clone();
-                if random.index(6) == 0 {
-                    layout = self.ground.crossed(&layout, &island[random.index(island.len())].layout, random);
+                if random.index(CROSSED) == 0 {
+                    layout = self.sampler.crossed(&layout, &island[random.index(island.len())].layout, random);
                 }
                 for _ in 0..=random.index(2) {
-                    layout = self.ground.changed(&layout, &self.shape, random);
+                    layout = self.sampler.changed(&layout, &self.topology, random);
                 }
                 children.push((i, parent, layout));
             }
@@ -151,10 +153,10 @@ fn keep(island: &mut Vec<Fit>) {
 }
 
 /// A layout after random changes that are kept where the linear model says that they help.
-fn bettered(ground: &Ground, shape: &Shape, linear: &Linear, layout: Layout, random: &mut Random) -> Layout {
+fn bettered(sampler: &Sampler, topology: &Topology, linear: &Linear, layout: Layout, random: &mut Random) -> Layout {
     let (mut best, mut left) = (layout.clone(), linear.left(&layout));
     for _ in 0..BETTERED {
-        let changed = ground.changed(&best, shape, random);
+        let changed = sampler.changed(&best, topology, random);
         let now = linear.left(&changed);
         if now < left {
             (best, left) = (changed, now);

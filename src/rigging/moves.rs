@@ -8,7 +8,7 @@ use crate::random::Random;
 
 /// How many tendons each winch may have.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Shape {
+pub struct Topology {
     /// Fewest and most, winch by winch.
     pub tendons: Vec<[usize; 2]>,
     /// Most holes between a winch and an end.
@@ -16,7 +16,7 @@ pub struct Shape {
 }
 
 /// Where points may be put at random.
-pub struct Ground<'a> {
+pub struct Sampler<'a> {
     mesh: &'a Mesh,
     sewable: Option<&'a Sewable<'a>>,
     size: f64,
@@ -24,12 +24,19 @@ pub struct Ground<'a> {
     areas: Vec<f64>,
 }
 
+/// Holes are put this much deeper than the rule asks for: an improvement moves them about.
+const DEEPER: f64 = 1.3;
+/// Where along a piece a new point is put, and how far beside it, as a part of the piece.
+const MIDDLE: [f64; 2] = [0.2, 0.8];
+const ASIDE: f64 = 0.15;
+/// How far points are shaken, as parts of the body: within a limb, out of it, across the body.
+const SHAKES: [f64; 3] = [0.01, 0.03, 0.1];
 /// Draws of a place before the best so far is taken.
 const DRAWS: usize = 40;
 /// Way points by which a cable is led around a corner, tried before it is led straight.
 const DETOURS: usize = 60;
 
-impl<'a> Ground<'a> {
+impl<'a> Sampler<'a> {
     pub fn new(mesh: &'a Mesh, sewable: Option<&'a Sewable<'a>>) -> Self {
         let mut sum = 0.0;
         let area = |t: &[usize; 3]| {
@@ -77,7 +84,7 @@ impl<'a> Ground<'a> {
     }
 
     fn hole(&self, random: &mut Random) -> Point {
-        self.at_depth(self.sewable.map_or(0.0, |s| 1.3 * s.rules.hole_to_seam_mm), random)
+        self.at_depth(self.sewable.map_or(0.0, |s| DEEPER * s.rules.hole_to_seam_mm), random)
     }
 
     fn winch(&self, random: &mut Random) -> Point {
@@ -125,8 +132,8 @@ impl<'a> Ground<'a> {
 
     /// A point beside the middle of a piece.
     fn aside(&self, a: Point, b: Point, random: &mut Random) -> Point {
-        let middle = polygon::lerp(a, b, random.between(0.2, 0.8));
-        self.near(middle, 0.15 * polygon::length(a, b), random)
+        let middle = polygon::lerp(a, b, random.between(MIDDLE[0], MIDDLE[1]));
+        self.near(middle, ASIDE * polygon::length(a, b), random)
     }
 
     /// A point of the body around another one.
@@ -142,28 +149,28 @@ impl<'a> Ground<'a> {
         p
     }
 
-    /// A layout of the given shape.
-    pub fn layout(&self, shape: &Shape, random: &mut Random) -> Layout {
-        let winches = shape.tendons.iter().map(|[fewest, most]| {
+    /// A layout of the given topology.
+    pub fn layout(&self, topology: &Topology, random: &mut Random) -> Layout {
+        let winches = topology.tendons.iter().map(|[fewest, most]| {
             let at = self.winch(random);
             let count = fewest + random.index(most - fewest + 1);
-            Placed { at, cables: (0..count).map(|_| self.cable(at, shape.most_holes, random)).collect() }
+            Placed { at, cables: (0..count).map(|_| self.cable(at, topology.most_holes, random)).collect() }
         });
         Layout { winches: winches.collect() }
     }
 
     /// A layout with one random change.
-    pub fn changed(&self, layout: &Layout, shape: &Shape, random: &mut Random) -> Layout {
+    pub fn changed(&self, layout: &Layout, topology: &Topology, random: &mut Random) -> Layout {
         let mut new = layout.clone();
         let winch = random.index(new.winches.len());
         let cable = random.index(new.winches[winch].cables.len());
         let at = new.winches[winch].at;
         let count = new.winches[winch].cables.len();
-        let [fewest, most] = shape.tendons[winch];
+        let [fewest, most] = topology.tendons[winch];
         match random.index(10) {
             0 | 1 => self.shake(&mut new, random),
             2 | 3 => {
-                new.winches[winch].cables[cable] = self.cable(at, shape.most_holes, random);
+                new.winches[winch].cables[cable] = self.cable(at, topology.most_holes, random);
             }
             4 => {
                 let end = new.winches[winch].cables[cable].len() - 1;
@@ -172,7 +179,7 @@ impl<'a> Ground<'a> {
             }
             5 => {
                 let points = &mut new.winches[winch].cables[cable];
-                if points.len() <= shape.most_holes {
+                if points.len() <= topology.most_holes {
                     let k = random.index(points.len());
                     let before = if k == 0 { at } else { points[k - 1] };
                     let via = self.aside(before, points[k], random);
@@ -186,7 +193,7 @@ impl<'a> Ground<'a> {
                 }
             }
             7 => new.winches[winch].at = self.winch(random),
-            8 if count < most => new.winches[winch].cables.push(self.cable(at, shape.most_holes, random)),
+            8 if count < most => new.winches[winch].cables.push(self.cable(at, topology.most_holes, random)),
             8 if count > fewest => drop(new.winches[winch].cables.remove(cable)),
             _ => {
                 let other = random.index(new.winches.len());
@@ -201,7 +208,7 @@ impl<'a> Ground<'a> {
 
     /// Moves a point, or all of a winch's, by a random way.
     fn shake(&self, layout: &mut Layout, random: &mut Random) {
-        let spread = self.size * [0.01, 0.03, 0.1][random.index(3)];
+        let spread = self.size * SHAKES[random.index(SHAKES.len())];
         let spots = layout.spots();
         let chosen = spots[random.index(spots.len())];
         let whole = random.index(3) == 0;

@@ -1,7 +1,7 @@
 //! Sparsity: points, tendons and winches that a rig can do without are left out.
 
 use super::layout::Layout;
-use super::moves::Shape;
+use super::moves::Topology;
 use super::refine::{Fit, KEPT, Task};
 
 /// All poses served to this part of their rest errors need no better rig.
@@ -11,13 +11,13 @@ const PRICE: f64 = 0.03;
 /// Steps of improvement after something was left out.
 const STEPS: usize = 25;
 
-/// The fit without what costs little: whole winches first, then tendons as far as the shape allows, then points.
-pub(super) fn pruned(task: &Task, shape: &Shape, fit: Fit, stop: &dyn Fn() -> bool) -> Fit {
+/// The fit without what costs little: whole winches first, then tendons as far as the topology allows, then points.
+pub(super) fn pruned(task: &Task, topology: &Topology, fit: Fit, stop: &dyn Fn() -> bool) -> Fit {
     let mut now = fit;
     for fewer in [without_a_winch, without_a_tendon, without_a_point] {
         loop {
             let most = (now.worst() * (1.0 + PRICE)).max(SERVED);
-            let tried = fewer(&now.layout, shape).into_iter().filter_map(|(layout, kept)| {
+            let tried = fewer(&now.layout, topology).into_iter().filter_map(|(layout, kept)| {
                 let begun = task.resume(layout, &kept.map_or_else(|| now.clone(), |winch| now.without(winch)), stop)?;
                 let improved = task.wound(task.improve(begun, STEPS, false, stop), STEPS, stop)?;
                 let allowed = now.violation.max(KEPT);
@@ -36,8 +36,8 @@ pub(super) fn pruned(task: &Task, shape: &Shape, fit: Fit, stop: &dyn Fn() -> bo
 /// A layout, and the winch that it lacks.
 type Fewer = Vec<(Layout, Option<usize>)>;
 
-fn without_a_winch(layout: &Layout, shape: &Shape) -> Fewer {
-    let optional = layout.winches.len() > 1 && shape.tendons.iter().any(|[fewest, most]| fewest < most);
+fn without_a_winch(layout: &Layout, topology: &Topology) -> Fewer {
+    let optional = layout.winches.len() > 1 && topology.tendons.iter().any(|[fewest, most]| fewest < most);
     let without = |winch: usize| {
         let mut new = layout.clone();
         new.winches.remove(winch);
@@ -46,8 +46,8 @@ fn without_a_winch(layout: &Layout, shape: &Shape) -> Fewer {
     if optional { (0..layout.winches.len()).map(without).collect() } else { Vec::new() }
 }
 
-fn without_a_tendon(layout: &Layout, shape: &Shape) -> Fewer {
-    let fewest = |winch: usize| shape.tendons.get(winch).map_or(1, |[fewest, _]| *fewest);
+fn without_a_tendon(layout: &Layout, topology: &Topology) -> Fewer {
+    let fewest = |winch: usize| topology.tendons.get(winch).map_or(1, |[fewest, _]| *fewest);
     let mut out = Vec::new();
     for (winch, placed) in layout.winches.iter().enumerate().filter(|(k, w)| w.cables.len() > fewest(*k)) {
         for cable in 0..placed.cables.len() {
@@ -59,7 +59,7 @@ fn without_a_tendon(layout: &Layout, shape: &Shape) -> Fewer {
     out
 }
 
-fn without_a_point(layout: &Layout, _: &Shape) -> Fewer {
+fn without_a_point(layout: &Layout, _: &Topology) -> Fewer {
     let mut out = Vec::new();
     for (winch, placed) in layout.winches.iter().enumerate() {
         for (cable, points) in placed.cables.iter().enumerate() {

@@ -4,15 +4,15 @@ use super::candidate::unused_name;
 use super::greedy;
 use super::joint::Joint;
 use super::layout::rigs_of;
-use super::moves::{Ground, Shape};
+use super::moves::{Sampler, Topology};
 use super::options::{Method, Progress, RigError, RigOptions, TendonChoice};
 use super::prune::{SERVED, pruned};
 use super::refine::{Fit, Task};
 use super::sewable::Sewable;
 use super::truth::realised;
 use crate::design::{Design, Network, remesh};
-use crate::engine::friction::pose_with_friction;
-use crate::engine::target_error;
+use crate::engine::compile::{View, compile};
+use crate::engine::{pose_with_friction, target_error};
 use crate::mesh::{Mesh, MeshSpec};
 use crate::outline::Outline;
 use crate::threads::in_order;
@@ -26,8 +26,11 @@ const FINE: usize = 700;
 const FINALISTS: usize = 5;
 /// Steps by which the worst pose is improved in the end.
 const SHARPENING: usize = 40;
-/// Rounds without a gain of a hundredth after which a search is over.
+/// Rounds after which a search is over, if none has left less than this part of the worst pose's error: more than an era of the islands.
 const PATIENCE: usize = 30;
+const GAIN: f64 = 0.99;
+/// Most holes of a tendon where no rule is asked for.
+const FREE_HOLES: usize = 20;
 
 /// The design with winches for its poses, in addition to those that it has.
 ///
@@ -36,7 +39,7 @@ const PATIENCE: usize = 30;
 /// says. [`Method::Algorithm2`]: winch by winch with the networks of Algorithm 2 as they are.
 ///
 /// # Errors
-/// [`RigError::NoTargets`] where no pose has targets, [`RigError::NothingFound`] where no network helps, or cancelled.
+/// [`RigError::NoTargets`] where no pose has targets, [`RigError::NoModel`] where the body has none, [`RigError::NothingFound`] where no network helps, or cancelled.
 pub fn rig(
     design: &Design,
     options: &RigOptions,
@@ -64,10 +67,13 @@ fn together(
     progress: &mut dyn FnMut(Progress),
     cancel: &AtomicBool,
 ) -> Result<Design, RigError> {
-    let shape = shape(design, options);
+    if compile(design, View::Realizable).is_err() {
+        return Err(RigError::NoModel);
+    }
+    let topology = topology(design, options);
     let coarse = coarser(design);
     let searched = coarse.as_ref().unwrap_or(design);
-    let found = layouts(searched, options, &shape, progress, cancel)?;
+    let found = layouts(searched, options, &topology, progress, cancel)?;
     let found: Vec<Fit> = match coarse {
         None => found,
         Some(_) => {
@@ -77,15 +83,15 @@ fn together(
             in_order(&found, |fit| task.transferred(fit, &stop)).into_iter().flatten().collect()
         }
     };
-    let judged = in_order(&found, |fit| judged(design, fit, cancel));
+    let verified = in_order(&found, |fit| verified(design, fit, cancel));
     if cancel.load(atomic::Ordering::Relaxed) {
         return Err(RigError::Cancelled);
     }
     let worst =
-        |poses: &[Judged], error: fn(&Judged) -> f64| poses.iter().map(|p| error(p) / p.rest).fold(0.0, f64::max);
+        |poses: &[Verified], error: fn(&Verified) -> f64| poses.iter().map(|p| error(p) / p.rest).fold(0.0, f64::max);
     // With friction where the design has it; a rig that has no figure there is the last choice.
-    let order = |poses: &[Judged]| (worst(poses, |p| p.rubbed), worst(poses, |p| p.error));
-    let best = judged.into_iter().min_by(|a, b| order(&a.1).partial_cmp(&order(&b.1)).unwrap_or(Ordering::Equal));
+    let order = |poses: &[Verified]| (worst(poses, |p| p.with_friction), worst(poses, |p| p.error));
+    let best = verified.into_iter().min_by(|a, b| order(&a.1).partial_cmp(&order(&b.1)).unwrap_or(Ordering::Equal));
     let Some((rigged, poses)) = best.filter(|(_, poses)| worst(poses, |p| p.error) < 1.0) else {
         return Err(RigError::NothingFound);
     };
@@ -96,17 +102,14 @@ fn together(
 }
 
 /// How many winches and tendons there may be.
-fn shape(design: &Design, options: &RigOptions) -> Shape {
+fn topology(design: &Design, options: &RigOptions) -> Topology {
     let count = |winch: usize| match &options.tendons {
-        TendonChoice::PerWinch(list) => list.get(winch).or(list.last()).map_or([1, 1], |&n| [n, n]),
-        TendonChoice::Between(low, high) => [*low, *high],
+        TendonChoice::PerWinch(list) => list.get(winch).or(list.last()).map_or([1, 1], |&n| [n.max(1); 2]),
+        TendonChoice::Between(low, high) => [(*low).max(1), (*high).max(*low).max(1)],
     };
     let most_holes = if options.rules { design.sewing.most_holes } else { FREE_HOLES };
-    Shape { tendons: (0..options.max_winches).map(count).collect(), most_holes }
+    Topology { tendons: (0..options.max_winches).map(count).collect(), most_holes }
 }
-
-/// Most holes of a tendon where no rule is asked for.
-const FREE_HOLES: usize = 20;
 
 /// The design on a coarse mesh, where its own is fine and the outline takes another one.
 fn coarser(design: &Design) -> Option<Design> {
@@ -130,21 +133,25 @@ fn sewable<'a>(design: &'a Design, rim: &'a Outline, options: &RigOptions) -> Op
 fn layouts(
     design: &Design,
     options: &RigOptions,
-    shape: &Shape,
+    topology: &Topology,
     progress: &mut dyn FnMut(Progress),
     cancel: &AtomicBool,
 ) -> Result<Vec<Fit>, RigError> {
     let (outline, stop) = (rim(&design.mesh), || cancel.load(atomic::Ordering::Relaxed));
     let sewable = sewable(design, &outline, options);
     let task = Task::new(design, sewable.as_ref(), &design.networks);
-    let ground = Ground::new(&design.mesh, sewable.as_ref());
-    let mut joint = Joint::new(&task, &ground, shape.clone(), options.seed, &stop);
+    // Nothing to build, or every pose is at rest already.
+    if topology.tendons.is_empty() || task.poses.is_empty() {
+        return Ok(Vec::new());
+    }
+    let sampler = Sampler::new(&design.mesh, sewable.as_ref());
+    let mut joint = Joint::new(&task, &sampler, topology.clone(), options.seed, &stop);
     let (mut best, mut since) = (f64::INFINITY, 0);
     for round in 0..options.rounds {
         let Some(fit) = joint.best() else { break };
         let (worst, holes) = (fit.worst(), fit.layout.holes());
         progress(Progress::Round { round, rounds: options.rounds, worst, holes });
-        since = if worst < 0.99 * best { 0 } else { since + 1 };
+        since = if worst < GAIN * best { 0 } else { since + 1 };
         best = best.min(worst);
         if worst <= SERVED || since > PATIENCE {
             break;
@@ -155,7 +162,7 @@ fn layouts(
         }
     }
     let mut finished = in_order(&joint.finalists(FINALISTS), |fit| {
-        task.sharpened(pruned(&task, shape, joint.finished(fit, &stop), &stop), SHARPENING, &stop)
+        task.sharpened(pruned(&task, topology, joint.finished(fit, &stop), &stop), SHARPENING, &stop)
     });
     if stop() {
         return Err(RigError::Cancelled);
@@ -169,16 +176,16 @@ fn layouts(
 }
 
 /// A pose as a check has it, errors in body lengths.
-struct Judged {
+struct Verified {
     name: String,
     error: f64,
     /// With the design's friction at the holes; infinite where there is no such figure.
-    rubbed: f64,
+    with_friction: f64,
     rest: f64,
 }
 
 /// The design with a layout's networks, and what a check says of every pose.
-fn judged(design: &Design, fit: &Fit, cancel: &AtomicBool) -> (Design, Vec<Judged>) {
+fn verified(design: &Design, fit: &Fit, cancel: &AtomicBool) -> (Design, Vec<Verified>) {
     let mut with = design.clone();
     if let Some(points) = fit.layout.located(&design.mesh) {
         for network in fit.layout.networks(&design.mesh, &points) {
@@ -193,12 +200,12 @@ fn judged(design: &Design, fit: &Fit, cancel: &AtomicBool) -> (Design, Vec<Judge
     let poses = poses.map(|pose| {
         let shape = realised(&with, &pose.targets, cancel);
         let error = shape.as_ref().map_or(f64::INFINITY, |shape| shape.target_error);
-        let rubbed = shape.filter(|_| mu > 0.0).map(|shape| {
+        let with_friction = shape.filter(|_| mu > 0.0).map(|shape| {
             let found = pose_with_friction(&with, &pose.targets, &shape.activations_mm, mu, &stop);
             found.map_or(f64::INFINITY, |found| found.error)
         });
         let rest = target_error(design, &pose.targets, &design.mesh.nodes).max(f64::MIN_POSITIVE);
-        Judged { name: pose.name.clone(), error, rubbed: rubbed.unwrap_or(error), rest }
+        Verified { name: pose.name.clone(), error, with_friction: with_friction.unwrap_or(error), rest }
     });
     let poses = poses.collect();
     (with, poses)

@@ -2,7 +2,7 @@
 
 use super::joint::Joint;
 use super::layout::{Layout, Placed};
-use super::moves::{Ground, Shape};
+use super::moves::{Sampler, Topology};
 use super::refine::Task;
 use super::sewable::Sewable;
 use super::{RigOptions, TendonChoice, rig};
@@ -83,10 +83,10 @@ fn the_search_keeps_every_rule_and_gives_the_same_bits() {
     let outline = design.outline.clone();
     let sewable = Sewable::new(Rules::default(), &outline, &outline, 60.0, Vec::new());
     let task = Task::new(&design, Some(&sewable), &[]);
-    let ground = Ground::new(&design.mesh, Some(&sewable));
-    let shape = Shape { tendons: vec![[1, 1]; 2], most_holes: 4 };
+    let sampler = Sampler::new(&design.mesh, Some(&sewable));
+    let topology = Topology { tendons: vec![[1, 1]; 2], most_holes: 4 };
     let search = || {
-        let mut joint = Joint::new(&task, &ground, shape.clone(), 7, GO);
+        let mut joint = Joint::new(&task, &sampler, topology.clone(), 7, GO);
         (0..2).for_each(|_| joint.advance(GO));
         joint.finalists(1).remove(0)
     };
@@ -110,9 +110,25 @@ fn a_rig_names_its_winches_and_what_a_check_would_say() {
     let rigged = rig(&design, &options, &mut progress, &go).unwrap();
     rigged.validate().unwrap();
     for (pose, (name, error)) in rigged.poses.iter().zip(told.unwrap()) {
-        let shape = super::truth::realised(&rigged, &pose.targets, &go).unwrap();
-        assert_eq!((&pose.name, shape.target_error.to_bits()), (&name, error.to_bits()));
+        let topology = super::truth::realised(&rigged, &pose.targets, &go).unwrap();
+        assert_eq!((&pose.name, topology.target_error.to_bits()), (&name, error.to_bits()));
     }
     let stopped = rig(&design, &options, &mut |_| (), &AtomicBool::new(true));
     assert_eq!(stopped, Err(super::RigError::Cancelled));
+}
+
+#[test]
+fn options_that_leave_nothing_to_build_find_nothing() {
+    let go = AtomicBool::new(false);
+    let of = |design: &Design, options: &RigOptions| rig(design, options, &mut |_| (), &go);
+    let none = RigOptions { max_winches: 0, ..RigOptions::default() };
+    assert_eq!(of(&bar(80), &none), Err(super::RigError::NothingFound));
+    let mut resting = bar(80);
+    for pose in &mut resting.poses {
+        pose.targets.iter_mut().for_each(|t| t.to = resting.mesh.position(&t.at, &resting.mesh.nodes));
+    }
+    assert_eq!(of(&resting, &RigOptions::default()), Err(super::RigError::NothingFound));
+    // The wrong way around, and no tendon at all: one is the least that a winch has.
+    let odd = RigOptions { max_winches: 1, rounds: 0, tendons: TendonChoice::Between(2, 0), ..RigOptions::default() };
+    assert_eq!(of(&bar(80), &odd).map(|design| design.networks[0].tendons.len()), Ok(2));
 }

@@ -13,24 +13,17 @@ use std::time::Instant;
 /// Steps in which new winches are wound over their range.
 const SCREENING_STEPS: usize = 4;
 const SETTLING_STEPS: usize = 8;
-/// Steps in which a rig is wound from rest to the pose it reached.
-const WINDING_STEPS: usize = 5;
 /// Gauss-Newton iterations: enough to tell networks apart, and to settle on one.
 const SCREENING_ITERATIONS: usize = 4;
 const SETTLING_ITERATIONS: usize = 25;
 /// Factorisations of a look at other valleys: about what settling in one costs.
 const LOOKING: usize = 150;
 
-/// Two states count as the same where their objectives agree to this factor.
-const SAME_STATE: f64 = 1.01;
-
 /// How carefully a rig is tried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scrutiny {
     /// Enough to tell candidates apart.
     Screen,
-    /// To the end of the valley at hand.
-    Settle,
     /// A look at the other valleys as well; what is reached is proved to be wound from rest.
     Look,
     /// All effort: what is told of a pose that is kept.
@@ -98,15 +91,7 @@ impl Trial {
         let iterations = if scrutiny == Scrutiny::Screen { SCREENING_ITERATIONS } else { SETTLING_ITERATIONS };
         let budget = Budget { iterations, stop: &stop };
         let mut posture = GaussNewton::default().solve(&mut question, &closest, &budget).posture;
-        if scrutiny == Scrutiny::Settle {
-            // What counts is the equilibrium that winding from rest leads to.
-            let zero = question.settle(&vec![0.0; count], &rest, &stop).0;
-            let (wound, _) = question.wind(&zero, &posture.beta, WINDING_STEPS, &stop);
-            if wound.objective > SAME_STATE * posture.objective {
-                posture = GaussNewton::default().solve(&mut question, &wound, &budget).posture;
-            }
-        }
-        if matches!(scrutiny, Scrutiny::Look | Scrutiny::Whole) {
+        if scrutiny != Scrutiny::Screen {
             posture = look(&mut question, &posture, scrutiny, &stop);
         }
         let nodes: Vec<[f64; 2]> = posture.x.chunks_exact(2).map(|p| [p[0], p[1]]).collect();

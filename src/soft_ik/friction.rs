@@ -13,7 +13,7 @@
 use super::contraction::{FIRST_DAMPING, quadratic};
 use super::quadratic::Quadratic;
 use super::{Posture, Question};
-use crate::physics::friction::{self, Bordered, FrictionError, Slid};
+use crate::physics::friction::{self, Bordered, FrictionError, SlidingState};
 use crate::physics::{Direction, Friction, HessianForm};
 
 /// Steps of winding from rest, and the shortest one, as a part of the way: where a state does not follow, the step is halved.
@@ -63,7 +63,7 @@ pub fn pose(
         }
     }
     set(question, &best.beta);
-    let state = Slid { x: best.x.clone(), ..Slid::default() };
+    let state = SlidingState { x: best.x.clone(), ..SlidingState::default() };
     let let_out = state.reversed(question.model, friction, Direction::Pulling, stop);
     let let_out = let_out.map(|state| {
         spent += state.factorizations;
@@ -267,7 +267,7 @@ fn set(question: &mut Question, beta: &[f64]) -> Vec<f64> {
     contractions
 }
 
-fn posture(question: &Question, beta: &[f64], state: Slid) -> Posture {
+fn posture(question: &Question, beta: &[f64], state: SlidingState) -> Posture {
     let contractions = question.actuation.contractions(beta);
     let objective = question.objective_at(&state.x, &contractions);
     Posture { beta: beta.to_vec(), x: state.x, objective, residual: state.residual, unsettled: None }

@@ -5,7 +5,7 @@ use crate::support::{Random, rectangle, rigged};
 use plushwright::defaults;
 use plushwright::design::{Design, Network, Pin, Tendon, bundled, file};
 use plushwright::engine::compile::{View, compile, objective};
-use plushwright::engine::{Unrubbed, pose_with_friction};
+use plushwright::engine::{FrictionPoseError, pose_with_friction};
 use plushwright::operations::{Context, FiberCount, check, new_design};
 use plushwright::physics::friction::{self, Bordered, Fault, Friction};
 use plushwright::physics::{
@@ -239,7 +239,7 @@ fn a_pose_under_friction_is_looked_for_again() {
     let let_out = rubbed.error_letting_out.unwrap();
     assert!((let_out - rubbed.error).abs() > 1e-6, "friction leaves a band");
     assert!(matches!(pose_with_friction(&design, &targets, &start.activations_mm, 0.3, &|| true),
-        Err(Unrubbed::Friction(error)) if matches!(error.fault, Fault::Cancelled | Fault::Frictionless(_))));
+        Err(FrictionPoseError::Friction(error)) if matches!(error.fault, Fault::Cancelled | Fault::Frictionless(_))));
 }
 
 #[test]

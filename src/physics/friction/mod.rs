@@ -26,7 +26,7 @@ mod cable;
 mod settle;
 
 pub use bordered::Bordered;
-pub use settle::{Fault, FrictionError, Slid, follow, settle};
+pub use settle::{Fault, FrictionError, SlidingState, follow, settle};
 
 use super::Model;
 use super::pattern::Slots;

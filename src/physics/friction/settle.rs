@@ -18,7 +18,7 @@ const RESOLVED: f64 = 1e-9;
 
 /// A state in which forces balance under friction.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Slid {
+pub struct SlidingState {
     pub x: Vec<f64>,
     /// `max |r|`, force.
     pub residual: f64,
@@ -34,7 +34,7 @@ pub struct FrictionError {
     /// The part of the friction with which forces balanced last, from -1 (all of it, letting out) to 1 (pulling).
     pub reached: f64,
     /// The state there.
-    pub best: Slid,
+    pub best: SlidingState,
 }
 
 /// What kept forces from balancing.
@@ -63,16 +63,16 @@ pub fn settle(
     start: &[f64],
     direction: Direction,
     stop: &dyn Fn() -> bool,
-) -> Result<Slid, Box<FrictionError>> {
+) -> Result<SlidingState, Box<FrictionError>> {
     let mut now = match statics::solve(model, start, &StaticsSettings::default(), stop) {
-        Ok(state) => Slid {
+        Ok(state) => SlidingState {
             x: state.x,
             residual: state.residual,
             iterations: state.iterations,
             factorizations: state.factorizations,
         },
         Err(error) => {
-            let best = Slid { x: error.best.x, residual: error.best.residual, ..Slid::default() };
+            let best = SlidingState { x: error.best.x, residual: error.best.residual, ..SlidingState::default() };
             return Err(Box::new(FrictionError { fault: Fault::Frictionless(error.cause), reached: 0.0, best }));
         }
     };
@@ -92,18 +92,18 @@ pub fn follow(
     start: &[f64],
     direction: Direction,
     stop: &dyn Fn() -> bool,
-) -> Result<Slid, Box<FrictionError>> {
+) -> Result<SlidingState, Box<FrictionError>> {
     if friction.is_absent() {
         return settle(model, friction, start, direction, stop);
     }
-    let mut now = Slid { x: start.to_vec(), ..Slid::default() };
+    let mut now = SlidingState { x: start.to_vec(), ..SlidingState::default() };
     match newton(model, friction, &mut now, direction.sign(), stop) {
         Ok(()) => Ok(now),
         Err(fault) => Err(Box::new(FrictionError { fault, reached: direction.sign(), best: now })),
     }
 }
 
-impl Slid {
+impl SlidingState {
     /// From the end of the band that this state is at to the other one, at the same contractions.
     ///
     /// # Errors
@@ -125,7 +125,7 @@ impl Slid {
 fn add_friction(
     model: &mut Model,
     friction: &Friction,
-    now: &mut Slid,
+    now: &mut SlidingState,
     [from, to]: [f64; 2],
     stop: &dyn Fn() -> bool,
 ) -> Result<(), Box<FrictionError>> {
@@ -156,7 +156,7 @@ fn add_friction(
 fn newton(
     model: &mut Model,
     friction: &Friction,
-    state: &mut Slid,
+    state: &mut SlidingState,
     part: f64,
     stop: &dyn Fn() -> bool,
 ) -> Result<(), Fault> {
@@ -200,7 +200,7 @@ fn newton(
 }
 
 /// The exact Jacobian, or one with the projected Hessian of the body where the exact one cannot be factorised.
-fn factorize(model: &mut Model, friction: &Friction, state: &mut Slid, part: f64) -> Option<Bordered> {
+fn factorize(model: &mut Model, friction: &Friction, state: &mut SlidingState, part: f64) -> Option<Bordered> {
     for form in [HessianForm::Exact, HessianForm::Projected] {
         state.factorizations += 1;
         if let Ok(jacobian) = Bordered::new(friction, model, &state.x, part, form) {

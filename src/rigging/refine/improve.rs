@@ -48,19 +48,7 @@ impl Task<'_> {
     /// The same layout with every pose wound from rest in proportion: what a real plushie does. Poses that end elsewhere are
     /// improved from there.
     pub fn wound(&self, fit: Fit, steps: usize, stop: &dyn Fn() -> bool) -> Option<Fit> {
-        let mut built = self.build(&fit.layout)?;
-        let rest = built.plushie.model.rest.clone();
-        let mut poses = Vec::with_capacity(fit.poses.len());
-        for (k, posture) in fit.poses.iter().enumerate() {
-            let mut question = built.question(k);
-            let zero = question.settle(&vec![0.0; posture.beta.len()], &rest, stop).0;
-            let wound = question.wind(&zero, &posture.beta, WINDING_STEPS, stop).0;
-            if !wound.in_equilibrium() {
-                return None;
-            }
-            poses.push(wound);
-        }
-        let wound = self.judged(fit.layout.clone(), &built, poses);
+        let wound = self.wind(&fit, stop)?;
         if wound.cost <= SAME_STATE * fit.cost || steps == 0 {
             return Some(wound);
         }
@@ -68,8 +56,8 @@ impl Task<'_> {
         self.wound(improved, 0, stop)
     }
 
-    /// A fit of the same body in another mesh: wound from rest to its activations, and improved from there.
-    pub fn transferred(&self, fit: &Fit, stop: &dyn Fn() -> bool) -> Option<Fit> {
+    /// A fit's layout with every pose wound from rest to the fit's activations; `None` where one does not settle.
+    fn wind(&self, fit: &Fit, stop: &dyn Fn() -> bool) -> Option<Fit> {
         let mut built = self.build(&fit.layout)?;
         let rest = built.plushie.model.rest.clone();
         let mut poses = Vec::with_capacity(fit.poses.len());
@@ -78,9 +66,18 @@ impl Task<'_> {
             built.actuation.clamp(&mut beta);
             let mut question = built.question(k);
             let zero = question.settle(&vec![0.0; beta.len()], &rest, stop).0;
-            poses.push(question.wind(&zero, &beta, WINDING_STEPS, stop).0);
+            let wound = question.wind(&zero, &beta, WINDING_STEPS, stop).0;
+            if !wound.in_equilibrium() {
+                return None;
+            }
+            poses.push(wound);
         }
-        let begun = self.judged(fit.layout.clone(), &built, poses);
+        Some(self.judged(fit.layout.clone(), &built, poses))
+    }
+
+    /// A fit of the same body in another mesh: wound from rest to its activations, and improved from there.
+    pub fn transferred(&self, fit: &Fit, stop: &dyn Fn() -> bool) -> Option<Fit> {
+        let begun = self.wind(fit, stop)?;
         self.wound(self.improve(begun, TRANSFER_STEPS, false, stop), TRANSFER_STEPS, stop)
     }
 

@@ -15,6 +15,8 @@ const SERVED: f64 = 1e-3;
 const STRIDE: f64 = 0.04;
 /// Step of the differences of the rules, mm: they are distances and angles of straight lines.
 const DIFFERENCE_MM: f64 = 1e-4;
+/// A curvature counts as at least this part of the largest: what nothing asks to stay does not run away.
+const FLAT: f64 = 1e-3;
 /// A tangent below this part of `K` counts as slack.
 const BARELY_TAUT: f64 = 1e-3;
 
@@ -98,7 +100,7 @@ impl Local {
     ) -> Option<(Fit, Built)> {
         let curvatures = self.model.curvatures();
         let largest = curvatures.max().max(f64::MIN_POSITIVE);
-        let step = self.model.minimise(&curvatures.map(|c| damping * (c + 1e-3 * largest)), stop)?;
+        let step = self.model.minimise(&curvatures.map(|c| damping * (c + FLAT * largest)), stop)?;
         let mut layout = fit.layout.clone();
         if self.moving > 0 {
             for (k, spot) in layout.spots().into_iter().enumerate() {

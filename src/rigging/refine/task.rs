@@ -140,6 +140,8 @@ impl<'a> Task<'a> {
             poses.iter().flat_map(|p| p.beta.iter().zip(winches)).map(|(b, w)| (b / w.upper).powi(2)).sum::<f64>();
         let missed = |f: &f64| (f / self.whole).powf(self.power) * self.whole.powf(POWER);
         let cost = misses.iter().map(missed).sum::<f64>() + RULES * violation + SPARING * used;
+        // A winch without a range has no part of it: such a layout is never the best.
+        let cost = if cost.is_nan() { f64::INFINITY } else { cost };
         Fit { layout, poses, misses, violation, cost }
     }
 
