@@ -92,7 +92,7 @@ fn together(
     // With friction where the design has it; a rig that has no figure there is the last choice.
     let order = |poses: &[Verified]| (worst(poses, |p| p.with_friction), worst(poses, |p| p.error));
     let best = verified.into_iter().min_by(|a, b| order(&a.1).partial_cmp(&order(&b.1)).unwrap_or(Ordering::Equal));
-    let Some((rigged, poses)) = best.filter(|(_, poses)| worst(poses, |p| p.error) < 1.0) else {
+    let Some((rigged, poses)) = best.filter(|(_, poses)| helps(poses)) else {
         return Err(RigError::NothingFound);
     };
     let tendons = rigged.networks[design.networks.len()..].iter().map(|n| n.tendons.len()).sum();
@@ -182,6 +182,11 @@ struct Verified {
     /// With the design's friction at the holes; infinite where there is no such figure.
     with_friction: f64,
     rest: f64,
+}
+
+/// Whether a rig brings the poses closer to their targets, all taken together: one winch may serve one pose of several.
+fn helps(poses: &[Verified]) -> bool {
+    poses.iter().map(|pose| (pose.error / pose.rest).powi(2)).sum::<f64>() < poses.len() as f64
 }
 
 /// The design with a layout's networks, and what a check says of every pose.
