@@ -5,7 +5,8 @@ use super::output::say;
 use super::{document, words};
 use crate::defaults;
 use crate::files::shown;
-use crate::operations::rig::{self, Error, Options, TendonChoice};
+use crate::operations::key;
+use crate::operations::rig::{self, Error, Note, Options, TendonChoice};
 use crate::operations::{Context, Progress};
 use crate::rigging;
 use crate::rigging::RigError;
@@ -123,11 +124,18 @@ impl Rig {
             }
         };
         let mut context = Context::telling(cancel, &mut progress);
-        rig::run(&mut design, &options, &mut context).map_err(|error| failed(&self.design, error))?;
+        let rigged = rig::run(&mut design, &options, &mut context).map_err(|error| failed(&self.design, error))?;
         printed?;
         edit.save(&design, cancel)?;
         let tendons: usize = design.networks.iter().map(|n| n.tendons.len()).sum();
-        say(out, &format!("{}: {} winches, {tendons} tendons", shown(&self.target.output), design.networks.len()))
+        say(out, &format!("{}: {} winches, {tendons} tendons", shown(&self.target.output), design.networks.len()))?;
+        for note in rigged.notes.iter().filter(|note| matches!(note, Note::AtRest { .. })) {
+            say(out, &format!("note: {note}"))?;
+        }
+        words::balanced(rigged.notes.iter().filter_map(|note| match note {
+            Note::Key(key::Note::Unbalanced(unbalanced)) => Some(unbalanced),
+            Note::AtRest { .. } => None,
+        }))
     }
 }
 

@@ -28,5 +28,5 @@ pub use measure::target_error;
 pub use play::Play;
 pub use request::{Outcome, Request, Setpoint};
 pub use shape::{EQUILIBRIUM, NEAR_EQUILIBRIUM, Shape};
-pub use solver::Solver;
+pub use solver::{Solver, solve_once};
 pub use warning::Warning;

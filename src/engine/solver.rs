@@ -4,7 +4,19 @@ use super::compiled::{Compiled, Effort, Work};
 use super::idealized::idealize;
 use super::realizable::realize;
 use super::request::{Outcome, Request, Setpoint};
+use crate::design::Design;
+use crate::soft_ik::Quality;
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
+
+/// Both plushies of a design once, from rest and with all effort: the same whoever asks. `shown`: whether the idealized and the realizable
+/// one are wanted.
+pub fn solve_once(design: &Design, setpoint: Setpoint, shown: [bool; 2], cancel: &AtomicBool) -> Outcome {
+    let [show_idealized, show_realizable] = shown;
+    let design = Arc::new(design.clone());
+    let request = Request { id: 0, design, setpoint, quality: Quality::Accurate, show_idealized, show_realizable };
+    Solver::default().solve_with(&request, Effort::Thorough, cancel)
+}
 
 /// Keeps compiled models and the last postures between requests.
 #[derive(Default)]

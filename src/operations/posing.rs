@@ -2,9 +2,8 @@
 
 use super::{Cancelled, Context};
 use crate::design::{Design, Target};
-use crate::engine::{Effort, Quality, Request, Setpoint, Shape, Solver, Warning};
+use crate::engine::{Setpoint, Shape, Warning, solve_once};
 use std::fmt;
-use std::sync::Arc;
 
 /// One of the two plushies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,15 +81,7 @@ pub(super) fn solve(
     wanted: [bool; 2],
     context: &Context,
 ) -> Result<[Shape; 2], Cancelled> {
-    let request = Request {
-        id: 0,
-        design: Arc::new(design.clone()),
-        setpoint,
-        quality: Quality::Accurate,
-        show_idealized: wanted[0],
-        show_realizable: wanted[1],
-    };
-    let outcome = Solver::default().solve_with(&request, Effort::Thorough, context.cancel());
+    let outcome = solve_once(design, setpoint, wanted, context.cancel());
     context.check()?;
     let rest = || at_rest(design);
     Ok([outcome.idealized.unwrap_or_else(rest), outcome.realizable.unwrap_or_else(rest)])

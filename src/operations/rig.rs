@@ -7,6 +7,7 @@ use crate::design::{Design, Easing, Keyframe, Network};
 use crate::mesh::Mesh;
 use crate::motion;
 use crate::rigging::{self, RigError};
+use std::fmt;
 
 pub use crate::rigging::{Method, RigOptions as Options, TendonChoice};
 
@@ -46,6 +47,22 @@ impl From<key::Error> for Error {
 pub enum Note {
     /// About a keyframe of the timeline that was laid out.
     Key(key::Note),
+    /// This keyframe was set by hand for winches that are gone: it is at rest now.
+    AtRest { time_s: f64 },
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::Key(key::Note::Unbalanced(unbalanced)) => unbalanced.fmt(f),
+            Self::AtRest { time_s } => {
+                write!(
+                    f,
+                    "the keyframe at {time_s} s was set by hand for the winches that were there; it is at rest now"
+                )
+            }
+        }
+    }
 }
 
 /// A rig, ready to be put into the design that it was found for.
@@ -77,7 +94,7 @@ pub fn prepare(design: &Design, options: &Options, context: &mut Context) -> Res
     let notes = if rigged.keyframes.is_empty() {
         lay_out(&mut rigged, context)?
     } else if options.fresh {
-        key_again(&mut rigged, context)?
+        key_again(&mut rigged, &design.keyframes, context)?
     } else {
         Vec::new()
     };
@@ -96,11 +113,15 @@ fn without_networks(design: &Design) -> Design {
 }
 
 /// Solves every keyframe of a pose anew for the present winches; the others are at rest.
-fn key_again(design: &mut Design, context: &Context) -> Result<Vec<Note>, Error> {
+fn key_again(design: &mut Design, before: &[Keyframe], context: &Context) -> Result<Vec<Note>, Error> {
     let mut notes = Vec::new();
-    for keyframe in design.keyframes.clone() {
-        let Keyframe { time_s, pose: Some(pose), easing, .. } = keyframe else { continue };
-        let options = key::Options { pose: Some(pose), time_s, easing };
+    for &Keyframe { time_s, ref activations_mm, ref pose, easing } in before {
+        let Some(pose) = pose else {
+            let moved = activations_mm.iter().any(|a| *a != 0.0);
+            notes.extend(moved.then_some(Note::AtRest { time_s }));
+            continue;
+        };
+        let options = key::Options { pose: Some(pose.clone()), time_s, easing };
         let keyed = key::run(design, &options, context)?;
         notes.extend(keyed.notes.into_iter().map(Note::Key));
     }

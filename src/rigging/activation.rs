@@ -1,8 +1,7 @@
 //! The activation graph of a pose: what Algorithm 2 works on.
 
 use crate::design::{Design, Target};
-use crate::engine::{Effort, Quality, Request, Setpoint, Shape, Solver};
-use std::sync::Arc;
+use crate::engine::{Setpoint, Shape, solve_once};
 use std::sync::atomic::AtomicBool;
 
 /// The mesh edges of a body and what their fibres do in one pose.
@@ -15,15 +14,8 @@ pub struct ActivationGraph {
 impl ActivationGraph {
     /// Poses the idealized plushie with all effort, its present winches held where they serve best; `None` where it cannot be.
     pub fn of_pose(design: &Design, targets: &[Target], cancel: &AtomicBool) -> Option<Self> {
-        let request = Request {
-            id: 0,
-            design: Arc::new(design.clone()),
-            setpoint: Setpoint::Targets(targets.to_vec()),
-            quality: Quality::Accurate,
-            show_idealized: true,
-            show_realizable: false,
-        };
-        let shape = Solver::default().solve_with(&request, Effort::Thorough, cancel).idealized?;
+        let setpoint = Setpoint::Targets(targets.to_vec());
+        let shape = solve_once(design, setpoint, [true, false], cancel).idealized?;
         Some(Self::of(design, &shape))
     }
 

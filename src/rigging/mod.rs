@@ -9,7 +9,6 @@
 //! | `linear_score` | layouts ranked by the body linearised at rest, before any is simulated |
 //! | `sewable` | the rules of sewing as figures that a search brings to zero |
 //! | `prune` | points, tendons and winches that cost little are left out |
-//! | `truth` | what a check says of a rig: what is told in the end |
 //! | `greedy` | the paper's loop: solve, discover, try out, accept, winch by winch (section 3) |
 //! | `propose` | networks for one pose, for somebody to choose from |
 //! | `generators/`, `criteria/` | where their candidates come from, and what makes one better than another |
@@ -39,7 +38,6 @@ mod refine;
 mod search;
 mod sewable;
 mod trial;
-mod truth;
 
 pub use candidate::{Baseline, Candidate, with_network};
 pub use options::{BadTendons, Method, Progress, RigError, RigOptions, TendonChoice};

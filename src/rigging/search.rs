@@ -9,10 +9,9 @@ use super::options::{Method, Progress, RigError, RigOptions, TendonChoice};
 use super::prune::{SERVED, pruned};
 use super::refine::{Fit, Task};
 use super::sewable::Sewable;
-use super::truth::realised;
 use crate::design::{Design, Network, remesh};
 use crate::engine::compile::{View, compile};
-use crate::engine::{pose_with_friction, target_error};
+use crate::engine::{Setpoint, pose_with_friction, solve_once, target_error};
 use crate::mesh::{Mesh, MeshSpec};
 use crate::outline::Outline;
 use crate::threads::in_order;
@@ -203,7 +202,8 @@ fn verified(design: &Design, fit: &Fit, cancel: &AtomicBool) -> (Design, Vec<Ver
     let poses = design.poses.iter().filter(|pose| !pose.targets.is_empty());
     let (mu, stop) = (design.tendons.friction, || cancel.load(atomic::Ordering::Relaxed));
     let poses = poses.map(|pose| {
-        let shape = realised(&with, &pose.targets, cancel);
+        let setpoint = Setpoint::Targets(pose.targets.clone());
+        let shape = solve_once(&with, setpoint, [false, true], cancel).realizable;
         let error = shape.as_ref().map_or(f64::INFINITY, |shape| shape.target_error);
         let with_friction = shape.filter(|_| mu > 0.0).map(|shape| {
             let found = pose_with_friction(&with, &pose.targets, &shape.activations_mm, mu, &stop);

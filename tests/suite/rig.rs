@@ -47,3 +47,22 @@ fn parameters_of_algorithm_2_belong_to_it() {
     let (poses, _) = checked(f, "x.plush");
     assert!(poses.iter().all(|(_, error, rest)| error < rest));
 }
+
+#[test]
+fn a_fresh_rig_solves_poses_anew_and_tells_what_was_set_by_hand() {
+    let folder = place();
+    let f = folder.path();
+    let text = std::fs::read_to_string(f.join("bar.plush")).unwrap();
+    let by_hand = text.replacen("pose: Some(\"bend\"), ", "", 1).replacen(", pose: Some(\"bend\")", "", 1);
+    assert_ne!(by_hand, text, "a keyframe of the pose in {text}");
+    std::fs::write(f.join("bar.plush"), by_hand).unwrap();
+    let fresh = ["--fresh", "--max-winches", "1", "--rounds", "1"];
+    let told = succeed(f, &[&["rig", "bar.plush", "-o", "new.plush"][..], &fresh].concat());
+    assert!(told.contains("note: the keyframe at ") && told.contains("set by hand"), "{told}");
+    std::fs::write(f.join("bar.plush"), text).unwrap();
+    let told = succeed(f, &[&["rig", "bar.plush", "-o", "again.plush", "--force"][..], &fresh].concat());
+    assert!(!told.contains("note:"), "{told}");
+    let again = std::fs::read_to_string(f.join("again.plush")).unwrap();
+    let keyed = again.lines().find(|line| line.contains("pose: Some(\"bend\")")).unwrap();
+    assert!(keyed.contains("activations_mm: [") && !keyed.contains("activations_mm: [0.0]"), "{keyed}");
+}

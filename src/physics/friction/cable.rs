@@ -6,7 +6,7 @@ use crate::physics::{Element, Model};
 /// Turns below this many radians, half a degree, count less than they are, so that the law is smooth where a cable passes a hole
 /// straight: `|phi|` becomes `phi^2 (2 - |phi|/R)/R`, which meets it with equal slope at `R`. No turn is off by more than
 /// `4/27 R`, no tension by more than a part of `0.0013 mu` a hole. Smaller, and Newton's method sees a corner.
-const RIM: f64 = 0.00873;
+const STRAIGHT: f64 = 0.00873;
 
 /// A cable that rubs.
 pub(super) struct Cable {
@@ -140,8 +140,8 @@ fn turn(before: [f64; 2], after: [f64; 2], point: f64) -> Turn {
     let cross = before[0] * after[1] - before[1] * after[0];
     let along = before[0] * after[0] + before[1] * after[1];
     let (phi, sign) = (cross.abs().atan2(along), if cross < 0.0 { -1.0 } else { 1.0 });
-    let (angle, slope) = if phi < RIM {
-        let t = phi / RIM;
+    let (angle, slope) = if phi < STRAIGHT {
+        let t = phi / STRAIGHT;
         (phi * t * (2.0 - t), t * (4.0 - 3.0 * t))
     } else {
         (phi, 1.0)

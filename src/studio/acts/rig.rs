@@ -1,7 +1,7 @@
 //! Networks for all poses at once, looked for on a thread.
 
-use crate::operations::rig::{self, Error, Note, Rigged};
-use crate::operations::{Context, Progress, key};
+use crate::operations::rig::{self, Error, Rigged};
+use crate::operations::{Context, Progress};
 use crate::studio::jobs::{Outcome, Running};
 use crate::studio::session::Session;
 use crate::studio::words;
@@ -45,8 +45,8 @@ pub fn take_rig(session: &mut Session, serial: u64, rigged: Result<Box<Rigged>, 
         let text = "The body or its networks were changed meanwhile, so what was found does not fit any more.";
         return session.messages.warning(text);
     }
-    for Note::Key(key::Note::Unbalanced(unbalanced)) in &rigged.notes {
-        session.messages.warning(format!("Rig: {unbalanced}"));
+    for note in &rigged.notes {
+        session.messages.warning(format!("Rig: {note}"));
     }
     let found = rigged.networks.len();
     match session.document.history.edit("Rig", |design| rigged.apply(design)) {
