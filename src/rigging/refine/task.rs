@@ -145,6 +145,11 @@ impl<'a> Task<'a> {
         Fit { layout, poses, misses, violation, cost }
     }
 
+    /// What a layout's broken rules at rest add to `C`.
+    pub fn broken(&self, layout: &Layout) -> f64 {
+        self.sewable.map_or(0.0, |s| RULES * s.violations(layout).iter().map(|v| v * v).sum::<f64>())
+    }
+
     /// By how much cables leave the body in a pose.
     fn posed_violation(&self, built: &Built, x: &[f64]) -> f64 {
         let ring = |nodes: &Vec<usize>| nodes.iter().map(|&n| [x[2 * n], x[2 * n + 1]]).collect();
