@@ -115,7 +115,7 @@ impl Rig {
                 Progress::Rig(rigging::Progress::Round { worst, holes, .. }) => {
                     Some((format!("{:.1}", 100.0 * worst), *holes))
                 }
-                Progress::Rig(_) => None,
+                Progress::Rig(_) | Progress::Proposals(_) => None,
             };
             let news = gain.is_none() || gain != told;
             told = gain;

@@ -2,6 +2,7 @@
 
 use super::error::CommandError;
 use super::output::refused_folder;
+use crate::defaults;
 use crate::fabrication::ExportError;
 use crate::motion::MotionError;
 use crate::operations::{Progress, Unbalanced, new_design, reshape};
@@ -68,11 +69,21 @@ pub fn progress(step: &Progress) -> String {
                 100.0 * worst
             )
         }
-        Progress::Rig(rigging::Progress::Found { winches, tendons, errors }) => {
+        Progress::Rig(rigging::Progress::Found { winches, tendons, errors, sewn }) => {
+            let by_hand = errors.iter().zip(sewn).map(|((name, _), sewn)| {
+                format!("{name} {:.2} % ({:.2} % at worst)", 100.0 * sewn.median, 100.0 * sewn.worst)
+            });
+            let by_hand: Vec<String> = by_hand.collect();
             let errors: Vec<String> =
                 errors.iter().map(|(name, error)| format!("{name} {:.2} %", 100.0 * error)).collect();
-            format!("{winches} winches, {tendons} tendons; {}", errors.join(", "))
+            format!(
+                "{winches} winches, {tendons} tendons; {}\nsewn by hand, holes {} mm off: {}",
+                errors.join(", "),
+                defaults::SEWN_HOLE_MM,
+                by_hand.join(", ")
+            )
         }
+        Progress::Proposals(list) => format!("{} networks so far", list.len()),
     }
 }
 

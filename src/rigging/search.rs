@@ -1,6 +1,7 @@
 //! Winches and tendons for all poses of a design, without a hand.
 
 use super::candidate::unused_name;
+use super::checked::Checked;
 use super::greedy;
 use super::joint::Joint;
 use super::layout::rigs_of;
@@ -8,10 +9,11 @@ use super::moves::{Sampler, Topology};
 use super::options::{Method, Progress, RigError, RigOptions, TendonChoice};
 use super::prune::{SERVED, pruned};
 use super::refine::{Fit, Task};
+use super::robust::{Sewn, sewn};
 use super::sewable::Sewable;
-use crate::design::{Design, Network, remesh};
+use crate::design::{Design, Network, Pose, Target, remesh};
 use crate::engine::compile::{View, compile};
-use crate::engine::{Setpoint, pose_with_friction, solve_once, target_error};
+use crate::engine::target_error;
 use crate::mesh::{Mesh, MeshSpec};
 use crate::outline::Outline;
 use crate::threads::in_order;
@@ -29,7 +31,7 @@ const SHARPENING: usize = 40;
 const PATIENCE: usize = 30;
 const GAIN: f64 = 0.99;
 /// Most holes of a tendon where no rule is asked for.
-const FREE_HOLES: usize = 20;
+pub(super) const FREE_HOLES: usize = 20;
 
 /// The design with winches for its poses, in addition to those that it has.
 ///
@@ -55,7 +57,7 @@ pub fn rig(
 }
 
 /// The rim of a mesh at rest.
-fn rim(mesh: &Mesh) -> Outline {
+pub(super) fn rim(mesh: &Mesh) -> Outline {
     let mut rings = mesh.boundary().into_iter().map(|ring| ring.into_iter().map(|n| mesh.nodes[n]).collect());
     Outline { outer: rings.next().unwrap_or_default(), holes: rings.collect() }
 }
@@ -77,7 +79,7 @@ fn together(
         None => found,
         Some(_) => {
             let (outline, stop) = (rim(&design.mesh), || cancel.load(atomic::Ordering::Relaxed));
-            let sewable = sewable(design, &outline, options);
+            let sewable = sewable(design, &outline, options.rules);
             let task = Task::new(design, sewable.as_ref(), &design.networks);
             in_order(&found, |fit| task.transferred(fit, &stop)).into_iter().flatten().collect()
         }
@@ -88,15 +90,16 @@ fn together(
     }
     let worst =
         |poses: &[Verified], error: fn(&Verified) -> f64| poses.iter().map(|p| error(p) / p.rest).fold(0.0, f64::max);
-    // With friction where the design has it; a rig that has no figure there is the last choice.
-    let order = |poses: &[Verified]| (worst(poses, |p| p.with_friction), worst(poses, |p| p.error));
+    // As a hand sews it, with friction where the design has it; a rig that has no figure there is the last choice.
+    let order = |poses: &[Verified]| (worst(poses, |p| p.sewn.median.max(p.real)), worst(poses, |p| p.error));
     let best = verified.into_iter().min_by(|a, b| order(&a.1).partial_cmp(&order(&b.1)).unwrap_or(Ordering::Equal));
     let Some((rigged, poses)) = best.filter(|(_, poses)| helps(poses)) else {
         return Err(RigError::NothingFound);
     };
     let tendons = rigged.networks[design.networks.len()..].iter().map(|n| n.tendons.len()).sum();
+    let sewn = poses.iter().map(|pose| pose.sewn).collect();
     let errors = poses.into_iter().map(|pose| (pose.name, pose.error)).collect();
-    progress(Progress::Found { winches: rigged.networks.len() - design.networks.len(), tendons, errors });
+    progress(Progress::Found { winches: rigged.networks.len() - design.networks.len(), tendons, errors, sewn });
     Ok(rigged)
 }
 
@@ -111,7 +114,7 @@ fn topology(design: &Design, options: &RigOptions) -> Topology {
 }
 
 /// The design on a coarse mesh, where its own is fine and the outline takes another one.
-fn coarser(design: &Design) -> Option<Design> {
+pub(super) fn coarser(design: &Design) -> Option<Design> {
     if design.mesh.edges().len() <= FINE {
         return None;
     }
@@ -121,11 +124,10 @@ fn coarser(design: &Design) -> Option<Design> {
     Some(coarse)
 }
 
-fn sewable<'a>(design: &'a Design, rim: &'a Outline, options: &RigOptions) -> Option<Sewable<'a>> {
+/// The rules for new networks beside those that are there; `None` where no rule is asked for.
+pub(super) fn sewable<'a>(design: &'a Design, rim: &'a Outline, rules: bool) -> Option<Sewable<'a>> {
     let gap_mm = design.fabrication.turning_gap_mm;
-    options
-        .rules
-        .then(|| Sewable::new(design.sewing, &design.outline, rim, gap_mm, rigs_of(&design.networks, &design.mesh)))
+    rules.then(|| Sewable::new(design.sewing, &design.outline, rim, gap_mm, rigs_of(&design.networks, &design.mesh)))
 }
 
 /// The best few layouts that a search finds on the design's own mesh; those that keep the rules, where any do.
@@ -137,7 +139,7 @@ fn layouts(
     cancel: &AtomicBool,
 ) -> Result<Vec<Fit>, RigError> {
     let (outline, stop) = (rim(&design.mesh), || cancel.load(atomic::Ordering::Relaxed));
-    let sewable = sewable(design, &outline, options);
+    let sewable = sewable(design, &outline, options.rules);
     let task = Task::new(design, sewable.as_ref(), &design.networks);
     // Nothing to build, or every pose is at rest already.
     if topology.tendons.is_empty() || task.poses.is_empty() {
@@ -179,7 +181,8 @@ struct Verified {
     name: String,
     error: f64,
     /// With the design's friction at the holes; infinite where there is no such figure.
-    with_friction: f64,
+    real: f64,
+    sewn: Sewn,
     rest: f64,
 }
 
@@ -199,18 +202,16 @@ fn verified(design: &Design, fit: &Fit, cancel: &AtomicBool) -> (Design, Vec<Ver
     }
     let count = with.networks.len();
     with.keyframes.iter_mut().for_each(|keyframe| keyframe.activations_mm.resize(count, 0.0));
-    let poses = design.poses.iter().filter(|pose| !pose.targets.is_empty());
-    let (mu, stop) = (design.tendons.friction, || cancel.load(atomic::Ordering::Relaxed));
-    let poses = poses.map(|pose| {
-        let setpoint = Setpoint::Targets(pose.targets.clone());
-        let shape = solve_once(&with, setpoint, [false, true], cancel).realizable;
-        let error = shape.as_ref().map_or(f64::INFINITY, |shape| shape.target_error);
-        let with_friction = shape.filter(|_| mu > 0.0).map(|shape| {
-            let found = pose_with_friction(&with, &pose.targets, &shape.activations_mm, mu, &stop);
-            found.map_or(f64::INFINITY, |found| found.error)
-        });
+    let posed: Vec<&Pose> = design.poses.iter().filter(|pose| !pose.targets.is_empty()).collect();
+    let targets: Vec<&[Target]> = posed.iter().map(|pose| pose.targets.as_slice()).collect();
+    let friction = design.tendons.friction;
+    let mut sewn = sewn(&with, &targets, friction, cancel).into_iter();
+    let poses = posed.into_iter().map(|pose| {
+        let checked = Checked::of(&with, &pose.targets, friction, cancel);
+        let error = checked.real_error();
         let rest = target_error(design, &pose.targets, &design.mesh.nodes).max(f64::MIN_POSITIVE);
-        Verified { name: pose.name.clone(), error, with_friction: with_friction.unwrap_or(error), rest }
+        let sewn = sewn.next().unwrap_or(Sewn { median: error, worst: error });
+        Verified { name: pose.name.clone(), error: checked.error(), real: error, sewn, rest }
     });
     let poses = poses.collect();
     (with, poses)

@@ -31,7 +31,7 @@ pub type Told = Arc<dyn Any + Send + Sync>;
 
 /// The result of a job.
 pub enum Outcome {
-    Proposed(Vec<Proposal>),
+    Proposed(Vec<Arc<Proposal>>),
     Remeshed(Result<Box<Remeshed>, remesh::Error>),
     Reshaped(Result<Box<Reshaped>, reshape::Error>),
     Rigged(Result<Box<Rigged>, rig::Error>),

@@ -12,7 +12,7 @@ pub fn start_rig(session: &mut Session) {
     if session.rigging.running.is_some() {
         return;
     }
-    let options = match session.rigging.choice.options(&session.discovery.parameters) {
+    let options = match session.rigging.choice.options(&session.discovery.options.parameters) {
         Ok(options) => options,
         Err(error) => return session.messages.warning(format!("Tendons of each winch: {error}")),
     };

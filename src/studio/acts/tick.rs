@@ -23,6 +23,7 @@ pub fn tick(session: &mut Session, now_s: f64, passed_s: f64, hands_off: bool) {
         session.playback.advance(passed_s, animation::duration_s(session.document.design()));
     }
     edit::clamp(session);
+    discover::follow(session);
     texture::follow_texture(session);
     // Nobody sees the plushies while the outline is drawn.
     if !session.sketching.open {

@@ -5,7 +5,7 @@ use crate::studio::acts;
 use crate::studio::session::Session;
 use eframe::egui::Key;
 
-pub static ALL: [&Command; 6] = [&PROPOSE, &CANCEL, &ACCEPT, &REJECT, &RIG, &CANCEL_RIG];
+pub static ALL: [&Command; 7] = [&PROPOSE, &PROPOSE_AGAIN, &CANCEL, &ACCEPT, &REJECT, &RIG, &CANCEL_RIG];
 
 pub static PROPOSE: Command = Command {
     keys: &[Keys::plain(Key::G)],
@@ -13,6 +13,16 @@ pub static PROPOSE: Command = Command {
     why_not: &|session, _| session.cannot_propose(),
     run: &|session, _| acts::discover::start_propose(session),
     ..Command::new("discovery.propose", "Propose networks", "Look for winch-tendon networks that reach this pose")
+};
+
+pub static PROPOSE_AGAIN: Command = Command {
+    scope: Scope::Views,
+    why_not: &|session, _| match session.discovery().is_stale() {
+        true => session.cannot_propose(),
+        false => Some("What was proposed is for this body and pose"),
+    },
+    run: &|session, _| acts::discover::start_propose(session),
+    ..Command::new("discovery.again", "Propose again", "Look for networks for the body and the pose as they are now")
 };
 
 pub static CANCEL: Command = Command {
@@ -34,7 +44,7 @@ pub static REJECT: Command = Command {
     keys: &[Keys::plain(Key::Backspace)],
     scope: Scope::Views,
     why_not: &|session, _| none_shown(session),
-    run: &|session, _| acts::discover::reject(session),
+    run: &|session, _| session.discovery.reject(),
     ..Command::new("discovery.reject", "Reject", "Drop this proposal")
 };
 
@@ -56,5 +66,8 @@ pub static CANCEL_RIG: Command = Command {
 };
 
 fn none_shown(session: &Session) -> Option<&'static str> {
+    if session.discovery().is_stale() {
+        return Some("What was proposed is for another body or pose: propose again");
+    }
     session.shown_proposal().is_none().then_some("No proposal is shown")
 }

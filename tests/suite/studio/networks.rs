@@ -37,11 +37,11 @@ fn networks_are_proposed_previewed_rejected_and_accepted() {
 
 #[test]
 fn discovery_can_be_cancelled() {
-    let propose: Propose = Arc::new(|design, _, _, cancel| {
+    let propose: Propose = Arc::new(|design, _, _, _, cancel| {
         while !cancel.load(Ordering::Relaxed) {
             std::thread::sleep(Duration::from_millis(1));
         }
-        vec![proposal(design, 0.1)]
+        vec![Arc::new(proposal(design, 0.1))]
     });
     let mut window = window_with(bar(), Services { propose, ..services() });
     pose(&mut window, "Idealized view");
