@@ -76,12 +76,11 @@ pub fn progress(step: &Progress) -> String {
             let by_hand: Vec<String> = by_hand.collect();
             let errors: Vec<String> =
                 errors.iter().map(|(name, error)| format!("{name} {:.2} %", 100.0 * error)).collect();
-            format!(
-                "{winches} winches, {tendons} tendons; {}\nsewn by hand, holes {} mm off: {}",
-                errors.join(", "),
-                defaults::SEWN_HOLE_MM,
-                by_hand.join(", ")
-            )
+            let found = format!("{winches} winches, {tendons} tendons; {}", errors.join(", "));
+            if by_hand.is_empty() {
+                return found;
+            }
+            format!("{found}\nsewn by hand, holes {} mm off: {}", defaults::SEWN_HOLE_MM, by_hand.join(", "))
         }
         Progress::Proposals(list) => format!("{} networks so far", list.len()),
     }

@@ -112,7 +112,8 @@ pub enum Progress {
     Accepted { winch: usize, tendons: usize, errors: Vec<(String, f64)> },
     /// A round of the joint search begins: the worst pose's error so far, as a part of that at rest, and the holes of the rig.
     Round { round: usize, rounds: usize, worst: f64, holes: usize },
-    /// The end of the joint search; `errors`: what a check says of every pose, body lengths; `sewn`: what is left of each when a hand sews it.
+    /// The end of the joint search; `errors`: what a check says of every pose, body lengths; `sewn`: what is left of each when a
+    /// hand sews it, empty where no rule of sewing counts.
     Found { winches: usize, tendons: usize, errors: Vec<(String, f64)>, sewn: Vec<Sewn> },
 }
 

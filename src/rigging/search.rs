@@ -9,7 +9,7 @@ use super::moves::{Sampler, Topology};
 use super::options::{Method, Progress, RigError, RigOptions, TendonChoice};
 use super::prune::{SERVED, pruned};
 use super::refine::{Fit, Task};
-use super::robust::{Sewn, sewn};
+use super::robust::{self, Sewn};
 use super::sewable::Sewable;
 use crate::design::{Design, Network, Pose, Target, remesh};
 use crate::engine::compile::{View, compile};
@@ -27,8 +27,8 @@ const FINE: usize = 700;
 const FINALISTS: usize = 5;
 /// Steps by which the worst pose is improved in the end.
 const SHARPENING: usize = 40;
-/// Rounds after which a search is over, if none has left less than this part of the worst pose's error: more than an era of the islands.
-const PATIENCE: usize = 30;
+/// Rounds after which islands are left for new ones, if none has left less than this part of the worst pose's error.
+const PATIENCE: usize = 25;
 const GAIN: f64 = 0.99;
 /// Most holes of a tendon where no rule is asked for.
 pub(super) const FREE_HOLES: usize = 20;
@@ -79,25 +79,26 @@ fn together(
         None => found,
         Some(_) => {
             let (outline, stop) = (rim(&design.mesh), || cancel.load(atomic::Ordering::Relaxed));
-            let sewable = sewable(design, &outline, options.rules);
-            let task = Task::new(design, sewable.as_ref(), &design.networks);
+            let sewable = sewable(design, &outline);
+            let task = Task::new(design, options.rules.then_some(&sewable), &design.networks);
             in_order(&found, |fit| task.transferred(fit, &stop)).into_iter().flatten().collect()
         }
     };
-    let verified = in_order(&found, |fit| verified(design, fit, cancel));
+    let verified = in_order(&found, |fit| verified(design, fit, options.rules, cancel));
     if cancel.load(atomic::Ordering::Relaxed) {
         return Err(RigError::Cancelled);
     }
     let worst =
         |poses: &[Verified], error: fn(&Verified) -> f64| poses.iter().map(|p| error(p) / p.rest).fold(0.0, f64::max);
-    // As a hand sews it, with friction where the design has it; a rig that has no figure there is the last choice.
-    let order = |poses: &[Verified]| (worst(poses, |p| p.sewn.median.max(p.real)), worst(poses, |p| p.error));
+    // As a hand sews it where it should, with friction where the design has it; a rig that has no figure there is the last choice.
+    let real = |p: &Verified| p.sewn.map_or(p.real, |sewn| sewn.median.max(p.real));
+    let order = |poses: &[Verified]| (worst(poses, real), worst(poses, |p| p.error));
     let best = verified.into_iter().min_by(|a, b| order(&a.1).partial_cmp(&order(&b.1)).unwrap_or(Ordering::Equal));
     let Some((rigged, poses)) = best.filter(|(_, poses)| helps(poses)) else {
         return Err(RigError::NothingFound);
     };
     let tendons = rigged.networks[design.networks.len()..].iter().map(|n| n.tendons.len()).sum();
-    let sewn = poses.iter().map(|pose| pose.sewn).collect();
+    let sewn = poses.iter().filter_map(|pose| pose.sewn).collect();
     let errors = poses.into_iter().map(|pose| (pose.name, pose.error)).collect();
     progress(Progress::Found { winches: rigged.networks.len() - design.networks.len(), tendons, errors, sewn });
     Ok(rigged)
@@ -124,10 +125,10 @@ pub(super) fn coarser(design: &Design) -> Option<Design> {
     Some(coarse)
 }
 
-/// The rules for new networks beside those that are there; `None` where no rule is asked for.
-pub(super) fn sewable<'a>(design: &'a Design, rim: &'a Outline, rules: bool) -> Option<Sewable<'a>> {
+/// The rules for new networks beside those that are there.
+pub(super) fn sewable<'a>(design: &'a Design, rim: &'a Outline) -> Sewable<'a> {
     let gap_mm = design.fabrication.turning_gap_mm;
-    rules.then(|| Sewable::new(design.sewing, &design.outline, rim, gap_mm, rigs_of(&design.networks, &design.mesh)))
+    Sewable::new(design.sewing, &design.outline, rim, gap_mm, rigs_of(&design.networks, &design.mesh))
 }
 
 /// The best few layouts that a search finds on the design's own mesh; those that keep the rules, where any do.
@@ -139,38 +140,47 @@ fn layouts(
     cancel: &AtomicBool,
 ) -> Result<Vec<Fit>, RigError> {
     let (outline, stop) = (rim(&design.mesh), || cancel.load(atomic::Ordering::Relaxed));
-    let sewable = sewable(design, &outline, options.rules);
-    let task = Task::new(design, sewable.as_ref(), &design.networks);
+    let sewable = sewable(design, &outline);
+    let lawful = Task::new(design, Some(&sewable), &design.networks);
+    let free = Task::new(design, None, &design.networks);
     // Nothing to build, or every pose is at rest already.
-    if topology.tendons.is_empty() || task.poses.is_empty() {
+    if topology.tendons.is_empty() || lawful.poses.is_empty() {
         return Ok(Vec::new());
     }
-    let sampler = Sampler::new(&design.mesh, sewable.as_ref());
-    let mut joint = Joint::new(&task, &sampler, topology.clone(), options.seed, &stop);
-    let (mut best, mut since) = (f64::INFINITY, 0);
+    let samplers = [Some(&sewable), None].map(|sewable| Sampler::new(&design.mesh, sewable));
+    let school = Topology { most_holes: design.sewing.most_holes, ..topology.clone() };
+    let mut joint = Joint::new(&lawful, &samplers[0], school.clone(), options.seed, &stop);
+    let (mut best, mut since, mut lawfully, mut settled) = (f64::INFINITY, 0, true, 0);
     for round in 0..options.rounds {
-        let Some(fit) = joint.best() else { break };
+        let schooled = round - settled >= (options.rounds - settled) / 2;
+        if lawfully && !options.rules && (schooled || since > PATIENCE) {
+            joint.turn_to(&free, &samplers[1], topology.clone(), &stop);
+            (best, since, lawfully) = (f64::INFINITY, 0, false);
+        } else if since > PATIENCE {
+            joint.leave(&lawful, &samplers[0], school.clone(), &stop);
+            (best, since, lawfully, settled) = (f64::INFINITY, 0, true, round);
+        }
+        let (Some(fit), Some(here)) = (joint.best(), joint.best_here()) else { break };
         let (worst, holes) = (fit.worst(), fit.layout.holes());
         progress(Progress::Round { round, rounds: options.rounds, worst, holes });
-        since = if worst < GAIN * best { 0 } else { since + 1 };
-        best = best.min(worst);
-        if worst <= SERVED || since > PATIENCE {
+        if worst <= SERVED {
             break;
         }
+        since = if here.worst() < GAIN * best { 0 } else { since + 1 };
+        best = best.min(here.worst());
         joint.advance(&stop);
         if stop() {
             return Err(RigError::Cancelled);
         }
     }
+    let task = if options.rules { &lawful } else { &free };
     let mut finished = in_order(&joint.finalists(FINALISTS), |fit| {
-        task.sharpened(pruned(&task, topology, joint.finished(fit, &stop), &stop), SHARPENING, &stop)
+        task.sharpened(pruned(task, topology, joint.finished(fit, &stop), &stop), SHARPENING, &stop)
     });
     if stop() {
         return Err(RigError::Cancelled);
     }
-    if let Some(sewable) = &sewable
-        && finished.iter().any(|fit| sewable.is_kept(&fit.layout))
-    {
+    if options.rules && finished.iter().any(|fit| sewable.is_kept(&fit.layout)) {
         finished.retain(|fit| sewable.is_kept(&fit.layout));
     }
     Ok(finished)
@@ -182,7 +192,8 @@ struct Verified {
     error: f64,
     /// With the design's friction at the holes; infinite where there is no such figure.
     real: f64,
-    sewn: Sewn,
+    /// Where it should be sewn.
+    sewn: Option<Sewn>,
     rest: f64,
 }
 
@@ -191,8 +202,8 @@ fn helps(poses: &[Verified]) -> bool {
     poses.iter().map(|pose| (pose.error / pose.rest).powi(2)).sum::<f64>() < poses.len() as f64
 }
 
-/// The design with a layout's networks, and what a check says of every pose.
-fn verified(design: &Design, fit: &Fit, cancel: &AtomicBool) -> (Design, Vec<Verified>) {
+/// The design with a layout's networks, and what a check says of every pose; where it should be `sewn`, what a hand leaves of it too.
+fn verified(design: &Design, fit: &Fit, sewn: bool, cancel: &AtomicBool) -> (Design, Vec<Verified>) {
     let mut with = design.clone();
     if let Some(points) = fit.layout.located(&design.mesh) {
         for network in fit.layout.networks(&design.mesh, &points) {
@@ -205,13 +216,13 @@ fn verified(design: &Design, fit: &Fit, cancel: &AtomicBool) -> (Design, Vec<Ver
     let posed: Vec<&Pose> = design.poses.iter().filter(|pose| !pose.targets.is_empty()).collect();
     let targets: Vec<&[Target]> = posed.iter().map(|pose| pose.targets.as_slice()).collect();
     let friction = design.tendons.friction;
-    let mut sewn = sewn(&with, &targets, friction, cancel).into_iter();
+    let sewn = if sewn { robust::sewn(&with, &targets, friction, cancel) } else { Vec::new() };
+    let mut sewn = sewn.into_iter();
     let poses = posed.into_iter().map(|pose| {
         let checked = Checked::of(&with, &pose.targets, friction, cancel);
-        let error = checked.real_error();
         let rest = target_error(design, &pose.targets, &design.mesh.nodes).max(f64::MIN_POSITIVE);
-        let sewn = sewn.next().unwrap_or(Sewn { median: error, worst: error });
-        Verified { name: pose.name.clone(), error: checked.error(), real: error, sewn, rest }
+        let sewn = sewn.next();
+        Verified { name: pose.name.clone(), error: checked.error(), real: checked.real_error(), sewn, rest }
     });
     let poses = poses.collect();
     (with, poses)

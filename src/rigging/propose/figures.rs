@@ -7,7 +7,7 @@ use crate::outline::{Point, polygon};
 use crate::rigging::candidate::unused_name;
 use crate::rigging::checked::Checked;
 use crate::rigging::layout::rigs_of;
-use crate::rigging::robust;
+use crate::rigging::robust::{self, Sewn};
 use crate::sewing::{self, Body, Breach, Rig};
 use crate::threads::in_order;
 use std::sync::Arc;
@@ -71,17 +71,13 @@ impl<'a> Subject<'a> {
                 preview = Some(Arc::new(after.shape));
             }
         }
-        let targets = self.poses[self.current].1;
-        let few = self.design.mesh.triangles.len() * 3 / 2 <= SEWN_UP_TO;
-        let sewn =
-            few.then(|| robust::sewn(&with, &[targets], self.friction, cancel)).and_then(|sewn| sewn.first().copied());
         let cables = rigs_of(&[network.clone()], &with.mesh).pop()?.cables;
         let turns = cables.iter().flat_map(|cable| cable.windows(3)).map(|p| sewing::turn(p[0], p[1], p[2]));
         Some(Proposal {
             network,
             poses,
             current: self.current,
-            sewn,
+            sewn: None,
             thread_mm: cables.iter().map(|cable| length(cable)).sum(),
             holes: cables.iter().map(|cable| cable.len().saturating_sub(2)).sum(),
             turn_degrees: turns.fold(0.0, f64::max),
@@ -91,6 +87,16 @@ impl<'a> Subject<'a> {
             preview: preview?,
             paper: origin,
         })
+    }
+
+    /// What is left of the pose at hand when a hand sews a network; `None` for a large body, and when cancelled.
+    pub fn sewn(&self, network: &Network, cancel: &AtomicBool) -> Option<Sewn> {
+        if self.design.mesh.triangles.len() * 3 / 2 > SEWN_UP_TO {
+            return None;
+        }
+        let mut with = self.design.clone();
+        with.networks.push(network.clone());
+        robust::sewn(&with, &[self.poses[self.current].1], self.friction, cancel).first().copied()
     }
 
     /// Rules broken at rest in which a winch has a part.

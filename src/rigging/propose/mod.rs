@@ -41,6 +41,8 @@ const BATCHES: usize = 6;
 const EARLY: usize = 2;
 /// Rounds in which all layouts that are alive have children.
 const ROUNDS: usize = 3;
+/// Layouts of which what costs little is left out in the end; the others that are alive are shown as they are.
+const THINNED: usize = 4;
 /// A proposal is not shown where another one leaves less than this part of its error with no more tendons and holes, and serves the same
 /// poses.
 const OUTDONE: f64 = 0.5;
@@ -67,7 +69,7 @@ pub fn propose(
     let stop = || cancel.load(Ordering::Relaxed);
 
     let edge = rim(&searched.mesh);
-    let sewable = sewable(searched, &edge, options.rules);
+    let sewable = options.rules.then(|| sewable(searched, &edge));
     let task = Task::new(searched, sewable.as_ref(), &searched.networks);
     if task.poses.is_empty() {
         return Vec::new();
@@ -101,13 +103,14 @@ pub fn propose(
             return list.best();
         }
     }
-    for few in 0..ALIVE.div_ceil(2) {
+    for few in 0..THINNED.div_ceil(2) {
         pool.thin(2 * few..2 * few + 2, &stop);
         if stop() {
             return list.best();
         }
         list.show(&pool.some(2 * few..2 * few + 2), found);
     }
+    list.show(&pool.some(THINNED..ALIVE), found);
     list.best()
 }
 
@@ -129,18 +132,41 @@ impl List<'_> {
     /// Makes proposals of layouts that are not on the list, and tells the list if it has changed.
     fn show(&mut self, fits: &[(Fit, Origin)], found: &mut dyn FnMut(&[Arc<Proposal>])) {
         let new: Vec<&(Fit, Origin)> = fits.iter().filter(|(fit, _)| !self.tried.contains(&fit.layout)).collect();
-        let made = in_order(&new, |(fit, origin)| self.proposal(fit, origin));
+        let mut changed = self.sew();
+        // The very first one is shown before it is sewn.
+        let first = self.tried.is_empty();
+        let made = in_order(&new, |(fit, origin)| {
+            let proposal = self.proposal(fit, origin)?;
+            let sewn = if first { None } else { self.subject.sewn(&proposal.network, self.cancel) };
+            Some(Proposal { sewn, ..proposal })
+        });
         if self.cancel.load(Ordering::Relaxed) {
             return;
         }
         self.tried.extend(new.iter().map(|(fit, _)| fit.layout.clone()));
-        let mut changed = false;
         for ((fit, _), proposal) in new.into_iter().zip(made) {
             changed |= proposal.is_some_and(|proposal| self.add(fit.layout.clone(), proposal));
         }
         if changed {
             found(&self.best());
         }
+    }
+
+    /// Works out what is left of those proposals when a hand sews them that were shown without; whether there was any.
+    fn sew(&mut self) -> bool {
+        let mut changed = false;
+        for (_, proposal) in self.all.iter_mut().filter(|(_, proposal)| proposal.sewn.is_none()) {
+            if let Some(sewn) = self.subject.sewn(&proposal.network, self.cancel) {
+                *proposal = Arc::new(Proposal { sewn: Some(sewn), ..Proposal::clone(proposal) });
+                changed = true;
+            }
+        }
+        self.sort();
+        changed
+    }
+
+    fn sort(&mut self) {
+        self.all.sort_by(|a, b| a.1.rank().total_cmp(&b.1.rank()));
     }
 
     /// `None` where it helps nothing, or breaks a rule that is asked for.
@@ -156,7 +182,7 @@ impl List<'_> {
     /// On the body's own mesh.
     fn transferred(&self, fit: &Fit) -> Option<Fit> {
         let edge = rim(&self.posed.mesh);
-        let sewable = sewable(self.posed, &edge, self.options.rules);
+        let sewable = self.options.rules.then(|| sewable(self.posed, &edge));
         let task = Task::new(self.posed, sewable.as_ref(), &self.posed.networks);
         task.transferred(fit, &|| self.cancel.load(Ordering::Relaxed))
     }
@@ -170,7 +196,7 @@ impl List<'_> {
         }
         self.all.retain(|known| !alike(known));
         self.all.push((layout, Arc::new(proposal)));
-        self.all.sort_by(|a, b| a.1.rank().total_cmp(&b.1.rank()));
+        self.sort();
         true
     }
 

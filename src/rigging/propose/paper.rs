@@ -11,6 +11,8 @@ use std::sync::atomic::AtomicBool;
 
 /// Networks that are looked at: that of the parameters as given, and others of the grid.
 const NETWORKS: usize = 4;
+/// A path is straight where it leaves a line by no more than this part of the body: edges of the mesh go to and fro.
+const STRAIGHT: f64 = 0.03;
 
 /// The networks of Algorithm 2 for the one pose of a design, paths thinned to as many holes as may be; those of the parameters as given first.
 /// Empty where no fibre is contracted. `bare`: the mesh is not that of the document, so that the stages could not be shown.
@@ -30,15 +32,17 @@ pub(super) fn layouts(
     let layout = |(parameters, stages): (discovery::Parameters, discovery::Stages)| {
         let place = |node: usize| design.mesh.nodes[node];
         let path = |nodes: &Vec<usize>| -> Vec<Point> { nodes.iter().map(|n| place(*n)).collect() };
-        let cables = stages.tendons.iter().map(|nodes| thinned(&path(nodes), most_holes)[1..].to_vec());
+        let straight = STRAIGHT * design.body_length_mm();
+        let cables = stages.tendons.iter().map(|nodes| thinned(&path(nodes), most_holes, straight)[1..].to_vec());
         let layout = Layout { winches: vec![Placed { at: place(stages.winch), cables: cables.collect() }] };
         (layout, (!bare).then(|| (parameters, Arc::new(stages))))
     };
     found.unwrap_or_default().into_iter().take(NETWORKS).map(layout).collect()
 }
 
-/// A path with at most so many points between its ends: those stay that lie farthest from the way without them (Douglas and Peucker 1973).
-fn thinned(path: &[Point], most: usize) -> Vec<Point> {
+/// A path with at most so many points between its ends: those stay that lie farthest from the way without them, and farther than `straight`
+/// (Douglas and Peucker 1973).
+fn thinned(path: &[Point], most: usize, straight: f64) -> Vec<Point> {
     let mut kept = vec![0, path.len() - 1];
     while kept.len() < most + 2 {
         let off = |s: &[usize]| {
@@ -46,7 +50,7 @@ fn thinned(path: &[Point], most: usize) -> Vec<Point> {
             between.max_by(|a, b| a.0.total_cmp(&b.0))
         };
         let farthest = kept.windows(2).filter_map(off).max_by(|a, b| a.0.total_cmp(&b.0));
-        let Some((_, k)) = farthest.filter(|(off, _)| *off > 0.0) else { break };
+        let Some((_, k)) = farthest.filter(|(off, _)| *off > straight) else { break };
         kept.push(k);
         kept.sort_unstable();
     }
@@ -60,9 +64,10 @@ mod tests {
     #[test]
     fn a_thinned_path_keeps_its_ends_and_its_corners() {
         let path = [[0.0, 0.0], [1.0, 0.1], [2.0, 2.0], [3.0, 0.0], [4.0, 0.0], [5.0, 0.0]];
-        assert_eq!(thinned(&path, 0), [path[0], path[5]]);
-        assert_eq!(thinned(&path, 1), [path[0], path[2], path[5]]);
-        assert_eq!(thinned(&path, 9).len(), 5);
-        assert_eq!(thinned(&path[..2], 4), path[..2]);
+        assert_eq!(thinned(&path, 0, 0.0), [path[0], path[5]]);
+        assert_eq!(thinned(&path, 1, 0.0), [path[0], path[2], path[5]]);
+        assert_eq!(thinned(&path, 9, 0.0).len(), 5);
+        assert_eq!(thinned(&path, 9, 1.2), [path[0], path[2], path[5]]);
+        assert_eq!(thinned(&path[..2], 4, 0.0), path[..2]);
     }
 }

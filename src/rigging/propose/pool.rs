@@ -6,7 +6,7 @@ use crate::rigging::joint::bettered;
 use crate::rigging::layout::Layout;
 use crate::rigging::linear_score::Linear;
 use crate::rigging::moves::{Sampler, Topology};
-use crate::rigging::prune::pruned;
+use crate::rigging::prune::{PRICE, without_a_point, without_a_tendon};
 use crate::rigging::refine::{Fit, KEPT, Task};
 use crate::threads::in_order;
 use std::ops::Range;
@@ -23,6 +23,11 @@ const CHILDREN: usize = 2;
 /// Steps of improvement: of a new layout, of a child.
 const STEPS: usize = 20;
 const CHILD_STEPS: usize = 10;
+
+/// Improvements at most until a layout from elsewhere can be sewn.
+const MOVES: usize = 3;
+/// What may be left out of a layout is tried so often.
+const TRIES: usize = 5;
 
 /// Where a layout came from.
 pub(super) type Origin = Paper;
@@ -78,10 +83,15 @@ impl<'a> Pool<'a> {
 
     /// A layout from elsewhere, moved until it can be sewn.
     pub fn take(&mut self, (layout, origin): (Layout, Origin), stop: Stop) {
-        let begun = self.task.begin(layout, stop);
-        if let Some(fit) = begun.and_then(|fit| self.improved(fit, STEPS, stop)) {
-            self.offer(fit, origin);
+        let Some(mut fit) = self.task.begin(layout, stop) else { return };
+        for _ in 0..MOVES {
+            let Some(moved) = self.improved(fit, STEPS, stop) else { return };
+            fit = moved;
+            if fit.violation <= KEPT {
+                break;
+            }
         }
+        self.offer(fit, origin);
     }
 
     /// Every layout has children.
@@ -112,10 +122,27 @@ impl<'a> Pool<'a> {
     pub fn thin(&mut self, some: Range<usize>, stop: Stop) {
         let some = some.start.min(self.alive.len())..some.end.min(self.alive.len());
         let fits: Vec<Fit> = self.alive[some.clone()].iter().map(|(fit, _)| fit.clone()).collect();
-        let thinned = in_order(&fits, |fit| pruned(self.task, &self.topology, fit.clone(), stop));
+        let thinned = in_order(&fits, |fit| self.thinned(fit.clone(), stop));
         for (k, fit) in some.zip(thinned) {
             self.alive[k].0 = fit;
         }
+    }
+
+    /// A tendon, then points are left out, one after the other, each as far as that costs little.
+    fn thinned(&self, mut now: Fit, stop: Stop) -> Fit {
+        let mut place = 0;
+        for _ in 0..TRIES {
+            let fewer = [without_a_tendon, without_a_point].iter().flat_map(|fewer| fewer(&now.layout, &self.topology));
+            let Some((layout, _)) = fewer.into_iter().nth(place) else { break };
+            let begun = self.task.resume(layout, &now, stop);
+            let new = begun.and_then(|fit| self.improved(fit, CHILD_STEPS, stop));
+            let allowed = now.violation.max(KEPT);
+            match new.filter(|new| new.worst() <= (1.0 + PRICE) * now.worst() && new.violation <= allowed) {
+                Some(new) => (now, place) = (new, 0),
+                None => place += 1,
+            }
+        }
+        now
     }
 
     /// One of its kind, where it is the best, is alive.

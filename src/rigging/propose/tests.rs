@@ -114,7 +114,7 @@ fn networks_of_algorithm_2_come_with_their_stages_and_are_moved_until_they_can_b
         assert!(parameters.tendon_num <= 2 && layout.winches[0].cables.iter().all(|cable| cable.len() <= 9));
     }
     let edge = rim(&posed.mesh);
-    let sewable = sewable(&posed, &edge, true);
+    let sewable = Some(sewable(&posed, &edge));
     let task = Task::new(&posed, sewable.as_ref(), &[]);
     let sampler = Sampler::new(&posed.mesh, sewable.as_ref());
     let mut pool = Pool::new(&task, &sampler, Topology { tendons: vec![[1, 2]], most_holes: 8 }, 1);
