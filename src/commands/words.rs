@@ -5,6 +5,7 @@ use super::output::refused_folder;
 use crate::defaults;
 use crate::fabrication::ExportError;
 use crate::motion::MotionError;
+use crate::operations::explore::Point;
 use crate::operations::{Progress, Unbalanced, new_design, reshape};
 use crate::outline::{Change, Changes, Note, OutlineError, Remedy};
 use crate::rigging;
@@ -83,7 +84,18 @@ pub fn progress(step: &Progress) -> String {
             format!("{found}\nsewn by hand, holes {} mm off: {}", defaults::SEWN_HOLE_MM, by_hand.join(", "))
         }
         Progress::Proposals(list) => format!("{} networks so far", list.len()),
+        Progress::Explored(list) => list.last().map(|point| explored(point)).unwrap_or_default(),
     }
+}
+
+/// One line about a point of the curve.
+fn explored(point: &Point) -> String {
+    let Point { winches, tendons, takes, worst, .. } = point;
+    let [taken, in_all] = takes;
+    format!(
+        "up to {winches} winches of {tendons} tendons: worst pose {:.1} % of its error at rest, with {taken} winches, {in_all} tendons",
+        100.0 * worst
+    )
 }
 
 /// A note of a reader or the clean-up, and the option that would have it otherwise.

@@ -37,6 +37,8 @@ pub enum Action {
     SetResolution(Resolution),
     SetRig(RigChoice),
     ShowProposal(Option<usize>),
+    /// Puts a rig of the curve in.
+    TakeRig(usize),
     ShowStage(Stage),
     /// Of the outline.
     Sketch(Sketch),

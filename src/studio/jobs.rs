@@ -3,6 +3,7 @@
 use super::keeping::Kept;
 use super::session::ImportChoice;
 use crate::design::Design;
+use crate::operations::explore::Point;
 use crate::operations::key::{self, Keyed};
 use crate::operations::new_design::Note;
 use crate::operations::remesh::{self, Remeshed};
@@ -35,6 +36,7 @@ pub enum Outcome {
     Remeshed(Result<Box<Remeshed>, remesh::Error>),
     Reshaped(Result<Box<Reshaped>, reshape::Error>),
     Rigged(Result<Box<Rigged>, rig::Error>),
+    Explored(Result<Vec<Arc<Point>>, rig::Error>),
     Keyed(Result<Keyed, key::Error>),
     Imported(Result<Box<New>, Box<Refused>>),
     Exported {

@@ -29,6 +29,7 @@ pub fn apply(session: &mut Session, action: Action) {
         Action::SetResolution(resolution) => session.meshing.wanted = Some(resolution),
         Action::SetRig(choice) => session.rigging.choice = choice,
         Action::ShowProposal(index) => (session.discovery.shown, session.discovery.picked) = (index, true),
+        Action::TakeRig(index) => super::rig::take_point(session, index),
         Action::ShowStage(stage) => session.discovery.stage = stage,
         Action::Sketch(sketch) => sheet::sketch(session, sketch),
         Action::File(action) => filing::ask(session, action),

@@ -2,10 +2,12 @@
 
 use super::command::{Command, Keys, Scope};
 use crate::studio::acts;
+use crate::studio::jobs;
 use crate::studio::session::Session;
 use eframe::egui::Key;
 
-pub static ALL: [&Command; 7] = [&PROPOSE, &PROPOSE_AGAIN, &CANCEL, &ACCEPT, &REJECT, &RIG, &CANCEL_RIG];
+pub static ALL: [&Command; 9] =
+    [&PROPOSE, &PROPOSE_AGAIN, &CANCEL, &ACCEPT, &REJECT, &RIG, &CANCEL_RIG, &CURVE, &CANCEL_CURVE];
 
 pub static PROPOSE: Command = Command {
     keys: &[Keys::plain(Key::G)],
@@ -63,6 +65,23 @@ pub static CANCEL_RIG: Command = Command {
     why_not: &|session, _| session.rigging().running.is_none().then_some("No rig is being looked for"),
     run: &|session, _| session.rigging.cancel(),
     ..Command::new("rig.cancel", "Cancel rigging", "Stop looking for winches and tendons; the plushie stays as it is")
+};
+
+pub static CURVE: Command = Command {
+    scope: Scope::Views,
+    why_not: &|session, _| session.cannot_rig(),
+    run: &|session, _| acts::rig::start_curve(session),
+    ..Command::new(
+        "rig.curve",
+        "Compare numbers of winches",
+        "Look for a rig with every number of winches and tendons up to the most, to choose from. Takes minutes",
+    )
+};
+
+pub static CANCEL_CURVE: Command = Command {
+    why_not: &|session, _| session.rigging().curve.running.is_none().then_some("No rigs are being compared"),
+    run: &|session, _| jobs::cancel(&mut session.rigging.curve.running),
+    ..Command::new("rig.curve.cancel", "Stop comparing", "Stop looking for more rigs; those that were found stay")
 };
 
 fn none_shown(session: &Session) -> Option<&'static str> {

@@ -4,6 +4,7 @@
 
 pub mod accuracy;
 pub mod buttons;
+mod curve;
 pub mod dialogs;
 mod discovery;
 pub mod inspector;

@@ -1,6 +1,6 @@
 //! Networks for all poses at once: what may be built, and how far the search is.
 
-use super::buttons;
+use super::{buttons, curve};
 use crate::studio::action::{Action, Actions};
 use crate::studio::canvas::Hit;
 use crate::studio::commands::discovery::{CANCEL_RIG, RIG};
@@ -38,6 +38,7 @@ pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
                 buttons::primary(ui, session, &RIG, true, width, actions);
             }
         }
+        curve::show(ui, session, actions);
     });
 }
 

@@ -1,7 +1,7 @@
 //! Network discovery: what was asked, and what came of it.
 
+use super::basis::Basis;
 use crate::design::{Design, Network, Target};
-use crate::engine::BodySpec;
 use crate::picture::Stage;
 use crate::rigging::{Proposal, ProposeOptions};
 use crate::studio::jobs::{Running, cancel};
@@ -31,9 +31,7 @@ pub struct Discovery {
 /// A design and the targets that networks were looked for.
 struct Asked {
     targets: Vec<Target>,
-    design: Arc<Design>,
-    /// The newest design that was compared with it, and whether the figures hold for it.
-    compared: (Arc<Design>, bool),
+    basis: Basis,
 }
 
 impl Discovery {
@@ -63,17 +61,13 @@ impl Discovery {
     pub(crate) fn ask(&mut self, design: &Arc<Design>, targets: &[Target]) {
         self.clear();
         self.stage = Stage::Result;
-        let (design, targets) = (design.clone(), targets.to_vec());
-        self.asked = Some(Asked { targets, compared: (design.clone(), true), design });
+        self.asked = Some(Asked { targets: targets.to_vec(), basis: Basis::new(design) });
     }
 
     /// Finds out whether the list is stale. A stale one is not shown in the views.
     pub(crate) fn follow(&mut self, design: &Arc<Design>, targets: &[Target]) {
         let Some(asked) = &mut self.asked else { return };
-        if !Arc::ptr_eq(&asked.compared.0, design) {
-            asked.compared = (design.clone(), same_figures(&asked.design, design));
-        }
-        self.stale = !asked.compared.1 || asked.targets != targets;
+        self.stale = !asked.basis.holds(design) || asked.targets != targets;
         if self.stale {
             self.shown = None;
         }
@@ -106,18 +100,6 @@ impl Discovery {
             self.shown = left.checked_sub(1).map(|last| index.min(last));
         }
     }
-}
-
-/// Whether the figures of a proposal for one design hold for another.
-fn same_figures(a: &Design, b: &Design) -> bool {
-    let targets = |design: &Design| -> Vec<(String, Vec<Target>)> {
-        design.poses.iter().map(|pose| (pose.name.clone(), pose.targets.clone())).collect()
-    };
-    BodySpec::of(a) == BodySpec::of(b)
-        && a.outline == b.outline
-        && a.sewing == b.sewing
-        && a.fabrication.turning_gap_mm == b.fabrication.turning_gap_mm
-        && targets(a) == targets(b)
 }
 
 impl Default for Discovery {

@@ -194,7 +194,8 @@ impl Session {
     /// The work that threads are busy with, ready to be shown.
     pub fn working(&self) -> Option<&'static str> {
         let keying = self.keying.is_some().then_some("Working out the keyframe");
-        let rigging = self.rigging.running.is_some().then_some("Looking for winches and tendons");
+        let rigging = self.rigging.running.is_some() || self.rigging.curve.running.is_some();
+        let rigging = rigging.then_some("Looking for winches and tendons");
         self.files.working.or(rigging).or(keying)
     }
 
@@ -271,7 +272,7 @@ impl Session {
 
     /// Why no rig can be looked for now, if so.
     pub fn cannot_rig(&self) -> Option<&'static str> {
-        if self.rigging.running.is_some() {
+        if self.rigging.running.is_some() || self.rigging.curve.running.is_some() {
             return Some("A rig is being looked for");
         }
         let posed = self.design().poses.iter().any(|pose| !pose.targets.is_empty());
