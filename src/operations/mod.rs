@@ -8,6 +8,7 @@
 //! | [`pose`] | places of the body to pins, and to targets of a pose |
 //! | [`propose`] | a pose to networks that reach it, the best first |
 //! | [`rig`] | all poses to networks, and to a timeline where there is none |
+//! | [`explore`] | all poses to the curve of their error against winches and tendons |
 //! | [`key`] | a pose to a keyframe of winch activations |
 //! | [`check`] | a design to its figures |
 //! | [`export`] | a design to the folder of its blueprint |
@@ -39,6 +40,7 @@
 
 pub mod check;
 mod context;
+pub mod explore;
 pub mod export;
 mod fibers;
 pub mod key;

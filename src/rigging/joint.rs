@@ -264,7 +264,13 @@ fn keep(island: &mut Vec<Living>) {
 }
 
 /// A layout after random changes that are kept where the linear model says that they help.
-fn bettered(sampler: &Sampler, topology: &Topology, linear: &Linear, layout: Layout, random: &mut Random) -> Layout {
+pub(super) fn bettered(
+    sampler: &Sampler,
+    topology: &Topology,
+    linear: &Linear,
+    layout: Layout,
+    random: &mut Random,
+) -> Layout {
     let (mut best, mut left) = (layout.clone(), linear.left(&layout));
     for _ in 0..BETTERED {
         let changed = sampler.changed(&best, topology, random);
