@@ -4,9 +4,9 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-const COMMANDS: [&str; 15] = [
-    "demo", "new", "mesh", "remesh", "reshape", "drawing", "pose", "rig", "key", "check", "export", "render", "solve",
-    "discover", "bench",
+const COMMANDS: [&str; 16] = [
+    "demo", "new", "mesh", "remesh", "reshape", "drawing", "pose", "rig", "network", "key", "check", "export",
+    "render", "solve", "discover", "bench",
 ];
 
 /// A bar that is wide enough for a few dozen fibres.
