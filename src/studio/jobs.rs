@@ -1,7 +1,7 @@
 //! Work that takes too long for a frame, each on a thread that reports back once.
 
 use super::keeping::Kept;
-use super::session::ImportChoice;
+use super::session::{ImportChoice, Judgement};
 use crate::design::Design;
 use crate::operations::key::{self, Keyed};
 use crate::operations::new_design::Note;
@@ -36,6 +36,7 @@ pub enum Outcome {
     Reshaped(Result<Box<Reshaped>, reshape::Error>),
     Rigged(Result<Box<Rigged>, rig::Error>),
     Keyed(Result<Keyed, key::Error>),
+    Judged(Box<Judgement>),
     Imported(Result<Box<New>, Box<Refused>>),
     Exported {
         folder: PathBuf,

@@ -12,7 +12,7 @@ use routing::{beside, material_point, take_tendon, through, with_network};
 use serde::{Deserialize, Serialize};
 
 /// A part of the networks of a design. Winches, their tendons and the pieces of cable count from 0; holes from the winch, which is hole 0.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Part {
     Winch(usize),
     Tendon(usize, usize),

@@ -17,6 +17,7 @@ pub fn apply(session: &mut Session, action: Action) {
         Action::Overlay(overlay) => session.overlay = overlay,
         Action::Typed(renaming) => session.renaming = renaming,
         Action::DragTarget(to) => edit::drag_target(session, to),
+        Action::MovePart(part, to) => edit::move_part(session, part, to),
         Action::SelectPose(pose) => edit::select_pose(session, pose),
         Action::Select(selection) => session.picked.selection = selection,
         Action::SetQuality(quality) => session.solver.quality = quality,

@@ -9,6 +9,7 @@ pub mod edit;
 pub mod escape;
 pub mod filing;
 pub mod import;
+pub mod judge;
 pub mod keep;
 pub mod mesh;
 pub mod open;

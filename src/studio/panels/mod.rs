@@ -18,6 +18,7 @@ mod settings;
 mod sewable;
 pub mod shortcuts;
 pub mod status;
+pub mod tendons;
 pub mod timeline;
 pub mod toolbar;
 mod widgets;

@@ -2,8 +2,9 @@
 
 use super::discovery;
 use super::panel::{Entry, Panel};
-use super::sewable::{self, Sewable};
 use super::widgets::{heading, name_field};
+use super::{sewable, tendons};
+use crate::operations::network::{Edit, Part};
 use crate::picture::palette::Palette;
 use crate::sewing::Breach;
 use crate::studio::action::{Action, Actions};
@@ -26,12 +27,11 @@ pub static ENTRY: Entry = Entry {
 #[derive(Default)]
 struct Networks {
     thumbnails: Thumbnails,
-    sewable: Sewable,
 }
 
 impl Panel for Networks {
     fn show(&mut self, ui: &mut Ui, session: &Session, actions: &mut Actions) {
-        let breaches = self.sewable.breaches(ENTRY.id, session, actions);
+        let breaches = session.judging().breaches();
         ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
             show(ui, session, breaches, actions);
             ui.add_space(12.0);
@@ -59,7 +59,7 @@ fn rows(ui: &mut Ui, session: &Session, breaches: &[Breach], actions: &mut Actio
     for (index, network) in session.design().networks.iter().enumerate() {
         if matches!(session.renaming(), Some((Renamed::Network(i), _)) if *i == index) {
             if let Some(name) = name_field(ui, session, "Network name", actions) {
-                actions.push(Action::Change(Change::RenameNetwork(index, name)));
+                actions.push(Action::Change(Change::Network(Edit::Rename { winch: index, name })));
             }
             continue;
         }
@@ -69,7 +69,7 @@ fn rows(ui: &mut Ui, session: &Session, breaches: &[Breach], actions: &mut Actio
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 let (name, tip) = (format!("Delete network {}", network.name), DELETE.hint("Delete this network"));
                 if icons::small_button(ui, Icon::Trash, &name, &tip).clicked() {
-                    actions.push(Action::Change(Change::RemoveNetwork(index)));
+                    actions.push(Action::Change(Change::Network(Edit::Remove(Part::Winch(index)))));
                 }
                 sewable::mark(ui, session.design(), index, breaches);
                 // Both plushies have the same; a hidden one is not kept up to date.
@@ -83,7 +83,7 @@ fn rows(ui: &mut Ui, session: &Session, breaches: &[Breach], actions: &mut Actio
                     if network.tendons.len() == 1 { "" } else { "s" },
                     wound.copied().unwrap_or(0.0)
                 );
-                let button = Button::selectable(session.picked.selection == Selection::Network(index), &network.name)
+                let button = Button::selectable(session.selection().network() == Some(index), &network.name)
                     .right_text(RichText::new(detail).small().weak())
                     .truncate()
                     .min_size(vec2(ui.available_width(), 24.0));
@@ -92,9 +92,12 @@ fn rows(ui: &mut Ui, session: &Session, breaches: &[Breach], actions: &mut Actio
                 if response.double_clicked() {
                     actions.push(Action::Typed(Some((Renamed::Network(index), network.name.clone()))));
                 } else if response.clicked() {
-                    actions.push(Action::Select(Selection::Network(index)));
+                    actions.push(Action::Select(Selection::Part(Part::Winch(index))));
                 }
             });
         });
+        if session.selection().network() == Some(index) {
+            tendons::show(ui, session, index, actions);
+        }
     }
 }

@@ -3,6 +3,7 @@
 use super::discovery::Discovery;
 use super::document::Document;
 use super::files::Files;
+use super::judging::Judging;
 use super::look::Look;
 use super::meshing::{Meshing, Resolution};
 use super::overlay::{Overlay, Renamed};
@@ -54,6 +55,7 @@ pub struct Session {
     pub(crate) solver: Solver,
     pub(crate) discovery: Discovery,
     pub(crate) rigging: Rigging,
+    pub(crate) judging: Judging,
     pub(crate) meshing: Meshing,
     pub(crate) sketching: Sketching,
     pub(crate) texturing: Texturing,
@@ -89,6 +91,7 @@ impl Session {
             document,
             discovery: Discovery::default(),
             rigging: Rigging::default(),
+            judging: Judging::default(),
             meshing: Meshing::default(),
             sketching: Sketching::default(),
             texturing: Texturing::default(),
@@ -156,6 +159,7 @@ impl Session {
         match self.picked.selection {
             Selection::Target(index) => Hit::Target(index),
             Selection::Pin(index) => Hit::Pin(index),
+            Selection::Part(part) => Hit::Part(part),
             _ => Hit::Nothing,
         }
     }
@@ -267,6 +271,11 @@ impl Session {
         &self.rigging
     }
 
+    /// How near each pose comes, and which rules of sewing are broken.
+    pub fn judging(&self) -> &Judging {
+        &self.judging
+    }
+
     /// Why no rig can be looked for now, if so.
     pub fn cannot_rig(&self) -> Option<&'static str> {
         if self.rigging.running.is_some() {
@@ -322,6 +331,7 @@ impl Drop for Session {
         self.discovery.cancel();
         self.meshing.cancel();
         self.rigging.cancel();
+        self.judging.cancel();
         self.tasks.cancel();
         jobs::cancel(&mut self.keying);
     }

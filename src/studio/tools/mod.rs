@@ -9,17 +9,20 @@ mod parts;
 mod pin;
 mod polygon;
 mod select;
+mod tendon;
 mod tool;
 mod toolbox;
 mod track;
 
+pub use tendon::TENDON;
 pub use tool::{Drawn, Entry, Tool};
 pub use toolbox::{Toolbox, taken};
 
 /// All tools; the first one of a canvas is taken at first.
-pub static ALL: [&Entry; 8] = [
+pub static ALL: [&Entry; 9] = [
     &drag::ENTRY,
     &pin::ENTRY,
+    &tendon::ENTRY,
     &select::ENTRY,
     &freehand::ENTRY,
     &polygon::ENTRY,

@@ -6,6 +6,7 @@ mod picture;
 mod pointer;
 pub mod renderer;
 mod skin;
+mod strings;
 pub mod thumbnail;
 mod views;
 

@@ -5,3 +5,4 @@ mod looks;
 mod networks;
 mod outline;
 mod posing;
+mod tendons;
