@@ -5,7 +5,9 @@
 
 mod networks;
 
-pub use networks::{accept_network, move_network, remove_network, rename_network, set_network};
+pub use networks::{
+    accept_network, color_network, move_network, mute_network, remove_network, rename_network, set_network,
+};
 
 use super::animation::SAME_TIME_S;
 use super::{

@@ -50,7 +50,7 @@ pub fn for_targets(
     if targets.is_empty() {
         return Err(Error::NoTargets);
     }
-    let proposals = rigging::propose(design, targets, parameters, context.cancel());
+    let proposals = rigging::propose(&design.acting(), targets, parameters, context.cancel());
     context.check()?;
     if proposals.is_empty() { Err(Error::NothingFound) } else { Ok(proposals) }
 }

@@ -88,7 +88,7 @@ fn rigged() -> (tempfile::TempDir, Window) {
         ratio: 1.0,
         slack_mm: 0.0,
     };
-    design.networks.push(plushwright::design::Network { name: "winch 1".into(), tendons: vec![tendon] });
+    design.networks.push(plushwright::design::Network::new("winch 1", vec![tendon]));
     file::write(&path, &design).unwrap();
     let window = window(design, Some(path));
     (folder, window)

@@ -115,6 +115,33 @@ pub enum Action {
         #[arg(long, value_name = "NAME")]
         name: String,
     },
+    /// Give the cables of a winch a colour in pictures
+    Color {
+        #[command(flatten)]
+        files: Files,
+        /// Winch, by name or number
+        #[arg(long, value_name = "W")]
+        winch: String,
+        /// Red, green and blue as six hexadecimal digits, or `none` for the colour of its number
+        #[arg(long, value_name = "RRGGBB")]
+        color: String,
+    },
+    /// Switch a winch off: it pulls nothing and is not made, but keeps its activations in keyframes
+    Mute {
+        #[command(flatten)]
+        files: Files,
+        /// Winch, by name or number
+        #[arg(long, value_name = "W")]
+        winch: String,
+    },
+    /// Switch a winch on again
+    Unmute {
+        #[command(flatten)]
+        files: Files,
+        /// Winch, by name or number
+        #[arg(long, value_name = "W")]
+        winch: String,
+    },
     /// Move a winch to another place in the list
     Reorder {
         #[command(flatten)]
@@ -139,6 +166,9 @@ impl Action {
             | Self::Split { files, .. }
             | Self::New { files, .. }
             | Self::Rename { files, .. }
+            | Self::Color { files, .. }
+            | Self::Mute { files, .. }
+            | Self::Unmute { files, .. }
             | Self::Reorder { files, .. } => files,
         }
     }
@@ -169,6 +199,9 @@ impl Action {
             }
             Self::New { through, .. } => Edit::New { through: through.clone() },
             Self::Rename { winch, name, .. } => Edit::Rename { winch: winch_of(winch)?, name: name.clone() },
+            Self::Color { winch, color, .. } => Edit::Color { winch: winch_of(winch)?, color: parse_color(color)? },
+            Self::Mute { winch, .. } => Edit::Mute { winch: winch_of(winch)?, muted: true },
+            Self::Unmute { winch, .. } => Edit::Mute { winch: winch_of(winch)?, muted: false },
             Self::Reorder { winch, to, .. } => Edit::Reorder { winch: winch_of(winch)?, to: number(*to)? },
         })
     }
@@ -180,6 +213,18 @@ fn part(winch: usize, tendon: Option<usize>, hole: Option<usize>) -> Result<Part
         (Some(tendon), None) => Part::Tendon(winch, number(tendon)?),
         _ => Part::Winch(winch),
     })
+}
+
+fn parse_color(text: &str) -> Result<Option<[u8; 3]>, CommandError> {
+    if text == "none" {
+        return Ok(None);
+    }
+    let digits = text.strip_prefix('#').unwrap_or(text);
+    let value = u32::from_str_radix(digits, 16).ok().filter(|_| digits.len() == 6 && !digits.starts_with('+'));
+    let [_, red, green, blue] = value
+        .ok_or_else(|| CommandError::Usage(format!("expected six hexadecimal digits or `none`, found `{text}`")))?
+        .to_be_bytes();
+    Ok(Some([red, green, blue]))
 }
 
 /// A number that is counted from 1.

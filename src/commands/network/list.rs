@@ -24,6 +24,9 @@ pub struct List {
 #[derive(Serialize)]
 struct Listed<'a> {
     name: &'a str,
+    muted: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    color: Option<[u8; 3]>,
     tendons: Vec<ListedTendon>,
 }
 
@@ -45,7 +48,12 @@ impl List {
         };
         let networks = design.networks.iter();
         let listed: Vec<Listed> = networks
-            .map(|network| Listed { name: &network.name, tendons: network.tendons.iter().map(tendon).collect() })
+            .map(|network| Listed {
+                name: &network.name,
+                muted: network.muted,
+                color: network.color,
+                tendons: network.tendons.iter().map(tendon).collect(),
+            })
             .collect();
         if self.json { say_json(out, &listed) } else { print(&design, &listed, out) }
     }
@@ -54,7 +62,8 @@ impl List {
 fn print(design: &Design, listed: &[Listed], out: &mut dyn Write) -> Result<(), CommandError> {
     say(out, &format!("{}: {} winches", design.name, listed.len()))?;
     for (winch, network) in listed.iter().enumerate() {
-        say(out, &format!("{} {}", winch + 1, network.name))?;
+        let off = if network.muted { " (switched off)" } else { "" };
+        say(out, &format!("{} {}{off}", winch + 1, network.name))?;
         for (tendon, listed) in network.tendons.iter().enumerate() {
             let places: Vec<String> = listed.places.iter().map(|p| format!("{:.3},{:.3}", p[0], p[1])).collect();
             say(out, &format!("  tendon {}: {}", tendon + 1, places.join(" ")))?;

@@ -55,6 +55,24 @@ pub fn set_network(design: &mut Design, index: usize, network: Network) -> Resul
     Ok(())
 }
 
+/// Gives a network a colour of its own, or takes it away.
+///
+/// # Errors
+/// No such network.
+pub fn color_network(design: &mut Design, index: usize, color: Option<[u8; 3]>) -> Result<(), EditError> {
+    item(&mut design.networks, "network", index)?.color = color;
+    Ok(())
+}
+
+/// Switches a network off, or on again. Its activations in keyframes stay.
+///
+/// # Errors
+/// No such network.
+pub fn mute_network(design: &mut Design, index: usize, muted: bool) -> Result<(), EditError> {
+    item(&mut design.networks, "network", index)?.muted = muted;
+    Ok(())
+}
+
 /// Moves a network to another place in the list, and its activation in every keyframe.
 ///
 /// # Errors

@@ -65,6 +65,16 @@ pub enum Edit {
         winch: usize,
         name: String,
     },
+    /// Gives the cables of a winch a colour (red, green, blue), or that of its number again.
+    Color {
+        winch: usize,
+        color: Option<[u8; 3]>,
+    },
+    /// Switches a winch off, or on again: off, it is as if it were not there, but keeps its activations in keyframes.
+    Mute {
+        winch: usize,
+        muted: bool,
+    },
     /// Moves a winch to another place in the list; keyframes follow.
     Reorder {
         winch: usize,
@@ -141,6 +151,9 @@ impl Edit {
             Self::Split { .. } => "Split winch",
             Self::New { .. } => "New winch",
             Self::Rename { .. } => "Rename network",
+            Self::Color { .. } => "Colour network",
+            Self::Mute { muted: true, .. } => "Switch network off",
+            Self::Mute { muted: false, .. } => "Switch network on",
             Self::Reorder { .. } => "Reorder networks",
         }
     }
@@ -190,11 +203,19 @@ pub fn apply(design: &mut Design, edit: &Edit) -> Result<Option<Part>, EditError
                 return Err(EditError::NoEnd);
             }
             let tendons = vec![Tendon { routing, ratio: 1.0, slack_mm: 0.0 }];
-            Ok(Some(Part::Winch(edit::accept_network(design, Network { name: String::new(), tendons })?)))
+            Ok(Some(Part::Winch(edit::accept_network(design, Network::new("", tendons))?)))
         }
         Edit::Rename { winch, name } => {
             edit::rename_network(design, *winch, name)?;
             Ok(Some(Part::Winch(*winch)))
+        }
+        &Edit::Color { winch, color } => {
+            edit::color_network(design, winch, color)?;
+            Ok(Some(Part::Winch(winch)))
+        }
+        &Edit::Mute { winch, muted } => {
+            edit::mute_network(design, winch, muted)?;
+            Ok(Some(Part::Winch(winch)))
         }
         &Edit::Reorder { winch, to } => {
             edit::move_network(design, winch, to)?;
@@ -289,8 +310,8 @@ fn split(design: &mut Design, winch: usize, tendons: &[usize], at: Option<Point>
         network.tendons.retain(|_| tendon.next().is_none_or(|tendon| !taken.contains(&tendon)));
         Ok(())
     })?;
-    let name = changed.networks[winch].name.clone();
-    let made = edit::accept_network(&mut changed, Network { name, tendons: own })?;
+    let kept = changed.networks[winch].clone();
+    let made = edit::accept_network(&mut changed, Network { tendons: own, ..kept })?;
     for keyframe in &mut changed.keyframes {
         keyframe.activations_mm[made] = keyframe.activations_mm[winch];
     }

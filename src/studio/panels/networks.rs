@@ -65,7 +65,7 @@ fn rows(ui: &mut Ui, session: &Session, breaches: &[Breach], actions: &mut Actio
         }
         ui.horizontal(|ui| {
             let (chip, _) = ui.allocate_exact_size(vec2(12.0, 24.0), Sense::hover());
-            ui.painter().circle_filled(chip.center(), 5.0, style::color32(palette.winch(index)));
+            ui.painter().circle_filled(chip.center(), 5.0, style::color32(palette.network(index, network)));
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 let (name, tip) = (format!("Delete network {}", network.name), DELETE.hint("Delete this network"));
                 if icons::small_button(ui, Icon::Trash, &name, &tip).clicked() {

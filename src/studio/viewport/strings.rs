@@ -47,7 +47,7 @@ fn lit(painter: &Painter, canvas: &Canvas<'_>, part: Part) {
             cable.routing.iter().filter_map(|point| canvas.shown(point)).map(|p| canvas.to_screen(p)).collect();
         let strength = if whole { 0.5 } else { 0.2 };
         painter.add(Shape::line(points.clone(), Stroke::new(GLOW, accent.gamma_multiply(strength))));
-        let color = style::color32(palette.winch(part.winch()));
+        let color = style::color32(palette.network(part.winch(), network));
         painter.add(Shape::line(points, Stroke::new(3.0, color)));
     }
     let ring = |part: Part, radius: f32| {
@@ -65,7 +65,7 @@ fn lit(painter: &Painter, canvas: &Canvas<'_>, part: Part) {
 fn handles(painter: &Painter, canvas: &Canvas<'_>, background: Color32) {
     let palette = Palette::of(canvas.session.look().theme);
     for (winch, network) in canvas.session.design().networks.iter().enumerate() {
-        let color = style::color32(palette.winch(winch));
+        let color = style::color32(palette.network(winch, network));
         for tendon in &network.tendons {
             let last = tendon.routing.len() - 1;
             for (hole, point) in tendon.routing.iter().enumerate().skip(1) {

@@ -16,8 +16,8 @@ fn strung() -> Design {
     let mut design = bar();
     let tendon =
         |nodes: &[usize]| Tendon { routing: MaterialPoint::through(nodes.iter().copied()), ratio: 1.0, slack_mm: 0.0 };
-    design.networks.push(Network { name: "left".into(), tendons: vec![tendon(&[8, 16, 18]), tendon(&[8, 2])] });
-    design.networks.push(Network { name: "right".into(), tendons: vec![tendon(&[12, 4])] });
+    design.networks.push(Network::new("left", vec![tendon(&[8, 16, 18]), tendon(&[8, 2])]));
+    design.networks.push(Network::new("right", vec![tendon(&[12, 4])]));
     design
 }
 

@@ -43,7 +43,7 @@ pub fn bar() -> Design {
 /// A winch at the left end with a tendon along the top, as discovery might propose.
 pub fn network() -> Network {
     let tendon = Tendon { routing: MaterialPoint::through(14..20), ratio: 1.0, slack_mm: 0.0 };
-    Network { name: "winch 1".to_owned(), tendons: vec![tendon] }
+    Network::new("winch 1", vec![tendon])
 }
 
 pub fn proposal(design: &Design, error_after: f64) -> Proposal {
