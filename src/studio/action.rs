@@ -31,6 +31,8 @@ pub enum Action {
     DragTarget(Point),
     /// Moves a hole, an end or a winch to a place at rest, mm; part of a gesture.
     MovePart(Part, Point),
+    /// Winds a winch by hand to so many mm of cable.
+    Wind(usize, f64),
     SelectPose(Option<usize>),
     Select(Selection),
     SetQuality(Quality),

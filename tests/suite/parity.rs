@@ -299,6 +299,16 @@ fn winches_and_tendons_changed_by_hand_are_the_same_both_ways() {
     click(&mut window, "A winch of its own");
     network(&["split", "--winch", "1", "--tendon", "2"]);
     same(&window, &folder.path().join("bar.plush"));
+    click(&mut window, "Up");
+    network(&["reorder", "--winch", "3", "--to", "2"]);
+    click(&mut window, "Switch off");
+    network(&["mute", "--winch", "2"]);
+    click(&mut window, "Colour of winch 3");
+    click(&mut window, "Colour 1");
+    network(&["color", "--winch", "2", "--color", "1f68b4"]);
+    same(&window, &folder.path().join("bar.plush"));
+    click(&mut window, "Switch on");
+    network(&["unmute", "--winch", "winch 3"]);
     click(&mut window, "Delete network winch 2");
     network(&["remove", "--winch", "winch 2"]);
     same(&window, &folder.path().join("bar.plush"));

@@ -95,6 +95,9 @@ pub fn clamp(session: &mut Session) {
     let design = session.document.design();
     session.sketching.clamp(design);
     session.picked.clamp(design);
+    if session.picked.mode == Mode::Winding && !session.winding.fits(design) {
+        session.picked.mode = Mode::Pose;
+    }
 }
 
 /// Shows a pose, or the rest shape.

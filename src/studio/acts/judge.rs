@@ -14,7 +14,7 @@ const FRAMES: usize = 4;
 
 /// Once a frame: starts what is to be judged next, one job at a time. While a hand drags there are quick figures, later those that are kept.
 pub fn follow(session: &mut Session, hands_off: bool) {
-    let design = session.design().clone();
+    let design = session.acting().clone();
     session.judging.follow(&design);
     if session.judging.is_running() {
         return;

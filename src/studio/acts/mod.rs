@@ -20,3 +20,4 @@ pub mod save;
 pub mod sheet;
 pub mod texture;
 pub mod tick;
+pub mod wind;

@@ -33,10 +33,13 @@ pub fn tick(session: &mut Session, now_s: f64, passed_s: f64, hands_off: bool) {
 
 /// Asks the solver for what the views show.
 fn ask(session: &mut Session) {
-    let design = session.design().clone();
+    let document = session.design().clone();
+    session.solo.follow(&document);
+    let design = session.acting().clone();
     let setpoint = match session.picked.mode {
         Mode::Pose => Setpoint::Targets(session.targets().to_vec()),
-        Mode::Animation => Setpoint::Activations(animation::activations_at(&design, session.playback.time_s)),
+        Mode::Animation => Setpoint::Activations(animation::activations_at(&document, session.playback.time_s)),
+        Mode::Winding => Setpoint::Activations(session.winding.wound_mm().to_vec()),
     };
     let shows = [Plushie::Idealized, Plushie::Realizable].map(|plushie| session.look.views.shows(plushie));
     session.solver.ask(design, setpoint, shows);

@@ -9,7 +9,8 @@ use crate::studio::change::Change;
 use crate::studio::icons::Icon;
 use crate::studio::session::Session;
 
-pub static ALL: [&Command; 6] = [&ADD_HOLE, &REMOVE_HOLE, &ADD_TENDON, &SPLIT, &REMOVE_TENDON, &REMOVE_WINCH];
+pub static ALL: [&Command; 11] =
+    [&ADD_HOLE, &REMOVE_HOLE, &ADD_TENDON, &SPLIT, &REMOVE_TENDON, &REMOVE_WINCH, &MUTE, &SOLO, &UP, &DOWN, &SLACKEN];
 
 const NO_TENDON: &str = "Select a tendon first, or point at one";
 
@@ -90,6 +91,95 @@ pub static REMOVE_WINCH: Command = Command {
         "Take out the winch that is selected or pointed at, with its tendons",
     )
 };
+
+pub static MUTE: Command = Command {
+    scope: Scope::Views,
+    places: &[Place::ContextMenu],
+    on: Some(&|session| selected(session).is_some_and(|winch| session.design().networks[winch].muted)),
+    face_on: Some((Icon::Check, "Switch on", "Let the winch pull again")),
+    why_not: &|session, at| network(session, at).is_none().then_some(NO_WINCH),
+    run: &|session, at| {
+        if let Some(winch) = network(session, at) {
+            let muted = !session.design().networks[winch].muted;
+            change(session, Edit::Mute { winch, muted });
+        }
+    },
+    ..Command::new(
+        "network.mute",
+        "Switch off",
+        "As if the winch were not there, in poses, figures and blueprints; its keyframes stay",
+    )
+};
+
+pub static SOLO: Command = Command {
+    scope: Scope::Views,
+    on: Some(&|session| {
+        let name = selected(session).map(|winch| session.design().networks[winch].name.as_str());
+        name.is_some() && session.solo().name() == name
+    }),
+    why_not: &|session, at| (network(session, at).is_none() && session.solo().name().is_none()).then_some(NO_WINCH),
+    run: &|session, at| {
+        let name = network(session, at).map(|winch| session.design().networks[winch].name.clone());
+        session.solo.toggle(name);
+    },
+    ..Command::new(
+        "network.solo",
+        "Solo",
+        "Show what this winch does alone, in this window only; the document stays as it is",
+    )
+};
+
+pub static UP: Command = Command {
+    scope: Scope::Views,
+    why_not: &|session, at| match network(session, at) {
+        None => Some(NO_WINCH),
+        Some(0) => Some("It is the first one"),
+        Some(_) => None,
+    },
+    run: &|session, at| {
+        if let Some(winch) = network(session, at) {
+            change(session, Edit::Reorder { winch, to: winch.saturating_sub(1) });
+        }
+    },
+    ..Command::new("network.up", "Up", "Move the network up in the list")
+};
+
+pub static DOWN: Command = Command {
+    scope: Scope::Views,
+    why_not: &|session, at| match network(session, at) {
+        None => Some(NO_WINCH),
+        Some(winch) => (winch + 1 >= session.design().networks.len()).then_some("It is the last one"),
+    },
+    run: &|session, at| {
+        if let Some(winch) = network(session, at) {
+            change(session, Edit::Reorder { winch, to: winch + 1 });
+        }
+    },
+    ..Command::new("network.down", "Down", "Move the network down in the list")
+};
+
+pub static SLACKEN: Command = Command {
+    scope: Scope::Views,
+    why_not: &|session, _| session.design().networks.is_empty().then_some("There are no winches"),
+    run: &|session, _| acts::wind::slacken(session),
+    ..Command::new("network.slacken", "All slack", "Wind nothing, by hand")
+};
+
+const NO_WINCH: &str = "Select a winch first";
+
+/// The network that is selected.
+fn selected(session: &Session) -> Option<usize> {
+    session.selection().network().filter(|&winch| winch < session.design().networks.len())
+}
+
+/// The network that is pointed at, or else selected.
+fn network(session: &Session, at: Hit) -> Option<usize> {
+    match at {
+        Hit::Part(part) => Some(part.winch()).filter(|&winch| winch < session.design().networks.len()),
+        Hit::Nothing => selected(session),
+        _ => None,
+    }
+}
 
 fn change(session: &mut Session, edit: Edit) {
     acts::edit::change(session, Change::Network(edit));

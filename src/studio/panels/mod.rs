@@ -22,6 +22,7 @@ pub mod tendons;
 pub mod timeline;
 pub mod toolbar;
 mod widgets;
+mod winding;
 
 pub use panel::{Entry, Panel};
 pub use widgets::frame;

@@ -125,6 +125,10 @@ fn targets(ui: &mut Ui, session: &Session, actions: &mut Actions) {
         hint(ui, "The views show the animation. Choose a pose, or drag the body, to go on posing.");
         return;
     }
+    if session.picked.mode == Mode::Winding {
+        hint(ui, "The winches are wound by hand. Choose a pose, or drag the body, to go on posing.");
+        return;
+    }
     let Some(pose) = session.picked.pose else {
         hint(ui, "Drag any point of the body, in either view, to begin a pose.");
         return;

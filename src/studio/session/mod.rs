@@ -15,9 +15,11 @@ mod safety;
 #[expect(clippy::module_inception, reason = "the state itself, beside its parts")]
 mod session;
 mod sketching;
+mod solo;
 mod solver;
 mod tasks;
 mod texturing;
+mod winding;
 
 pub use super::jobs::Told;
 pub use discovery::Discovery;
@@ -35,6 +37,8 @@ pub use rigging::{RigChoice, Rigging};
 pub use safety::Safety;
 pub use session::{Export, Propose, Services, Session};
 pub use sketching::{FREEHAND, Sketching};
+pub use solo::Solo;
 pub use solver::{Shapes, Solver};
 pub use tasks::{Task, Tasks};
 pub use texturing::{Found, Texturing};
+pub use winding::Winding;

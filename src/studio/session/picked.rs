@@ -15,11 +15,13 @@ pub enum Selection {
     Part(Part),
 }
 
-/// Whether the views show a pose or the animation.
+/// What the views show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
     Pose,
     Animation,
+    /// The winches as a hand has wound them.
+    Winding,
 }
 
 /// The pose, what is selected in it, and whether the views show it.

@@ -12,9 +12,11 @@ use super::playback::Playback;
 use super::rigging::Rigging;
 use super::safety::Safety;
 use super::sketching::Sketching;
+use super::solo::Solo;
 use super::solver::{Shapes, Solver};
 use super::tasks::Tasks;
 use super::texturing::{Found, Texturing};
+use super::winding::Winding;
 use crate::design::file::MAX_BYTES;
 use crate::design::history::History;
 use crate::design::{Design, Target};
@@ -56,6 +58,8 @@ pub struct Session {
     pub(crate) discovery: Discovery,
     pub(crate) rigging: Rigging,
     pub(crate) judging: Judging,
+    pub(crate) solo: Solo,
+    pub(crate) winding: Winding,
     pub(crate) meshing: Meshing,
     pub(crate) sketching: Sketching,
     pub(crate) texturing: Texturing,
@@ -92,6 +96,8 @@ impl Session {
             discovery: Discovery::default(),
             rigging: Rigging::default(),
             judging: Judging::default(),
+            solo: Solo::default(),
+            winding: Winding::default(),
             meshing: Meshing::default(),
             sketching: Sketching::default(),
             texturing: Texturing::default(),
@@ -113,6 +119,20 @@ impl Session {
     /// The document as it is now.
     pub fn design(&self) -> &Arc<Design> {
         self.document.design()
+    }
+
+    /// The document as the views have it: with one network alone, where that is asked for.
+    pub fn acting(&self) -> &Arc<Design> {
+        self.solo.acting(self.design())
+    }
+
+    pub fn solo(&self) -> &Solo {
+        &self.solo
+    }
+
+    /// The winches as a hand has wound them.
+    pub fn winding(&self) -> &Winding {
+        &self.winding
     }
 
     pub fn history(&self) -> &History {
@@ -162,6 +182,11 @@ impl Session {
             Selection::Part(part) => Hit::Part(part),
             _ => Hit::Nothing,
         }
+    }
+
+    /// What the views show.
+    pub fn mode(&self) -> Mode {
+        self.picked.mode
     }
 
     pub fn selection(&self) -> Selection {
@@ -252,7 +277,7 @@ impl Session {
     pub fn cannot_propose(&self) -> Option<&'static str> {
         if self.discovery.running.is_some() {
             Some("Discovery is running")
-        } else if self.picked.mode == Mode::Animation || self.targets().is_empty() {
+        } else if self.picked.mode != Mode::Pose || self.targets().is_empty() {
             Some("Choose a pose with at least one target first: drag a point of the body")
         } else {
             None

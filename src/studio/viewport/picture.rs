@@ -49,6 +49,6 @@ fn subject<'a>(session: &'a Session, plushie: Plushie, shape: &'a Arc<Shape>) ->
         selected_target,
         proposed: proposal.filter(|_| !idealized).map(|proposal| &proposal.network),
         stage: proposal.filter(|_| idealized).map(|proposal| (session.discovery.stage, &proposal.stages)),
-        ..Subject::new(session.design(), shape)
+        ..Subject::new(session.acting(), shape)
     }
 }

@@ -6,3 +6,4 @@ mod networks;
 mod outline;
 mod posing;
 mod tendons;
+mod winding;
