@@ -41,7 +41,8 @@ enum Held {
 
 /// The direction in which a pull winds: along a piece of cable towards its winch, at a winch away from the mean of its cables.
 fn way(canvas: &Canvas<'_>, part: Part) -> Option<Point> {
-    let network = canvas.session.design().networks.get(part.winch())?;
+    // What is switched off winds nothing.
+    let network = canvas.session.acting().networks.get(part.winch()).filter(|network| !network.muted)?;
     let unit = |from: Point, to: Point| {
         let (x, y) = (to[0] - from[0], to[1] - from[1]);
         let length = x.hypot(y);

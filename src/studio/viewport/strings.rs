@@ -14,6 +14,8 @@ use std::collections::BTreeMap;
 
 /// Width of the light around a cable that is selected, logical pixels.
 const GLOW: f32 = 9.0;
+/// How strong the cables of what is switched off are drawn.
+const MUTED: f32 = 0.3;
 /// Radius of the ring around a place that breaks a rule, logical pixels.
 const RING: f32 = 9.0;
 
@@ -48,6 +50,7 @@ fn lit(painter: &Painter, canvas: &Canvas<'_>, part: Part) {
         let strength = if whole { 0.5 } else { 0.2 };
         painter.add(Shape::line(points.clone(), Stroke::new(GLOW, accent.gamma_multiply(strength))));
         let color = style::color32(palette.network(part.winch(), network));
+        let color = if network.muted { color.gamma_multiply(MUTED) } else { color };
         painter.add(Shape::line(points, Stroke::new(3.0, color)));
     }
     let ring = |part: Part, radius: f32| {

@@ -71,12 +71,11 @@ fn sliders_wind_all_winches_from_what_is_shown() {
     assert_eq!(session(&window).mode(), Mode::Winding);
     assert!(wound(&window)[0] > posed, "{} {posed}", wound(&window)[0]);
     click(&mut window, "All slack");
-    assert_eq!(wound(&window), [0.0]);
+    until_wound(&mut window, |mm| mm == 0.0);
     assert!((height(&window) - 20.0).abs() < 0.1);
     press(&mut window, Modifiers::NONE, Key::Escape);
     assert_eq!(session(&window).mode(), Mode::Pose);
-    settle(&mut window);
-    assert!((wound(&window)[0] - posed).abs() < 0.05 * posed);
+    until_wound(&mut window, |mm| (mm - posed).abs() < 0.05 * posed);
 }
 
 #[test]
