@@ -8,6 +8,7 @@
 //! | [`winding`] | is the pose shown the best that winding from rest reaches, and what does that cost? |
 //! | [`trade`] | what does accuracy cost, and which settings are never worth it? ([`locking`] of the triangles) |
 //! | [`resolution`] | how far do poses, activations and networks agree over mesh resolutions? |
+//! | [`networks`] | what do the networks reach that are found, can they be sewn, and do they stay when targets move? |
 //! | [`scene`] | what does each optional part of a scene cost? |
 //! | [`import`] | how well do outlines that nobody here drew become meshes? |
 //! | [`extremes`] | what do the solvers survive, and with how many digits? |
@@ -28,6 +29,7 @@ pub mod import;
 pub mod linear;
 pub mod locking;
 pub mod misses;
+pub mod networks;
 pub mod ordering;
 pub mod plot;
 pub mod posing;

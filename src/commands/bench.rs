@@ -6,9 +6,10 @@ use super::output::{check_folder, say_json, say_lines, write_folder};
 use super::solve::QualityChoice;
 use crate::bench::drags::{Path as DragPath, SWEEP_FRAMES};
 use crate::bench::{
-    BenchError, Report, Session, cold, drag, extremes, import, linear, misses, properties, resolution, scene, shapes,
-    trade, wander, winding,
+    BenchError, Report, Session, cold, drag, extremes, import, linear, misses, networks, properties, resolution, scene,
+    shapes, trade, wander, winding,
 };
+use crate::defaults;
 use clap::{Args, Subcommand, ValueEnum};
 use std::cell::Cell;
 use std::io::{IsTerminal, Write};
@@ -144,6 +145,26 @@ enum Study {
         #[command(flatten)]
         common: Common,
     },
+    /// Networks of the joint search, of Algorithm 2 and of the bundled designs: errors wound from rest, and whether they can be sewn
+    Networks {
+        /// Rounds of the joint search
+        #[arg(long, default_value_t = defaults::RIG_ROUNDS)]
+        rounds: usize,
+        /// Winches of the toys
+        #[arg(long, default_value_t = 3)]
+        winches: usize,
+        /// Tendons of each of their winches
+        #[arg(long, default_value_t = 2)]
+        tendons: usize,
+        /// Seek networks again so many times for targets that moved a little
+        #[arg(long, default_value_t = 0, value_name = "TIMES")]
+        moves: usize,
+        /// The error against the number of winches, up to so many
+        #[arg(long, default_value_t = 0, value_name = "WINCHES")]
+        curve: usize,
+        #[command(flatten)]
+        common: Common,
+    },
     /// Outlines that nobody here drew: what becomes of every file of a folder, mesh quality, times
     Import {
         /// Folder of SVG, PNG, JPEG, DXF, OBJ and drawing files, searched with all its folders
@@ -213,6 +234,7 @@ impl Study {
             | Self::Trade { common, .. }
             | Self::Resolution { common, .. }
             | Self::Scene { common, .. }
+            | Self::Networks { common, .. }
             | Self::Import { common, .. }
             | Self::Extremes { common, .. }
             | Self::Properties { common, .. }
@@ -278,6 +300,15 @@ impl Study {
             .run(session),
             Self::Scene { frames, common } => {
                 scene::Scene { shapes: common.shapes(&["pig"]), frames: *frames }.run(session)
+            }
+            Self::Networks { rounds, winches, tendons, moves, curve, common } => {
+                let shapes = match common.shapes.as_slice() {
+                    [] => networks::names(),
+                    [all] if all == "all" => networks::names(),
+                    named => named.to_vec(),
+                };
+                let (rounds, winches, tendons) = (*rounds, *winches, *tendons);
+                networks::Networks { shapes, rounds, winches, tendons, moves: *moves, curve: *curve }.run(session)
             }
             Self::Import { dir, fibers, limit, reading, .. } => {
                 let import = reading.import();

@@ -25,10 +25,15 @@ const CHILDREN: usize = 4;
 const ERA: usize = 25;
 /// One child in so many has winches of two parents.
 const CROSSED: usize = 6;
+/// Most random changes of a child; one more has half the chance of one less.
+const MOST_CHANGES: usize = 5;
 /// Steps of improvement: of a first look, of a child, of the last one.
 const LOOK: usize = 4;
 const STEPS: usize = 12;
 const LAST_STEPS: usize = 60;
+/// A child whose cost is more than so many times that of the worst that lives on its island after the first look is given up: one in
+/// ten of those that would have lived, two thirds of the others.
+const BEHIND: f64 = 2.0;
 /// Two layouts whose costs differ by less than this part are the same valley.
 const SAME: f64 = 1e-3;
 
@@ -39,7 +44,12 @@ pub struct Joint<'a> {
     topology: Topology,
     seed: u64,
     round: u64,
+    linear: Option<Linear<'a>>,
     islands: Vec<Vec<Fit>>,
+    /// Islands were settled so often before.
+    settlements: u64,
+    /// The best few of earlier settlements.
+    left: Vec<Fit>,
 }
 
 impl<'a> Joint<'a> {
@@ -52,11 +62,30 @@ impl<'a> Joint<'a> {
         stop: &(dyn Fn() -> bool + Sync),
     ) -> Self {
         let linear = Linear::new(task);
-        let numbers: Vec<usize> = (0..FIRST).collect();
-        let layouts = in_order(&numbers, |&k| {
-            let random = &mut Random::of(seed, "layout", k as u64);
-            let layout = sampler.layout(&topology, random);
-            linear.as_ref().map_or(layout.clone(), |linear| bettered(sampler, &topology, linear, layout, random))
+        let mut joint = Self {
+            task,
+            sampler,
+            topology,
+            seed,
+            round: 0,
+            linear,
+            islands: Vec::new(),
+            settlements: 0,
+            left: Vec::new(),
+        };
+        joint.settle(stop);
+        joint
+    }
+
+    /// Peoples the islands.
+    fn settle(&mut self, stop: &(dyn Fn() -> bool + Sync)) {
+        let (task, sampler, topology) = (self.task, self.sampler, &self.topology);
+        let numbers: Vec<u64> = (0..FIRST as u64).map(|k| self.settlements * FIRST as u64 + k).collect();
+        let layouts = in_order(&numbers, |&number| {
+            let random = &mut Random::of(self.seed, "layout", number);
+            let layout = sampler.layout(topology, random);
+            let linear = self.linear.as_ref();
+            linear.map_or(layout.clone(), |linear| bettered(sampler, topology, linear, layout, random))
         });
         let looked = in_order(&layouts, |layout| {
             let begun = task.begin(layout.clone(), stop)?;
@@ -68,13 +97,26 @@ impl<'a> Joint<'a> {
         let closely = in_order(&looked, |fit| task.wound(task.improve(fit.clone(), STEPS, false, stop), STEPS, stop));
         let mut closely: Vec<Fit> = closely.into_iter().flatten().collect();
         closely.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-        let mut islands = vec![Vec::new(); ISLANDS.min(closely.len())];
-        let count = islands.len().max(1);
+        self.islands = vec![Vec::new(); ISLANDS.min(closely.len())];
+        let count = self.islands.len().max(1);
         for (k, fit) in closely.into_iter().enumerate() {
-            islands[k % count].push(fit);
+            self.islands[k % count].push(fit);
         }
-        islands.iter_mut().for_each(keep);
-        Self { task, sampler, topology, seed, round: 0, islands }
+        self.islands.iter_mut().for_each(keep);
+        self.settlements += 1;
+    }
+
+    /// Leaves the islands for new ones, with another task and sampler where the rules are others there. The best are remembered.
+    pub fn leave(
+        &mut self,
+        task: &'a Task<'a>,
+        sampler: &'a Sampler<'a>,
+        topology: Topology,
+        stop: &(dyn Fn() -> bool + Sync),
+    ) {
+        self.left.extend(self.islands.iter().filter_map(|island| island.first()).cloned());
+        (self.task, self.sampler, self.topology) = (task, sampler, topology);
+        self.settle(stop);
     }
 
     /// One more round. Does nothing where no layout was found.
@@ -93,8 +135,11 @@ impl<'a> Joint<'a> {
                 if random.index(CROSSED) == 0 {
                     layout = self.sampler.crossed(&layout, &island[random.index(island.len())].layout, random);
                 }
-                for _ in 0..=random.index(2) {
+                for _ in 0..MOST_CHANGES {
                     layout = self.sampler.changed(&layout, &self.topology, random);
+                    if random.index(2) == 0 {
+                        break;
+                    }
                 }
                 children.push((i, parent, layout));
             }
@@ -102,7 +147,11 @@ impl<'a> Joint<'a> {
         let (task, islands) = (self.task, &self.islands);
         let tried = in_order(&children, |(island, parent, layout)| {
             let begun = task.resume(layout.clone(), &islands[*island][*parent], stop)?;
-            Some((*island, task.wound(task.improve(begun, STEPS, false, stop), STEPS, stop)?))
+            let looked = task.improve(begun, LOOK, false, stop);
+            // Most children are far behind by now, and would stay there.
+            let behind = islands[*island].last().is_some_and(|last| looked.cost > BEHIND * last.cost);
+            let out = task.wound((!behind).then(|| task.improve(looked, STEPS, false, stop))?, STEPS, stop)?;
+            Some((*island, out))
         });
         if stop() {
             return;
@@ -111,6 +160,26 @@ impl<'a> Joint<'a> {
             self.islands[island].push(fit);
         }
         self.islands.iter_mut().for_each(keep);
+    }
+
+    /// Goes on with another task and its sampler: the same poses by other rules. Layouts that it does not take are dropped.
+    pub fn turn_to(
+        &mut self,
+        task: &'a Task<'a>,
+        sampler: &'a Sampler<'a>,
+        topology: Topology,
+        stop: &(dyn Fn() -> bool + Sync),
+    ) {
+        (self.task, self.sampler, self.topology) = (task, sampler, topology);
+        for island in &mut self.islands {
+            let again = in_order(island, |fit| {
+                let begun = task.resume(fit.layout.clone(), fit, stop)?;
+                task.wound(task.improve(begun, STEPS, false, stop), STEPS, stop)
+            });
+            *island = again.into_iter().flatten().collect();
+            keep(island);
+        }
+        self.islands.retain(|island| !island.is_empty());
     }
 
     /// The worst island is given up for the best.
@@ -125,12 +194,17 @@ impl<'a> Joint<'a> {
 
     /// The best so far; its poses are wound from rest.
     pub fn best(&self) -> Option<&Fit> {
+        self.islands.iter().flatten().chain(&self.left).min_by(|a, b| a.cost.total_cmp(&b.cost))
+    }
+
+    /// The best of the present islands.
+    pub fn best_here(&self) -> Option<&Fit> {
         self.islands.iter().flatten().min_by(|a, b| a.cost.total_cmp(&b.cost))
     }
 
     /// The best few, by their worst pose.
     pub fn finalists(&self, count: usize) -> Vec<Fit> {
-        let mut all: Vec<Fit> = self.islands.iter().flatten().cloned().collect();
+        let mut all: Vec<Fit> = self.islands.iter().flatten().chain(&self.left).cloned().collect();
         all.sort_by(|a, b| a.worst().total_cmp(&b.worst()));
         all.dedup_by(|a, b| (a.cost - b.cost).abs() <= SAME * b.cost);
         all.truncate(count);

@@ -180,10 +180,13 @@ impl<'a> Sampler<'a> {
             5 => {
                 let points = &mut new.winches[winch].cables[cable];
                 if points.len() <= topology.most_holes {
-                    let k = random.index(points.len());
+                    let k = random.index(points.len() + 1);
                     let before = if k == 0 { at } else { points[k - 1] };
-                    let via = self.aside(before, points[k], random);
-                    points.insert(k, via);
+                    let new = match points.get(k) {
+                        Some(&after) => self.aside(before, after, random),
+                        None => self.near(before, SHAKES[2] * self.size, random),
+                    };
+                    points.insert(k, new);
                 }
             }
             6 => {

@@ -25,8 +25,8 @@ const FINE: usize = 700;
 const FINALISTS: usize = 5;
 /// Steps by which the worst pose is improved in the end.
 const SHARPENING: usize = 40;
-/// Rounds after which a search is over, if none has left less than this part of the worst pose's error: more than an era of the islands.
-const PATIENCE: usize = 30;
+/// Rounds after which islands are left for new ones, if none has left less than this part of the worst pose's error.
+const PATIENCE: usize = 25;
 const GAIN: f64 = 0.99;
 /// Most holes of a tendon where no rule is asked for.
 const FREE_HOLES: usize = 20;
@@ -77,8 +77,8 @@ fn together(
         None => found,
         Some(_) => {
             let (outline, stop) = (rim(&design.mesh), || cancel.load(atomic::Ordering::Relaxed));
-            let sewable = sewable(design, &outline, options);
-            let task = Task::new(design, sewable.as_ref(), &design.networks);
+            let sewable = sewable(design, &outline);
+            let task = Task::new(design, options.rules.then_some(&sewable), &design.networks);
             in_order(&found, |fit| task.transferred(fit, &stop)).into_iter().flatten().collect()
         }
     };
@@ -121,11 +121,9 @@ fn coarser(design: &Design) -> Option<Design> {
     Some(coarse)
 }
 
-fn sewable<'a>(design: &'a Design, rim: &'a Outline, options: &RigOptions) -> Option<Sewable<'a>> {
+fn sewable<'a>(design: &'a Design, rim: &'a Outline) -> Sewable<'a> {
     let gap_mm = design.fabrication.turning_gap_mm;
-    options
-        .rules
-        .then(|| Sewable::new(design.sewing, &design.outline, rim, gap_mm, rigs_of(&design.networks, &design.mesh)))
+    Sewable::new(design.sewing, &design.outline, rim, gap_mm, rigs_of(&design.networks, &design.mesh))
 }
 
 /// The best few layouts that a search finds on the design's own mesh; those that keep the rules, where any do.
@@ -137,38 +135,47 @@ fn layouts(
     cancel: &AtomicBool,
 ) -> Result<Vec<Fit>, RigError> {
     let (outline, stop) = (rim(&design.mesh), || cancel.load(atomic::Ordering::Relaxed));
-    let sewable = sewable(design, &outline, options);
-    let task = Task::new(design, sewable.as_ref(), &design.networks);
+    let sewable = sewable(design, &outline);
+    let lawful = Task::new(design, Some(&sewable), &design.networks);
+    let free = Task::new(design, None, &design.networks);
     // Nothing to build, or every pose is at rest already.
-    if topology.tendons.is_empty() || task.poses.is_empty() {
+    if topology.tendons.is_empty() || lawful.poses.is_empty() {
         return Ok(Vec::new());
     }
-    let sampler = Sampler::new(&design.mesh, sewable.as_ref());
-    let mut joint = Joint::new(&task, &sampler, topology.clone(), options.seed, &stop);
-    let (mut best, mut since) = (f64::INFINITY, 0);
+    let samplers = [Some(&sewable), None].map(|sewable| Sampler::new(&design.mesh, sewable));
+    let school = Topology { most_holes: design.sewing.most_holes, ..topology.clone() };
+    let mut joint = Joint::new(&lawful, &samplers[0], school.clone(), options.seed, &stop);
+    let (mut best, mut since, mut lawfully, mut settled) = (f64::INFINITY, 0, true, 0);
     for round in 0..options.rounds {
-        let Some(fit) = joint.best() else { break };
+        let schooled = round - settled >= (options.rounds - settled) / 2;
+        if lawfully && !options.rules && (schooled || since > PATIENCE) {
+            joint.turn_to(&free, &samplers[1], topology.clone(), &stop);
+            (best, since, lawfully) = (f64::INFINITY, 0, false);
+        } else if since > PATIENCE {
+            joint.leave(&lawful, &samplers[0], school.clone(), &stop);
+            (best, since, lawfully, settled) = (f64::INFINITY, 0, true, round);
+        }
+        let (Some(fit), Some(here)) = (joint.best(), joint.best_here()) else { break };
         let (worst, holes) = (fit.worst(), fit.layout.holes());
         progress(Progress::Round { round, rounds: options.rounds, worst, holes });
-        since = if worst < GAIN * best { 0 } else { since + 1 };
-        best = best.min(worst);
-        if worst <= SERVED || since > PATIENCE {
+        if worst <= SERVED {
             break;
         }
+        since = if here.worst() < GAIN * best { 0 } else { since + 1 };
+        best = best.min(here.worst());
         joint.advance(&stop);
         if stop() {
             return Err(RigError::Cancelled);
         }
     }
+    let task = if options.rules { &lawful } else { &free };
     let mut finished = in_order(&joint.finalists(FINALISTS), |fit| {
-        task.sharpened(pruned(&task, topology, joint.finished(fit, &stop), &stop), SHARPENING, &stop)
+        task.sharpened(pruned(task, topology, joint.finished(fit, &stop), &stop), SHARPENING, &stop)
     });
     if stop() {
         return Err(RigError::Cancelled);
     }
-    if let Some(sewable) = &sewable
-        && finished.iter().any(|fit| sewable.is_kept(&fit.layout))
-    {
+    if options.rules && finished.iter().any(|fit| sewable.is_kept(&fit.layout)) {
         finished.retain(|fit| sewable.is_kept(&fit.layout));
     }
     Ok(finished)

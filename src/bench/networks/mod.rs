@@ -1,0 +1,244 @@
+//! Networks: what those of Algorithm 2, of the joint search and of the bundled designs reach, and whether a hand can sew them.
+//!
+//! Every error is that of the worst pose, wound from rest as a check winds it, as a part of the error at rest.
+
+mod rigged;
+pub mod toys;
+
+use super::report::Cell;
+use super::shapes;
+use super::statistics::quantile;
+use super::{BenchError, Report, Session, Table};
+use crate::defaults;
+use crate::design::Design;
+use crate::random::Random;
+use crate::rigging::{Method, RigOptions, TendonChoice};
+use rigged::Rigged;
+
+/// Friction that rigs are compared under.
+const FRICTIONS: [f64; 5] = [0.0, 0.05, 0.1, 0.2, 0.4];
+/// Targets are moved by this part of the body length, and once by one that nobody could see.
+const MOVED: f64 = 0.005;
+const UNSEEN: f64 = 1e-9;
+/// An error after a move that is no more than so many times the one before, or no more than so much larger, is as good.
+const AS_GOOD: [f64; 2] = [1.5, 0.03];
+
+/// A design that needs winches, and how many it may have.
+struct Case {
+    name: String,
+    design: Design,
+    winches: usize,
+    tendons: TendonChoice,
+    /// Whether its own networks are compared.
+    shipped: bool,
+}
+
+/// The study.
+pub struct Networks {
+    /// Names of bundled designs and toys.
+    pub shapes: Vec<String>,
+    pub rounds: usize,
+    /// Winches and tendons of toys.
+    pub winches: usize,
+    pub tendons: usize,
+    /// Moved targets for each design; 0 for none.
+    pub moves: usize,
+    /// Most winches of the curve; 0 for none.
+    pub curve: usize,
+}
+
+/// All that can be asked for by name.
+pub fn names() -> Vec<String> {
+    shapes::names().into_iter().chain(toys::ALL.iter().map(|toy| toy.name.to_owned())).collect()
+}
+
+impl Networks {
+    /// # Errors
+    /// A name that is none, or cancelled.
+    pub fn run(&self, session: &Session) -> Result<Report, BenchError> {
+        let cases = self.shapes.iter().map(|name| self.case(name)).collect::<Result<Vec<_>, _>>()?;
+        let mut report =
+            Report { title: format!("networks, {} rounds, seed {}", self.rounds, session.seed), ..Report::default() };
+        let mut compared = Table {
+            name: "networks".into(),
+            caption: "The worst pose's error as a part of that at rest, without friction".into(),
+            headings: [
+                "design",
+                "poses",
+                "networks",
+                "winches",
+                "tendons",
+                "error",
+                "holes",
+                "thread mm",
+                "rules broken",
+                "s",
+            ]
+            .map(str::to_owned)
+            .to_vec(),
+            rows: Vec::new(),
+        };
+        let mut rubbed = Table {
+            name: "friction".into(),
+            caption: "The same under friction at the holes, all cables pulled".into(),
+            headings: std::iter::once("design".to_owned()).chain(FRICTIONS.map(|mu| format!("mu {mu}"))).collect(),
+            rows: Vec::new(),
+        };
+        let mut ratios: Vec<(&str, Vec<f64>)> = Vec::new();
+        let (mut moved, mut curve) = (moved_table(), curve_table(self.curve));
+        for case in &cases {
+            for (what, rigged) in self.rigs(case, session)? {
+                compared.rows.push(rigged.row(&case.name, what));
+                if let Some(error) = rigged.error() {
+                    match ratios.iter_mut().find(|(name, _)| *name == what) {
+                        Some((_, errors)) => errors.push(error),
+                        None => ratios.push((what, vec![error])),
+                    }
+                }
+                if what == SEWN {
+                    let errors = FRICTIONS.iter().map(|&mu| rigged.under(mu, session).into());
+                    rubbed.rows.push(std::iter::once(case.name.clone().into()).chain(errors).collect());
+                    if self.moves > 0 {
+                        moved.rows.push(self.moved(case, &rigged, session)?);
+                    }
+                }
+            }
+            if self.curve > 0 {
+                curve.rows.push(self.curve(case, session)?);
+            }
+        }
+        for (what, mut errors) in ratios {
+            errors.sort_by(f64::total_cmp);
+            let worst = errors.last().copied().unwrap_or(f64::NAN);
+            report.remarks.push(format!("{what}: median {:.3}, worst {worst:.3}", quantile(&errors, 0.5)));
+        }
+        report.tables = vec![compared, rubbed];
+        report.tables.extend([moved, curve].into_iter().filter(|table| !table.rows.is_empty()));
+        Ok(report)
+    }
+
+    fn case(&self, name: &str) -> Result<Case, BenchError> {
+        if let Some(toy) = toys::ALL.iter().find(|toy| toy.name == name.to_lowercase()) {
+            let mut design = toy.design(defaults::FIBERS)?;
+            design.tendons.friction = 0.0;
+            let tendons = TendonChoice::PerWinch(vec![self.tendons]);
+            return Ok(Case { name: name.into(), design, winches: self.winches, tendons, shipped: false });
+        }
+        let mut design = shapes::original(name)?;
+        design.tendons.friction = 0.0;
+        let tendons = design.networks.iter().map(|network| network.tendons.len()).collect();
+        let winches = design.networks.len();
+        Ok(Case { name: name.into(), design, winches, tendons: TendonChoice::PerWinch(tendons), shipped: true })
+    }
+
+    /// All rigs that are compared.
+    fn rigs(&self, case: &Case, session: &Session) -> Result<Vec<(&'static str, Rigged)>, BenchError> {
+        let mut out = Vec::new();
+        if case.shipped {
+            session.next(&format!("{}: {SHIPPED}", case.name))?;
+            out.push((SHIPPED, Rigged::of(case.design.clone(), 0.0, session)?));
+        }
+        let joint = RigOptions {
+            rounds: self.rounds,
+            seed: session.seed,
+            max_winches: case.winches,
+            tendons: case.tendons.clone(),
+            ..RigOptions::default()
+        };
+        let swept = RigOptions { method: Method::Algorithm2, ..joint.clone() };
+        let paper = RigOptions {
+            seed_num: Some(defaults::SEED_NUM),
+            join_depth: Some(defaults::JOIN_DEPTH),
+            join_len: Some(defaults::JOIN_LEN),
+            phi: Some(defaults::PHI),
+            ..swept.clone()
+        };
+        let free = RigOptions { rules: false, ..joint.clone() };
+        for (what, options) in [(AS_PUBLISHED, paper), (SWEPT, swept), (FREE, free), (SEWN, joint)] {
+            session.next(&format!("{}: {what}", case.name))?;
+            out.push((what, Rigged::found(&case.design, &options, session)?));
+        }
+        Ok(out)
+    }
+
+    /// The joint search again for targets that moved a little.
+    fn moved(&self, case: &Case, base: &Rigged, session: &Session) -> Result<Vec<Cell>, BenchError> {
+        let options = self.sewn(case, session, case.winches);
+        let before = base.error().unwrap_or(f64::INFINITY);
+        let mut errors = Vec::new();
+        for number in 0..self.moves {
+            session.next(&format!("{}: moved targets {} of {}", case.name, number + 1, self.moves))?;
+            let random = &mut Random::of(session.seed, "moved", number as u64);
+            let other = with_moved(&case.design, MOVED, random);
+            errors.push(Rigged::found(&other, &options, session)?.error().unwrap_or(f64::INFINITY));
+        }
+        let as_good = errors.iter().filter(|e| **e <= f64::max(AS_GOOD[0] * before, before + AS_GOOD[1])).count();
+        errors.sort_by(f64::total_cmp);
+        let unseen = with_moved(&case.design, UNSEEN, &mut Random::of(session.seed, "unseen", 0));
+        let same = Rigged::found(&unseen, &options, session)?.design.networks == base.design.networks;
+        let worst = errors.last().copied();
+        Ok(vec![
+            case.name.clone().into(),
+            before.into(),
+            quantile(&errors, 0.5).into(),
+            worst.into(),
+            format!("{as_good} of {}", errors.len()).into(),
+            if same { "yes" } else { "no" }.into(),
+        ])
+    }
+
+    fn curve(&self, case: &Case, session: &Session) -> Result<Vec<Cell>, BenchError> {
+        let mut row = vec![case.name.clone().into()];
+        for winches in 1..=self.curve {
+            session.next(&format!("{}: {winches} winches", case.name))?;
+            let found = Rigged::found(&case.design, &self.sewn(case, session, winches), session)?;
+            row.push(found.error().into());
+        }
+        Ok(row)
+    }
+
+    fn sewn(&self, case: &Case, session: &Session, winches: usize) -> RigOptions {
+        RigOptions {
+            rounds: self.rounds,
+            seed: session.seed,
+            max_winches: winches,
+            tendons: case.tendons.clone(),
+            ..RigOptions::default()
+        }
+    }
+}
+
+const SHIPPED: &str = "as shipped";
+const AS_PUBLISHED: &str = "Algorithm 2";
+const SWEPT: &str = "Algorithm 2, swept";
+const FREE: &str = "joint, no rules";
+const SEWN: &str = "joint, sewable";
+
+fn moved_table() -> Table {
+    let headings = ["design", "error", "median moved", "worst moved", "as good", "same after 1e-9"];
+    Table {
+        name: "stability".into(),
+        caption: format!("Targets moved by {} % of the body, and networks sought again", 100.0 * MOVED),
+        headings: headings.map(str::to_owned).to_vec(),
+        rows: Vec::new(),
+    }
+}
+
+fn curve_table(most: usize) -> Table {
+    Table {
+        name: "winches".into(),
+        caption: "Error against the number of winches".into(),
+        headings: std::iter::once("design".to_owned()).chain((1..=most).map(|n| n.to_string())).collect(),
+        rows: Vec::new(),
+    }
+}
+
+/// The design with every target moved by a part of the body length, any way.
+fn with_moved(design: &Design, part: f64, random: &mut Random) -> Design {
+    let (mut out, by) = (design.clone(), part * design.body_length_mm());
+    for target in out.poses.iter_mut().flat_map(|pose| &mut pose.targets) {
+        let way = random.direction();
+        target.to = [target.to[0] + by * way[0], target.to[1] + by * way[1]];
+    }
+    out
+}

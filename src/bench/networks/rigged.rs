@@ -1,0 +1,94 @@
+//! A design with networks, and what it reaches.
+
+use crate::bench::report::Cell;
+use crate::bench::{BenchError, Session};
+use crate::design::Design;
+use crate::engine::{Setpoint, Shape, pose_with_friction, solve_once, target_error};
+use crate::fabrication::judge_design;
+use crate::outline::polygon::length;
+use crate::rigging::{RigError, RigOptions, rig};
+use crate::threads::in_order;
+use std::time::Instant;
+
+/// A rig, each pose wound from rest without friction.
+pub struct Rigged {
+    pub design: Design,
+    /// Error at rest and shape of every pose; the shape is missing where the pose does not settle.
+    poses: Vec<(f64, Option<Shape>)>,
+    seconds: f64,
+}
+
+impl Rigged {
+    /// # Errors
+    /// Cancelled.
+    pub fn of(design: Design, seconds: f64, session: &Session) -> Result<Self, BenchError> {
+        let poses: Vec<_> = design.poses.iter().filter(|pose| !pose.targets.is_empty()).collect();
+        let poses = in_order(&poses, |pose| {
+            let rest = target_error(&design, &pose.targets, &design.mesh.nodes).max(f64::MIN_POSITIVE);
+            let setpoint = Setpoint::Targets(pose.targets.clone());
+            (rest, solve_once(&design, setpoint, [false, true], session.cancel).realizable)
+        });
+        session.check()?;
+        Ok(Self { design, poses, seconds })
+    }
+
+    /// The networks that a search finds for a design that has none; no networks where it finds none.
+    ///
+    /// # Errors
+    /// The design has no poses, or cancelled.
+    pub fn found(design: &Design, options: &RigOptions, session: &Session) -> Result<Self, BenchError> {
+        let mut bare = design.clone();
+        bare.networks.clear();
+        bare.keyframes.clear();
+        let start = Instant::now();
+        let rigged = match rig(&bare, options, &mut |_| (), session.cancel) {
+            Ok(rigged) => rigged,
+            Err(RigError::NothingFound) => bare,
+            Err(RigError::Cancelled) => return Err(BenchError::Cancelled),
+            Err(error @ (RigError::NoTargets | RigError::NoModel)) => {
+                return Err(BenchError::Nothing(format!("{}: {error}", design.name)));
+            }
+        };
+        Self::of(rigged, start.elapsed().as_secs_f64(), session)
+    }
+
+    /// The worst pose's error as a part of that at rest; `None` where a pose does not settle.
+    pub fn error(&self) -> Option<f64> {
+        self.worst(|_, shape| Some(shape.target_error))
+    }
+
+    /// The same under friction, all cables pulled.
+    pub fn under(&self, mu: f64, session: &Session) -> Option<f64> {
+        self.worst(|pose, shape| {
+            let targets = &self.design.poses.iter().filter(|p| !p.targets.is_empty()).nth(pose)?.targets;
+            let found = pose_with_friction(&self.design, targets, &shape.activations_mm, mu, session.stop);
+            Some(found.ok()?.error)
+        })
+    }
+
+    fn worst(&self, error: impl Fn(usize, &Shape) -> Option<f64>) -> Option<f64> {
+        let part = |(k, (rest, shape)): (usize, &(f64, Option<Shape>))| Some(error(k, shape.as_ref()?)? / rest);
+        self.poses.iter().enumerate().map(part).try_fold(0.0, |worst, part| Some(f64::max(worst, part?)))
+    }
+
+    /// A row of the table of rigs.
+    pub fn row(&self, design: &str, what: &str) -> Vec<Cell> {
+        let tendons = || self.design.networks.iter().flat_map(|network| &network.tendons);
+        let thread = tendons().map(|tendon| {
+            let points: Vec<_> = tendon.routing.iter().map(|p| p.place(&self.design.mesh.nodes)).collect();
+            points.windows(2).map(|s| length(s[0], s[1])).sum::<f64>()
+        });
+        vec![
+            design.into(),
+            self.poses.len().into(),
+            what.into(),
+            self.design.networks.len().into(),
+            tendons().count().into(),
+            self.error().into(),
+            tendons().map(|tendon| tendon.routing.len().saturating_sub(2)).sum::<usize>().into(),
+            thread.sum::<f64>().into(),
+            judge_design(&self.design).len().into(),
+            self.seconds.into(),
+        ]
+    }
+}
