@@ -277,9 +277,12 @@ fn a_rig_of_the_curve_is_the_same_both_ways() {
     enter(&mut window, Role::SpinButton, "Most winches", "1");
     enter(&mut window, Role::TextInput, "Tendons of each winch", "1");
     click(&mut window, "Hold the parameters");
+    window.get_by_label("Compare numbers of winches").scroll_to_me();
+    settle(&mut window);
     click(&mut window, "Compare numbers of winches");
     assert!(session(&window).design().networks.is_empty() && !session(&window).rigging().curve.stale);
     window.get_by_label("Take up to 1 winch of 1").scroll_to_me();
+    settle(&mut window);
     click(&mut window, "Take up to 1 winch of 1");
     assert_eq!(session(&window).design().keyframes.len(), 3);
     same(&window, &folder.path().join("rigged.plush"));
