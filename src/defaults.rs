@@ -105,5 +105,8 @@ pub const TRACK_RATE_HZ: f64 = 50.0;
 pub const MOTOR_SPEED_RPM: u32 = 5000;
 /// Largest motor acceleration that the plan of an animation asks for, rev/s^2. Unconfirmed: depends on the load.
 pub const MOTOR_ACCELERATION: u32 = 200;
+/// Torque that a winch may ask of its motor all the time, at the spool, N mm. Unconfirmed: some 2 mN m of a small DC motor of 17 mm, times the gear
+/// ratio above, less a quarter lost in the gears.
+pub const MOTOR_TORQUE_NMM: f64 = 65.0;
 /// Seconds between keyframes where the tool lays them out itself.
 pub const KEYFRAME_SPACING_S: f64 = 1.0;

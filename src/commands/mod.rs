@@ -15,6 +15,7 @@ mod explore;
 mod export;
 mod key;
 mod mesh;
+mod network;
 mod new;
 mod output;
 mod place;
@@ -67,6 +68,7 @@ pub enum Command {
     Drawing(drawing::DrawingCommand),
     Pose(pose::Pose),
     Rig(rig::Rig),
+    Network(network::NetworkCommand),
     Key(key::Key),
     Check(check::Check),
     Export(export::Export),
@@ -98,6 +100,7 @@ pub fn run(command: &Command, out: &mut dyn Write, cancel: &AtomicBool) -> Resul
         Command::Drawing(command) => command.run(out, cancel),
         Command::Pose(command) => command.run(out, cancel),
         Command::Rig(command) => command.run(out, cancel),
+        Command::Network(command) => command.run(out, cancel),
         Command::Key(command) => command.run(out, cancel),
         Command::Check(command) => command.run(out, cancel),
         Command::Export(command) => command.run(out, cancel),

@@ -59,7 +59,7 @@ impl Pose {
 
 pub fn failed(error: Error) -> CommandError {
     match error {
-        Error::OffBody { .. } | Error::NoBody { .. } | Error::Edit(_) => CommandError::Usage(error.to_string()),
+        Error::Edit(_) => CommandError::Usage(error.to_string()),
         Error::Cancelled(_) => CommandError::Cancelled,
     }
 }

@@ -49,6 +49,9 @@ pub fn print(figures: &Figures, out: &mut dyn Write) -> Result<(), CommandError>
             figures.body_length_mm
         ),
     )?;
+    if !figures.switched_off.is_empty() {
+        say(out, &format!("switched off: {}", figures.switched_off.join(", ")))?;
+    }
     if !figures.poses.is_empty() {
         poses(figures, out)?;
     }

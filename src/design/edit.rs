@@ -3,10 +3,16 @@
 //! Each function leaves a valid design valid, or returns an error and leaves it as it was. They know nothing of undo:
 //! [`super::History`] calls them.
 
+mod networks;
+
+pub use networks::{
+    accept_network, color_network, move_network, mute_network, remove_network, rename_network, set_network,
+};
+
 use super::animation::SAME_TIME_S;
 use super::{
-    ControllerSettings, Design, DesignError, FabricationSettings, FiberSettings, Gravity, Keyframe, Material, Network,
-    Pin, Pose, Target, TendonSettings, Term, validate,
+    ControllerSettings, Design, DesignError, FabricationSettings, FiberSettings, Gravity, Keyframe, Material, Pin,
+    Pose, Target, TendonSettings, Term, validate,
 };
 use crate::mesh::MeshError;
 use crate::outline::drawing::Track;
@@ -29,6 +35,17 @@ pub enum EditError {
     NameTaken { what: &'static str, name: String },
     #[error("there is already a keyframe at {0} s")]
     TimeTaken(f64),
+    #[error(
+        "{},{} mm is not on the body at rest; the nearest point of the body is {:.1},{:.1}",
+        place[0], place[1], nearest[0], nearest[1]
+    )]
+    OffBody { place: Point, nearest: Point },
+    #[error("{},{} mm is not on the body: the design has no mesh", place[0], place[1])]
+    NoBody { place: Point },
+    #[error("a tendon starts at its winch and needs one more place at least")]
+    NoEnd,
+    #[error("only some of the tendons of a winch can be split off, one at least")]
+    NotSome,
     #[error("no gesture is running")]
     NoGesture,
     #[error(transparent)]
@@ -153,47 +170,6 @@ pub fn remove_target(design: &mut Design, pose: usize, index: usize) -> Result<T
     let targets = &mut item(&mut design.poses, "pose", pose)?.targets;
     item(targets, "target", index)?;
     Ok(targets.remove(index))
-}
-
-/// Adds a network, slack in every keyframe so far; its index. A name that is taken gets a number.
-///
-/// # Errors
-/// A network that is unsound on this mesh.
-pub fn accept_network(design: &mut Design, mut network: Network) -> Result<usize, EditError> {
-    validate::network(&format!("networks[{}]", design.networks.len()), &design.mesh, &network)?;
-    let wanted = if network.name.trim().is_empty() { "winch 1" } else { network.name.trim() };
-    network.name = unused_name(wanted, |name| design.networks.iter().any(|n| n.name == name));
-    design.networks.push(network);
-    for keyframe in &mut design.keyframes {
-        keyframe.activations_mm.push(0.0);
-    }
-    Ok(design.networks.len() - 1)
-}
-
-/// Removes a network, and its activation from every keyframe.
-///
-/// # Errors
-/// No such network.
-pub fn remove_network(design: &mut Design, index: usize) -> Result<Network, EditError> {
-    item(&mut design.networks, "network", index)?;
-    for keyframe in &mut design.keyframes {
-        keyframe.activations_mm.remove(index);
-    }
-    Ok(design.networks.remove(index))
-}
-
-/// Gives a network another name.
-///
-/// # Errors
-/// No such network; a name that is empty or taken.
-pub fn rename_network(design: &mut Design, index: usize, name: &str) -> Result<(), EditError> {
-    let name = trimmed("network", name)?;
-    item(&mut design.networks, "network", index)?;
-    if design.networks.iter().enumerate().any(|(i, n)| i != index && n.name == name) {
-        return Err(EditError::NameTaken { what: "network", name });
-    }
-    design.networks[index].name = name;
-    Ok(())
 }
 
 /// Puts a keyframe on the timeline in place of one at the same time (within [`SAME_TIME_S`]), if any; its index.

@@ -4,6 +4,7 @@
 //! the functions of [`edit`], and held by a [`history::History`], which keeps shared snapshots for undo. [`animation`]
 //! reads winch activations off the timeline. Lengths are mm, stiffnesses N/mm.
 
+mod acting;
 pub mod animation;
 pub mod bundled;
 pub mod edit;
@@ -128,6 +129,12 @@ pub struct Network {
     pub name: String,
     /// Each routing starts at the winch.
     pub tendons: Vec<Tendon>,
+    /// Red, green and blue of its cables in pictures; that of its number if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub color: Option<[u8; 3]>,
+    /// Whether it is switched off: it pulls nothing and is not made, but keeps its place and its activations in keyframes.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub muted: bool,
 }
 
 /// One cable of a network.
@@ -262,8 +269,8 @@ fn one() -> f64 {
 fn is_one(v: &f64) -> bool {
     *v == 1.0
 }
-fn is_default(rules: &Rules) -> bool {
-    *rules == Rules::default()
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
 }
 fn is_zero(v: &f64) -> bool {
     *v == 0.0

@@ -45,6 +45,7 @@ ranges! {
     TRACK_RATE: "controller.track_rate_hz", "Hz", 1e-2, 1e3, "a step takes a controller some ms";
     SPEED: "controller.speed_rpm", "rpm", 1.0, 30000.0, "what the controllers take; the plan of the animation asks for no more than the field says";
     MOTOR_ACCELERATION: "controller.acceleration", "rev/s^2", 1.0, 30000.0, "as controller.speed_rpm";
+    MOTOR_TORQUE: "controller.torque_nmm", "N mm", 1e-3, 1e6, "a car's winch has 1e6";
     HOLE_TO_SEAM: "sewing.hole_to_seam_mm", "mm", 0.0, 1e3, "0 lifts the rule inside the body";
     HOLE_TO_HOLE: "sewing.hole_to_hole_mm", "mm", 0.0, 1e3, "0 lifts the rule";
     MOST_HOLES: "sewing.most_holes", "", 0.0, 1e4, "as many as a routing may have";

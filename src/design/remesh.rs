@@ -322,10 +322,8 @@ mod tests {
         let node = |p: Point| fine.nearest_node(p, &fine.nodes);
         let routing = vec![node([29.0, 90.0]), node([29.0, 40.0]), node([35.0, 40.0])];
         let mut design = Design::new("horseshoe", outline, fine.clone());
-        design.networks.push(super::super::Network {
-            name: "winch".into(),
-            tendons: vec![Tendon { routing: MaterialPoint::through(routing), ratio: 1.0, slack_mm: 0.0 }],
-        });
+        let tendon = Tendon { routing: MaterialPoint::through(routing), ratio: 1.0, slack_mm: 0.0 };
+        design.networks.push(super::super::Network::new("winch", vec![tendon]));
         let report = remesh(&mut design, &MeshSpec::fibers(250), 1).unwrap();
         design.validate().unwrap();
         let routing = &design.networks[0].tendons[0].routing;

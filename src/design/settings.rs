@@ -82,6 +82,9 @@ pub struct ControllerSettings {
     pub speed_rpm: u32,
     /// Largest acceleration that it asks for, rev/s^2 of the motor.
     pub acceleration: u32,
+    /// Largest torque that the motor can keep up, N mm at the spool.
+    #[serde(skip_serializing_if = "is_assumed")]
+    pub torque_nmm: f64,
 }
 
 impl From<Gravity> for Term {
@@ -157,6 +160,12 @@ impl Default for ControllerSettings {
             track_rate_hz: defaults::TRACK_RATE_HZ,
             speed_rpm: defaults::MOTOR_SPEED_RPM,
             acceleration: defaults::MOTOR_ACCELERATION,
+            torque_nmm: defaults::MOTOR_TORQUE_NMM,
         }
     }
+}
+
+/// Whether a torque is the one that is assumed where nothing is said.
+fn is_assumed(torque_nmm: &f64) -> bool {
+    *torque_nmm == defaults::MOTOR_TORQUE_NMM
 }

@@ -22,8 +22,8 @@ pub(crate) fn sample() -> Design {
     design.poses =
         vec![Pose { name: "lean".into(), targets: vec![target] }, Pose { name: "rest".into(), targets: vec![] }];
     design.networks = vec![
-        Network { name: "left".into(), tendons: vec![tendon(&[4, 0]), tendon(&[4, 3])] },
-        Network { name: "right".into(), tendons: vec![tendon(&[1, 4, 2])] },
+        Network::new("left", vec![tendon(&[4, 0]), tendon(&[4, 3])]),
+        Network::new("right", vec![tendon(&[1, 4, 2])]),
     ];
     let keyframe = |time_s, a, pose: &str| Keyframe {
         time_s,

@@ -157,6 +157,7 @@ fn made(design: &Design) -> Check {
     ranges::TRACK_RATE.check("controller.track_rate_hz", motor.track_rate_hz)?;
     ranges::SPEED.check("controller.speed_rpm", f64::from(motor.speed_rpm))?;
     ranges::MOTOR_ACCELERATION.check("controller.acceleration", f64::from(motor.acceleration))?;
+    ranges::MOTOR_TORQUE.check("controller.torque_nmm", motor.torque_nmm)?;
     sewing(&design.sewing)
 }
 

@@ -4,7 +4,7 @@ use super::body_spec::BodySpec;
 use super::patch;
 use crate::defaults;
 use crate::design::Target;
-use crate::design::{Design, Network};
+use crate::design::{Design, Network, Tendon, TendonSettings};
 use crate::physics::{Body, Contractile, Element, Energy, Ground, MaterialPoint, Model, ModelError, PinSpring, Pins};
 use crate::soft_ik::{Objective, PointTarget, Winch};
 use std::ops::Range;
@@ -98,7 +98,7 @@ fn winch(
     let mut out = Winch { members: Vec::new(), lower: 0.0, upper: f64::INFINITY };
     for tendon in &network.tendons {
         let length = rest_length(&tendon.routing);
-        out.upper = out.upper.min((spec.tendons.max_contraction * length + tendon.slack_mm) / tendon.ratio);
+        out.upper = out.upper.min(limit(spec.tendons, tendon, length));
         out.members.push((elements.len(), tendon.ratio));
         elements.push(Element {
             routing: tendon.routing.clone(),
@@ -112,6 +112,22 @@ fn winch(
     }
     out.lower = -out.upper;
     out
+}
+
+/// Cable that a winch can wind before the first of its tendons is as short as it may be, mm; it can pay out as much.
+pub fn winch_reach_mm(design: &Design, network: &Network) -> f64 {
+    let length = |tendon: &Tendon| -> f64 {
+        let places = tendon.routing.iter().map(|point| point.place(&design.mesh.nodes));
+        places.clone().zip(places.skip(1)).map(|(p, q)| distance(p, q)).sum()
+    };
+    let limits = network.tendons.iter().map(|tendon| limit(&design.tendons, tendon, length(tendon)));
+    let least = limits.fold(f64::INFINITY, f64::min);
+    if least.is_finite() { least } else { 0.0 }
+}
+
+/// Winding at which a tendon of this length is as short as it may be, mm.
+fn limit(settings: &TendonSettings, tendon: &Tendon, length: f64) -> f64 {
+    (settings.max_contraction * length + tendon.slack_mm) / tendon.ratio
 }
 
 /// The objective that `targets` are for a compiled plushie.

@@ -124,12 +124,13 @@ pub(super) fn compiled<'a>(
     design: &Design,
     view: View,
 ) -> Result<&'a mut Compiled, String> {
-    let keep = slot.take().filter(|c| BodySpec::of(&c.source) == BodySpec::of(design));
-    let compiled = match keep {
-        Some(compiled) => compiled,
-        None => {
+    let compiled = match slot.take() {
+        Some(compiled) if BodySpec::of(&compiled.source) == BodySpec::of(design) => compiled,
+        before => {
             let plushie = compile(design, view).map_err(|e| e.to_string())?;
-            Compiled { source: body_of(design), plushie, last: None, tracker: None }
+            // On the same mesh its last posture is a start that is nearer than rest: a hole is dragged.
+            let last = before.filter(|before| before.source.mesh == design.mesh).and_then(|before| before.last);
+            Compiled { source: body_of(design), plushie, last, tracker: None }
         }
     };
     Ok(slot.insert(compiled))

@@ -49,6 +49,9 @@ pub fn pose_with_friction(
     mu: f64,
     stop: &dyn Fn() -> bool,
 ) -> Result<FrictionPose, FrictionPoseError> {
+    let (acting, all) = (design.acting(), design);
+    let design = &*acting;
+    let frictionless = &all.of_acting(frictionless)[..];
     let mut plushie = compile(design, View::Realizable)?;
     let friction = plushie.friction(mu);
     let objective = objective(design, &plushie, targets);
@@ -62,7 +65,7 @@ pub fn pose_with_friction(
     Ok(FrictionPose {
         error: error(&found.pulled.x),
         error_letting_out: found.let_out.map(|x| error(&x)),
-        activations_mm: found.pulled.beta,
+        activations_mm: all.of_all(&found.pulled.beta),
         converged: found.converged,
         factorizations: found.factorizations,
     })

@@ -22,6 +22,7 @@ pub mod worker;
 
 pub use crate::soft_ik::Quality;
 pub use body_spec::BodySpec;
+pub use compile::winch_reach_mm;
 pub use compiled::Effort;
 pub use friction::{FrictionPose, FrictionPoseError, pose_with_friction};
 pub use measure::target_error;

@@ -4,7 +4,7 @@ use super::compiled::{Compiled, Effort, Work};
 use super::idealized::idealize;
 use super::realizable::realize;
 use super::request::{Outcome, Request, Setpoint};
-use crate::design::Design;
+use crate::design::{Design, Network};
 use crate::soft_ik::Quality;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -23,6 +23,8 @@ pub fn solve_once(design: &Design, setpoint: Setpoint, shown: [bool; 2], cancel:
 pub struct Solver {
     idealized: Option<Compiled>,
     realizable: Option<Compiled>,
+    /// The design that was asked about last, and the same without the networks that are switched off.
+    acting: Option<(Arc<Design>, Arc<Design>)>,
 }
 
 impl Solver {
@@ -33,6 +35,9 @@ impl Solver {
 
     /// [`Self::solve`] with a stated effort. The realizable plushie comes first; its activations are held in the idealized one.
     pub fn solve_with(&mut self, request: &Request, effort: Effort, cancel: &AtomicBool) -> Outcome {
+        if request.design.networks.iter().any(|network| network.muted) {
+            return self.solve_acting(request, effort, cancel);
+        }
         let design = &request.design;
         let work = Work { effort, quality: request.quality, cancel };
         let [_, needed] = request.solves();
@@ -48,6 +53,30 @@ impl Solver {
         });
         let realizable = realizable.filter(|_| request.show_realizable);
         Outcome { id: request.id, idealized, realizable, refined: effort == Effort::Thorough }
+    }
+
+    /// Without the networks that are switched off: nothing of theirs is wound, and their tendons pull nothing.
+    fn solve_acting(&mut self, request: &Request, effort: Effort, cancel: &AtomicBool) -> Outcome {
+        let all = &request.design;
+        let acting = match self.acting.take() {
+            Some((of, acting)) if Arc::ptr_eq(&of, all) => acting,
+            _ => Arc::new(all.acting().into_owned()),
+        };
+        self.acting = Some((all.clone(), acting.clone()));
+        let setpoint = match &request.setpoint {
+            Setpoint::Targets(targets) => Setpoint::Targets(targets.clone()),
+            Setpoint::Activations(given) => Setpoint::Activations(all.of_acting(given)),
+        };
+        let mut outcome = self.solve_with(&Request { design: acting, setpoint, ..request.clone() }, effort, cancel);
+        for shape in [&mut outcome.idealized, &mut outcome.realizable].into_iter().flatten() {
+            shape.activations_mm = all.of_all(&shape.activations_mm);
+            let mut tensions = std::mem::take(&mut shape.tendon_tensions).into_iter();
+            let of = |network: &Network| network.tendons.iter().map(|_| !network.muted).collect::<Vec<_>>();
+            let pulls = all.networks.iter().flat_map(of);
+            shape.tendon_tensions =
+                pulls.map(|pulls| if pulls { tensions.next().unwrap_or_default() } else { 0.0 }).collect();
+        }
+        outcome
     }
 }
 

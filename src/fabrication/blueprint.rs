@@ -54,18 +54,25 @@ pub fn export(design: &Design, dir: &Path, options: &Options) -> Result<Manifest
     Ok(manifest)
 }
 
-/// Makes all files of the blueprint, the manifest last. The same design gives the same bytes.
+/// Makes all files of the blueprint, the manifest last. Networks that are switched off are left out, which a remark says. The same design
+/// gives the same bytes.
 ///
 /// # Errors
 /// A design that is not sound or has no networks, and an animation that the motors cannot be told.
 pub fn blueprint(design: &Design, options: &Options) -> Result<(Vec<File>, Manifest), ExportError> {
+    let (acting, all) = (design.acting(), design);
+    let design = &*acting;
     motion::check(design)?;
-    design.validate()?;
+    all.validate()?;
     if design.networks.is_empty() {
         return Err(ExportError::NoNetworks);
     }
     let trajectory = Trajectory::of(design, options.too_fast)?;
     let (mut files, mut sections, mut remarks) = (Vec::new(), Vec::new(), Vec::new());
+    let off: Vec<&str> = all.muted_names().collect();
+    if !off.is_empty() {
+        remarks.push(format!("Switched off and left out: {}.", off.join(", ")));
+    }
     for make in PRODUCTS {
         let source = Source { design, trajectory: &trajectory, sections: &sections, remarks: &remarks };
         let part = make(&source)?;

@@ -11,11 +11,11 @@ use crate::sewing::{self, Body, Breach, Rig};
 const TOLD: usize = 5;
 
 /// Every breach of the design's rules of sewing, at rest; see [`sewing::judge`]. Winches and cables count as networks and tendons do. The
-/// turning gap is the one that the pattern leaves open, which may be less than was asked for.
+/// turning gap is the one that the pattern leaves open, which may be less than was asked for. Networks that are switched off are not judged.
 pub fn judge_design(design: &Design) -> Vec<Breach> {
     let rigs = rigs(design);
     let gap_mm = if rigs.is_empty() { 0.0 } else { seam::of(design).gap_mm };
-    sewing::judge(&design.sewing, &Body::new(&design.outline), &rigs, gap_mm)
+    numbered(design, sewing::judge(&design.sewing, &Body::new(&design.outline), &rigs, gap_mm))
 }
 
 /// Pieces of cable that lie outside of the body with its nodes at `nodes`, mm, as many as the mesh has; see [`sewing::judge_pieces`].
@@ -24,7 +24,7 @@ pub fn judge_pose(design: &Design, nodes: &[Point]) -> Vec<Breach> {
     posed.mesh.nodes = nodes.to_vec();
     let ring = |ring: Vec<usize>| ring.into_iter().map(|node| nodes[node]).collect();
     let rings: Vec<Vec<Point>> = design.mesh.boundary().into_iter().map(ring).collect();
-    sewing::judge_pieces(rings.iter().map(Vec::as_slice), &rigs(&posed))
+    numbered(design, sewing::judge_pieces(rings.iter().map(Vec::as_slice), &rigs(&posed)))
 }
 
 /// Remarks for the maker of a blueprint on the rules that it breaks, the most severe breaches first.
@@ -41,10 +41,21 @@ pub(super) fn remarks(design: &Design) -> Vec<String> {
     remarks
 }
 
-/// The winches of a design with their cables, mm, on its mesh as it lies.
+/// Breaches of the winches that act, by their numbers among all.
+fn numbered(design: &Design, breaches: Vec<Breach>) -> Vec<Breach> {
+    let numbers = design.acting_numbers();
+    breaches.into_iter().map(|breach| breach.renumbered(&numbers)).collect()
+}
+
+/// The winches of a design that act, with their cables, mm, on its mesh as it lies.
 fn rigs(design: &Design) -> Vec<Rig> {
     let rig = |cables: Vec<Vec<Point>>| Rig { winch: cables[0][0], cables };
-    design.networks.iter().map(|n| rig(n.tendons.iter().map(|t| points(design, t)).collect())).collect()
+    design
+        .networks
+        .iter()
+        .filter(|n| !n.muted)
+        .map(|n| rig(n.tendons.iter().map(|t| points(design, t)).collect()))
+        .collect()
 }
 
 #[cfg(test)]

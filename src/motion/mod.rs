@@ -46,4 +46,4 @@ pub use program::Program;
 pub use trajectory::{Trajectory, check};
 pub use transmit::{PATIENCE_S, Sent, transmit};
 pub use winches::counts_per_mm;
-pub use winches::winch_labels;
+pub use winches::{Load, spool_degrees, winch_labels, winch_loads};

@@ -73,6 +73,9 @@ pub struct Figures {
     pub triangles: usize,
     pub winches: usize,
     pub tendons: usize,
+    /// Networks that are switched off: they are not among the winches and tendons, and wind nothing.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub switched_off: Vec<String>,
     pub body_length_mm: f64,
     pub poses: Vec<PoseFigures>,
     /// Rules of sewing that the design breaks, at rest and then pose by pose.
@@ -161,8 +164,9 @@ pub fn run(design: &Design, options: &Options, context: &Context) -> Result<Figu
         fibers: design.fiber_routings().len(),
         nodes: design.mesh.nodes.len(),
         triangles: design.mesh.triangles.len(),
-        winches: design.networks.len(),
-        tendons: design.networks.iter().map(|n| n.tendons.len()).sum(),
+        winches: design.acting_numbers().len(),
+        tendons: design.networks.iter().filter(|n| !n.muted).map(|n| n.tendons.len()).sum(),
+        switched_off: design.muted_names().map(str::to_owned).collect(),
         body_length_mm: design.body_length_mm(),
         poses: Vec::new(),
         sewing: judge_design(design).into_iter().map(|breach| unsewable(None, breach)).collect(),

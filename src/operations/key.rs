@@ -75,7 +75,16 @@ impl Keyed {
     ///
     /// # Errors
     /// The design has other winches or poses by now, or the time is none.
-    pub fn apply(self, design: &mut Design) -> Result<usize, EditError> {
+    pub fn apply(mut self, design: &mut Design) -> Result<usize, EditError> {
+        // A winch that is switched off keeps what it has there.
+        if let Some(before) = edit::keyframe_at(design, self.keyframe.time_s) {
+            let (before, now) = (&design.keyframes[before].activations_mm, &mut self.keyframe.activations_mm);
+            for ((network, before), now) in design.networks.iter().zip(before).zip(now) {
+                if network.muted {
+                    *now = *before;
+                }
+            }
+        }
         edit::set_keyframe(design, self.keyframe)
     }
 }

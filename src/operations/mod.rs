@@ -6,6 +6,7 @@
 //! | [`remesh`] | a design to the same one at another resolution |
 //! | [`reshape`] | a design and another outline to the design with that body |
 //! | [`pose`] | places of the body to pins, and to targets of a pose |
+//! | [`network`] | places and numbers to winches and tendons that are changed |
 //! | [`propose`] | a pose to networks that reach it, the best first |
 //! | [`rig`] | all poses to networks, and to a timeline where there is none |
 //! | [`explore`] | all poses to the curve of their error against winches and tendons |
@@ -44,6 +45,7 @@ pub mod explore;
 pub mod export;
 mod fibers;
 pub mod key;
+pub mod network;
 pub mod new_design;
 pub mod pose;
 mod posing;

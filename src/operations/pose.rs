@@ -40,13 +40,6 @@ pub struct Move {
 /// Why a place or a pose was refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Error {
-    #[error(
-        "{},{} mm is not on the body at rest; the nearest point of the body is {:.1},{:.1}",
-        place[0], place[1], nearest[0], nearest[1]
-    )]
-    OffBody { place: Point, nearest: Point },
-    #[error("{},{} mm is not on the body: the design has no mesh", place[0], place[1])]
-    NoBody { place: Point },
     #[error(transparent)]
     Edit(#[from] EditError),
     #[error(transparent)]
@@ -115,12 +108,12 @@ pub fn at_hand(mesh: &Mesh, at: &BodyPoint) -> BodyPoint {
 /// The point of the body at rest that a place means.
 ///
 /// # Errors
-/// [`Error::OffBody`], [`Error::NoBody`].
-fn body_point(mesh: &Mesh, place: Point) -> Result<BodyPoint, Error> {
+/// [`EditError::OffBody`], [`EditError::NoBody`].
+pub(super) fn body_point(mesh: &Mesh, place: Point) -> Result<BodyPoint, EditError> {
     match mesh.locate_nearest(place, &mesh.nodes) {
         Some((at, distance)) if distance <= REACH * mesh.body_length() => Ok(at),
-        Some((at, _)) => Err(Error::OffBody { place, nearest: mesh.position(&at, &mesh.nodes) }),
-        None => Err(Error::NoBody { place }),
+        Some((at, _)) => Err(EditError::OffBody { place, nearest: mesh.position(&at, &mesh.nodes) }),
+        None => Err(EditError::NoBody { place }),
     }
 }
 
@@ -162,7 +155,7 @@ mod tests {
         let go = AtomicBool::new(false);
         let beside = options(&[[0.0, 0.0], [70.0, 10.0]], &[]);
         let refused = run(&mut design, &beside, &Context::new(&go));
-        assert_eq!(refused, Err(Error::OffBody { place: [70.0, 10.0], nearest: [60.0, 10.0] }));
+        assert_eq!(refused, Err(EditError::OffBody { place: [70.0, 10.0], nearest: [60.0, 10.0] }.into()));
         let nameless = run(&mut design, &Options::default(), &Context::new(&go));
         assert!(matches!(nameless, Err(Error::Edit(EditError::NoName(_)))));
         let stopped = run(&mut design, &options(&[[0.0, 0.0]], &[]), &Context::new(&AtomicBool::new(true)));

@@ -87,8 +87,10 @@ pub struct Rigged {
 pub fn prepare(design: &Design, options: &Options, context: &mut Context) -> Result<Rigged, Error> {
     let cancel = context.cancel();
     let mut progress = |step| context.tell(&Progress::Rig(step));
+    // Winches that are switched off are as if they were not there; they stay, unless all are forgotten.
+    let acting = design.acting();
     let bare = options.fresh.then(|| without_networks(design));
-    let from = bare.as_ref().unwrap_or(design);
+    let from = bare.as_ref().unwrap_or(&acting);
     let mut rigged = rigging::rig(from, options, &mut progress, cancel)?;
     context.check()?;
     let notes = if rigged.keyframes.is_empty() {
@@ -100,7 +102,10 @@ pub fn prepare(design: &Design, options: &Options, context: &mut Context) -> Res
     };
     let networks = rigged.networks.split_off(from.networks.len());
     let replaced = design.keyframes.is_empty() || options.fresh;
-    let keyframes = if replaced { rigged.keyframes } else { Vec::new() };
+    let mut keyframes = if replaced { rigged.keyframes } else { Vec::new() };
+    if !options.fresh {
+        keyframes.iter_mut().for_each(|keyframe| keyframe.activations_mm = design.of_all(&keyframe.activations_mm));
+    }
     Ok(Rigged { networks, keyframes, notes, fresh: options.fresh, mesh: rigged.mesh, present: design.networks.clone() })
 }
 

@@ -1,6 +1,7 @@
 //! The colours of pictures, in a light and a dark theme.
 
 use super::scene::Color;
+use crate::design::Network;
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Theme {
@@ -110,12 +111,22 @@ impl Palette {
         }
     }
 
-    /// The colour of the tendons of winch number `index`.
-    pub fn winch(&self, index: usize) -> Color {
-        let colors = match self.theme {
+    /// The colour of the tendons of a network: its own, or that of its number.
+    pub fn network(&self, index: usize, network: &Network) -> Color {
+        network.color.map_or_else(|| self.winch(index), |[red, green, blue]| Color(red, green, blue, 255))
+    }
+
+    /// The colours that winches have by their numbers.
+    pub fn winches(&self) -> &'static [Color] {
+        match self.theme {
             Theme::Light => &WINCHES_LIGHT,
             Theme::Dark => &WINCHES_DARK,
-        };
+        }
+    }
+
+    /// The colour of the tendons of winch number `index`.
+    pub fn winch(&self, index: usize) -> Color {
+        let colors = self.winches();
         colors[index % colors.len()]
     }
 }

@@ -27,7 +27,7 @@ pub fn with_network(design: &Design, tendons: &[Vec<usize>]) -> Design {
         ratio: 1.0,
         slack_mm: 0.0,
     });
-    with.networks.push(Network { name: unused_name(design), tendons: tendons.collect() });
+    with.networks.push(Network::new(unused_name(design), tendons.collect()));
     with
 }
 

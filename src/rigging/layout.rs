@@ -65,7 +65,7 @@ impl Layout {
                 let routing = winch.iter().cloned().chain(points.by_ref().take(cable.len())).collect();
                 Tendon { routing, ratio: 1.0, slack_mm: 0.0 }
             });
-            Network { name: String::new(), tendons: tendons.collect() }
+            Network::new("", tendons.collect())
         });
         winches.collect()
     }

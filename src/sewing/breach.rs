@@ -54,6 +54,33 @@ impl Breach {
         one.into_iter().chain(other.filter(|other| Some(*other) != one))
     }
 
+    /// The breach with winches by other numbers: `numbers` are those of the winches that it counts.
+    pub fn renumbered(mut self, numbers: &[usize]) -> Self {
+        let number = |winch: &mut usize| *winch = numbers.get(*winch).copied().unwrap_or(*winch);
+        match &mut self {
+            Self::NearSeam { at, .. }
+            | Self::ManyHoles { at, .. }
+            | Self::SharpTurn { at, .. }
+            | Self::Turning { at, .. }
+            | Self::Outside { at, .. } => number(&mut at.winch),
+            Self::Crowded { at, other, .. } | Self::Along { at, other, .. } => {
+                number(&mut at.winch);
+                number(&mut other.winch);
+            }
+            Self::ThroughWinch { at, winch, .. } => {
+                number(&mut at.winch);
+                number(winch);
+            }
+            Self::HousingOutside { winch, .. } | Self::HousingAtGap { winch, .. } => number(winch),
+            Self::HousingsClose { winch, other, .. } => {
+                number(winch);
+                number(other);
+            }
+            Self::ThinBody { .. } => {}
+        }
+        self
+    }
+
     /// By how many times the rule is broken, at least 1: what a search brings down and a list is sorted by.
     pub fn severity(&self) -> f64 {
         // A rule may be set to 0.

@@ -6,6 +6,7 @@ use super::commands::command::Command;
 pub use super::session::FileAction;
 use super::session::{Overlay, Renamed, Resolution, RigChoice, Selection, Task};
 use crate::engine::Quality;
+use crate::operations::network::Part;
 use crate::outline::Point;
 use crate::outline::drawing::Item;
 use crate::picture::Stage;
@@ -28,6 +29,10 @@ pub enum Action {
     Typed(Option<(Renamed, String)>),
     /// Moves the target that is selected, mm; part of a gesture.
     DragTarget(Point),
+    /// Moves a hole, an end or a winch to a place at rest, mm; part of a gesture.
+    MovePart(Part, Point),
+    /// Winds a winch by hand to so many mm of cable.
+    Wind(usize, f64),
     SelectPose(Option<usize>),
     Select(Selection),
     SetQuality(Quality),

@@ -6,6 +6,7 @@ use crate::design::{
     TendonSettings, Term,
 };
 use crate::mesh::BodyPoint;
+use crate::operations::network::{self, Part};
 use crate::operations::pose::{at_hand, put_pin, put_target, rounded};
 use crate::outline::{Drawing, Point};
 use crate::physics::TermKind;
@@ -40,8 +41,8 @@ pub enum Change {
     AddPin(BodyPoint),
     RemovePin(usize),
     AcceptNetwork(Network),
-    RenameNetwork(usize, String),
-    RemoveNetwork(usize),
+    /// A change of winches and tendons.
+    Network(network::Edit),
     SetKeyframe(Keyframe),
     MoveKeyframe {
         index: usize,
@@ -72,7 +73,7 @@ pub enum Made {
     Pose(usize),
     Target { pose: usize, index: usize },
     Keyframe(usize),
-    Network(usize),
+    Part(Part),
 }
 
 impl Change {
@@ -91,8 +92,7 @@ impl Change {
             Self::AddPin(_) => "Add pin",
             Self::RemovePin(_) => "Remove pin",
             Self::AcceptNetwork(_) => "Accept network",
-            Self::RenameNetwork(..) => "Rename network",
-            Self::RemoveNetwork(_) => "Delete network",
+            Self::Network(edit) => edit.label(),
             Self::SetKeyframe(_) => "Set keyframe",
             Self::MoveKeyframe { .. } => "Move keyframe",
             Self::EaseKeyframe(..) => "Keyframe easing",
@@ -143,9 +143,8 @@ impl Change {
             }
             Self::AddPin(at) => nothing(put_pin(design, at_hand(&design.mesh, &at))?),
             Self::RemovePin(index) => nothing(edit::remove_pin(design, index)?),
-            Self::AcceptNetwork(network) => Made::Network(edit::accept_network(design, network)?),
-            Self::RenameNetwork(index, name) => nothing(edit::rename_network(design, index, &name)?),
-            Self::RemoveNetwork(index) => nothing(edit::remove_network(design, index)?),
+            Self::AcceptNetwork(network) => Made::Part(Part::Winch(edit::accept_network(design, network)?)),
+            Self::Network(edit) => network::apply(design, &edit)?.map_or(Made::Nothing, Made::Part),
             Self::SetKeyframe(keyframe) => Made::Keyframe(edit::set_keyframe(design, keyframe)?),
             Self::MoveKeyframe { index, time_s } => Made::Keyframe(edit::move_keyframe(design, index, time_s)?),
             Self::EaseKeyframe(index, easing) => match design.keyframes.get(index).cloned() {

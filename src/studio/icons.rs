@@ -11,6 +11,8 @@ pub enum Icon {
     Redo,
     Hand,
     Pin,
+    Tendon,
+    Pull,
     Fit,
     /// Of a layer of the pictures.
     Layer(&'static [layers::Stroke]),
@@ -88,6 +90,17 @@ pub fn draw(icon: Icon, rect: Rect, color: Color32) -> Vec<Shape> {
             (0.2, 0.08),
         ])],
         Icon::Pin => vec![pen.ring(0.5, 0.3, 0.2), pen.line(&[(0.5, 0.5), (0.5, 0.94)]), pen.dot(0.5, 0.3, 0.07)],
+        Icon::Pull => vec![
+            pen.arc((0.3, 0.5), 0.24, 30.0, 330.0),
+            pen.line(&[(0.5, 0.5), (0.94, 0.5)]),
+            pen.line(&[(0.76, 0.32), (0.94, 0.5), (0.76, 0.68)]),
+        ],
+        Icon::Tendon => vec![
+            pen.ring(0.2, 0.78, 0.14),
+            pen.line(&[(0.3, 0.66), (0.46, 0.34), (0.84, 0.2)]),
+            pen.dot(0.46, 0.34, 0.09),
+            pen.dot(0.86, 0.2, 0.09),
+        ],
         Icon::Fit => vec![
             pen.line(&[(0.06, 0.32), (0.06, 0.06), (0.32, 0.06)]),
             pen.line(&[(0.68, 0.06), (0.94, 0.06), (0.94, 0.32)]),

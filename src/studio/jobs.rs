@@ -1,7 +1,7 @@
 //! Work that takes too long for a frame, each on a thread that reports back once.
 
 use super::keeping::Kept;
-use super::session::ImportChoice;
+use super::session::{ImportChoice, Judgement};
 use crate::design::Design;
 use crate::operations::explore::Point;
 use crate::operations::key::{self, Keyed};
@@ -38,6 +38,7 @@ pub enum Outcome {
     Rigged(Result<Box<Rigged>, rig::Error>),
     Explored(Result<Vec<Arc<Point>>, rig::Error>),
     Keyed(Result<Keyed, key::Error>),
+    Judged(Box<Judgement>),
     Imported(Result<Box<New>, Box<Refused>>),
     Exported {
         folder: PathBuf,

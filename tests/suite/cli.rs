@@ -4,9 +4,9 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-const COMMANDS: [&str; 15] = [
-    "demo", "new", "mesh", "remesh", "reshape", "drawing", "pose", "rig", "key", "check", "export", "render", "solve",
-    "discover", "bench",
+const COMMANDS: [&str; 16] = [
+    "demo", "new", "mesh", "remesh", "reshape", "drawing", "pose", "rig", "network", "key", "check", "export",
+    "render", "solve", "discover", "bench",
 ];
 
 /// A bar that is wide enough for a few dozen fibres.
@@ -298,7 +298,7 @@ fn a_shape_without_equilibrium_is_code_3() {
     design.gravity = Some(Gravity { acceleration: [0.0, -9.81], surface_density: 1e-6 });
     let top: Vec<usize> = (0..design.mesh.nodes.len()).filter(|&n| design.mesh.nodes[n][1] > 39.9).collect();
     let tendon = Tendon { routing: MaterialPoint::through(top), ratio: 1.0, slack_mm: 0.0 };
-    design.networks.push(Network { name: "winch 1".into(), tendons: vec![tendon] });
+    design.networks.push(Network::new("winch 1", vec![tendon]));
     design.poses.push(Pose { name: "fall".into(), targets: Vec::new() });
     file::write(&f.join("falling.plush"), &design).unwrap();
 

@@ -421,7 +421,7 @@ fn winch_names_cannot_break_a_table() {
     let mut design = rigged();
     let tendon = Tendon { routing: MaterialPoint::through([3, 4]), ratio: 1.0, slack_mm: 0.0 };
     design.networks = ["left", "left", " a,b\"c|d;#é ", "", "-1+cmd", "left (2)"]
-        .map(|name| Network { name: name.into(), tendons: vec![tendon.clone()] })
+        .map(|name| Network::new(name, vec![tendon.clone()]))
         .to_vec();
     design.keyframes.clear();
     let labels = winch_labels(&design);

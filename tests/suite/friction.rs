@@ -195,8 +195,7 @@ fn two_radii_and_slack_have_their_closed_forms() {
     design.pins = all.map(pin).collect();
     // Nodes 8 to 12 are 20 mm apart on a line; 19 lies above 12: a right angle.
     let tendon = |ratio, slack_mm| Tendon { routing: MaterialPoint::through([8, 10, 12, 19]), ratio, slack_mm };
-    design.networks =
-        vec![Network { name: "w".into(), tendons: vec![tendon(1.0, 0.0), tendon(2.5, 0.0), tendon(2.0, 7.0)] }];
+    design.networks = vec![Network::new("w", vec![tendon(1.0, 0.0), tendon(2.5, 0.0), tendon(2.0, 7.0)])];
     let mut plushie = compile(&design, View::Realizable).unwrap();
     let (stiffness, epsilon, mu) = (design.tendons.stiffness, design.tendons.epsilon_mm, 0.3);
     let rubbing = plushie.friction(mu);

@@ -88,7 +88,7 @@ fn rigged() -> (tempfile::TempDir, Window) {
         ratio: 1.0,
         slack_mm: 0.0,
     };
-    design.networks.push(plushwright::design::Network { name: "winch 1".into(), tendons: vec![tendon] });
+    design.networks.push(plushwright::design::Network::new("winch 1", vec![tendon]));
     file::write(&path, &design).unwrap();
     let window = window(design, Some(path));
     (folder, window)
@@ -241,6 +241,76 @@ fn a_pose_and_rest_are_keyed_the_same_both_ways() {
     click(&mut window, "Rest");
     click(&mut window, "Add keyframe");
     assert_eq!(session(&window).design().keyframes.len(), 2);
+    same(&window, &folder.path().join("bar.plush"));
+}
+
+#[test]
+fn winches_and_tendons_changed_by_hand_are_the_same_both_ways() {
+    let (folder, mut window) = rigged();
+    let design = || file::read(&folder.path().join("bar.plush")).unwrap();
+    let place = |window: &Window, winch: usize, tendon: usize, hole: usize| {
+        let design = session(window).design();
+        let place = design.networks[winch].tendons[tendon].routing[hole].place(&design.mesh.nodes);
+        place.map(|v| format!("{v:.3}")).join(",")
+    };
+    let network = |args: &[&str]| {
+        run(folder.path(), &[&["network", args[0], "bar.plush", "-o", "bar.plush"], &args[1..]].concat());
+    };
+    let hand = |window: &mut Window, from: [f64; 2], to: [f64; 2]| {
+        let [from, to] = [from, to].map(|p| on_screen(window, "Realizable view", p));
+        drag(window, from, to);
+    };
+    click(&mut window, "Rest");
+    click(&mut window, "Tendon tool");
+    // The end goes inward; a hole is put in; the winch moves.
+    let last = design().networks[0].tendons[0].routing.len() - 1;
+    hand(&mut window, [120.0, 40.0], [104.0, 28.0]);
+    network(&[
+        "move",
+        "--winch",
+        "1",
+        "--tendon",
+        "1",
+        "--hole",
+        &last.to_string(),
+        "--to",
+        &place(&window, 0, 0, last),
+    ]);
+    same(&window, &folder.path().join("bar.plush"));
+    hand(&mut window, [0.0, 40.0], [12.0, 25.0]);
+    network(&["move", "--winch", "winch 1", "--to", &place(&window, 0, 0, 0)]);
+    same(&window, &folder.path().join("bar.plush"));
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    hand(&mut window, [60.0, 12.0], [84.0, 12.0]);
+    let through = [place(&window, 1, 0, 0), place(&window, 1, 0, 1)];
+    network(&["new", "--through", &through[0], "--through", &through[1]]);
+    same(&window, &folder.path().join("bar.plush"));
+    hand(&mut window, [72.0, 12.0], [72.0, 17.0]);
+    network(&["add-hole", "--winch", "2", "--tendon", "1", "--piece", "1", "--at", &place(&window, 1, 0, 1)]);
+    same(&window, &folder.path().join("bar.plush"));
+    hand(&mut window, [60.0, 20.0], [45.0, 12.0]);
+    network(&["add-tendon", "--winch", "2", "--through", &place(&window, 1, 1, 1)]);
+    same(&window, &folder.path().join("bar.plush"));
+    click(&mut window, "Give tendon 2 of winch 2");
+    click(&mut window, "Give to winch 1");
+    network(&["hand-over", "--winch", "2", "--tendon", "2", "--to", "1"]);
+    same(&window, &folder.path().join("bar.plush"));
+    click(&mut window, "Give tendon 2 of winch 1");
+    click(&mut window, "A winch of its own");
+    network(&["split", "--winch", "1", "--tendon", "2"]);
+    same(&window, &folder.path().join("bar.plush"));
+    click(&mut window, "Up");
+    network(&["reorder", "--winch", "3", "--to", "2"]);
+    click(&mut window, "Switch off");
+    network(&["mute", "--winch", "2"]);
+    click(&mut window, "Colour of winch 3");
+    click(&mut window, "Colour 1");
+    network(&["color", "--winch", "2", "--color", "1f68b4"]);
+    same(&window, &folder.path().join("bar.plush"));
+    click(&mut window, "Switch on");
+    network(&["unmute", "--winch", "winch 3"]);
+    click(&mut window, "Delete network winch 2");
+    network(&["remove", "--winch", "winch 2"]);
     same(&window, &folder.path().join("bar.plush"));
 }
 

@@ -244,5 +244,5 @@ fn network(random: &mut Random, mesh: &Mesh) -> Network {
         }
         Tendon { routing, ratio: random.between(0.5, 2.0), slack_mm: random.between(0.0, 5.0) }
     });
-    Network { name: "winch 1".into(), tendons: tendons.collect() }
+    Network::new("winch 1", tendons.collect())
 }

@@ -90,7 +90,7 @@ fn network(design: &Design, neighbours: &[Vec<usize>], name: String, random: &mu
             tendons.push(Tendon { routing, ratio: 1.0, slack_mm });
         }
     }
-    Network { name, tendons }
+    Network::new(name, tendons)
 }
 
 /// A path of fewest edges; `None` where there is none.

@@ -8,7 +8,10 @@ use crate::engine::Shape;
 use crate::picture::palette::{Palette, Theme, with_alpha};
 use crate::picture::scene::Item;
 
-/// The winch-tendon networks, each in a colour of its own; slack tendons are paler.
+/// How strong what is switched off is drawn, of 255.
+const MUTED: u8 = 70;
+
+/// The winch-tendon networks, each in a colour of its own; slack tendons are paler, networks that are switched off hardly there.
 #[derive(Debug, PartialEq)]
 pub struct Tendons {
     networks: Vec<Network>,
@@ -40,13 +43,21 @@ impl Layer for Tendons {
 
     fn draw(&self, items: &mut Vec<Item>) {
         let (palette, shape) = (Palette::of(self.theme), &*self.shape);
-        for (_, tendon) in self.tendons() {
+        let acts = |(winch, _): &(usize, &Tendon)| !self.networks[*winch].muted;
+        for (_, tendon) in self.tendons().filter(acts) {
             items.push(cable(&tendon.routing, shape, marks::CASING, palette.casing));
         }
         for (index, (winch, tendon)) in self.tendons().enumerate() {
             let slack = shape.tendon_tensions.get(index).is_some_and(|&t| t <= 0.0);
-            let color = palette.winch(winch);
-            let color = if slack { with_alpha(color, 170) } else { color };
+            let network = &self.networks[winch];
+            let color = palette.network(winch, network);
+            let color = if network.muted {
+                with_alpha(color, MUTED)
+            } else if slack {
+                with_alpha(color, 170)
+            } else {
+                color
+            };
             items.push(cable(&tendon.routing, shape, marks::TENDON, color));
             for via in tendon.routing.iter().skip(1).filter_map(|point| place(point, shape)) {
                 items.push(disc(via, marks::VIA, color, None));
@@ -54,9 +65,10 @@ impl Layer for Tendons {
         }
         for (winch, network) in self.networks.iter().enumerate() {
             if let Some(center) = network.winch().and_then(|point| place(point, shape)) {
-                let stroke = Some((2.0, palette.winch_stroke));
-                items.push(disc(center, marks::WINCH, palette.winch_fill, stroke));
-                items.push(disc(center, 3.0, palette.winch(winch), None));
+                let fade = |color| if network.muted { with_alpha(color, MUTED) } else { color };
+                let stroke = Some((2.0, fade(palette.winch_stroke)));
+                items.push(disc(center, marks::WINCH, fade(palette.winch_fill), stroke));
+                items.push(disc(center, 3.0, fade(palette.network(winch, network)), None));
             }
         }
     }

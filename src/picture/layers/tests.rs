@@ -19,7 +19,7 @@ fn design() -> Arc<Design> {
     let mut design = Design::new("square", outline, mesh);
     design.pins.push(Pin { at, position: None, stiffness: 1.0 });
     let tendon = Tendon { routing: MaterialPoint::through([0, 2]), ratio: 1.0, slack_mm: 0.0 };
-    design.networks.push(Network { name: "A".to_owned(), tendons: vec![tendon] });
+    design.networks.push(Network::new("A", vec![tendon]));
     Arc::new(design)
 }
 

@@ -45,7 +45,7 @@ pub(super) struct Pool<'a> {
 
 impl<'a> Pool<'a> {
     pub fn new(task: &'a Task<'a>, sampler: &'a Sampler<'a>, topology: Topology, seed: u64) -> Self {
-        Self { task, sampler, linear: Linear::new(task), topology, seed, alive: Vec::new() }
+        Self { task, sampler, linear: Linear::at_rest(task), topology, seed, alive: Vec::new() }
     }
 
     /// Begins new layouts.

@@ -41,9 +41,12 @@ pub fn add_keyframe(session: &mut Session) {
     let time_s = free_time(session);
     match session.picked.mode {
         Mode::Pose => start_keying(session, time_s),
-        Mode::Animation => {
+        Mode::Animation | Mode::Winding => {
             session.playback.playing = false;
-            let activations_mm = animation::activations_at(session.design(), session.playback.time_s);
+            let activations_mm = match session.picked.mode {
+                Mode::Winding => session.winding.wound_mm().to_vec(),
+                _ => animation::activations_at(session.design(), session.playback.time_s),
+            };
             let keyframe = Keyframe { time_s, activations_mm, pose: None, easing: Easing::default() };
             edit::change(session, Change::SetKeyframe(keyframe));
             session.playback.time_s = time_s;
@@ -63,7 +66,7 @@ fn start_keying(session: &mut Session, time_s: f64) {
     if session.keying.is_some() {
         return;
     }
-    let design = session.design().clone();
+    let design = session.acting().clone();
     let pose = session.picked.pose.and_then(|pose| design.poses.get(pose)).map(|pose| pose.name.clone());
     let options = Options { pose, time_s, ..Options::default() };
     session.keying =

@@ -1,6 +1,6 @@
 //! What panels and tools ask for, done.
 
-use super::{animate, edit, filing, sheet};
+use super::{animate, edit, filing, sheet, wind};
 use crate::studio::action::Action;
 use crate::studio::jobs::Outcome;
 use crate::studio::session::{Session, Task};
@@ -17,6 +17,8 @@ pub fn apply(session: &mut Session, action: Action) {
         Action::Overlay(overlay) => session.overlay = overlay,
         Action::Typed(renaming) => session.renaming = renaming,
         Action::DragTarget(to) => edit::drag_target(session, to),
+        Action::MovePart(part, to) => edit::move_part(session, part, to),
+        Action::Wind(winch, wound_mm) => wind::wind(session, winch, wound_mm),
         Action::SelectPose(pose) => edit::select_pose(session, pose),
         Action::Select(selection) => session.picked.selection = selection,
         Action::SetQuality(quality) => session.solver.quality = quality,

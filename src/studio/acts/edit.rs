@@ -2,6 +2,7 @@
 
 use crate::design::edit::EditError;
 use crate::design::history::History;
+use crate::operations::network::{self, Part};
 use crate::outline::Point;
 use crate::studio::change::{Change, Made};
 use crate::studio::session::{Mode, Renamed, Selection, Session};
@@ -25,6 +26,8 @@ pub fn live(session: &mut Session, change: Change) {
         Ok(made) => pick_out(session, made),
         // On the way through a refused value: the last good one stays, and the control shows it.
         Err(EditError::TimeTaken(_)) => {}
+        // A hole on top of the one before it.
+        Err(EditError::Invalid(_)) if matches!(session.picked.selection, Selection::Part(_)) => {}
         Err(error) => session.messages.error(format!("{label}: {error}")),
     }
 }
@@ -41,6 +44,20 @@ pub fn drag_target(session: &mut Session, to: Point) {
     }
 }
 
+/// Goes on with the gesture that made a hole or a winch, or begins one that moves it.
+pub fn move_part(session: &mut Session, part: Part, to: Point) {
+    let change = Change::Network(network::Edit::Move { part, to });
+    if !session.document.history.in_gesture() {
+        return live(session, change);
+    }
+    match session.document.history.preview(|design| change.apply(design)) {
+        Ok(made) => pick_out(session, made),
+        // On the way over another hole: the last place stays.
+        Err(EditError::Invalid(_)) => {}
+        Err(error) => session.messages.error(error.to_string()),
+    }
+}
+
 /// Selects what a change brought about.
 pub fn pick_out(session: &mut Session, made: Made) {
     match made {
@@ -51,7 +68,7 @@ pub fn pick_out(session: &mut Session, made: Made) {
             session.picked.selection = Selection::Target(index);
         }
         Made::Keyframe(index) => session.picked.selection = Selection::Keyframe(index),
-        Made::Network(index) => session.picked.selection = Selection::Network(index),
+        Made::Part(part) => session.picked.selection = Selection::Part(part),
     }
     clamp(session);
 }
@@ -78,6 +95,9 @@ pub fn clamp(session: &mut Session) {
     let design = session.document.design();
     session.sketching.clamp(design);
     session.picked.clamp(design);
+    if session.picked.mode == Mode::Winding && !session.winding.fits(design) {
+        session.picked.mode = Mode::Pose;
+    }
 }
 
 /// Shows a pose, or the rest shape.
@@ -96,7 +116,7 @@ pub fn delete_selected(session: &mut Session) {
         (Selection::Target(index), Some(pose)) => change(session, Change::RemoveTarget { pose, index }),
         (Selection::Pin(index), _) => change(session, Change::RemovePin(index)),
         (Selection::Keyframe(index), _) => change(session, Change::RemoveKeyframe(index)),
-        (Selection::Network(index), _) => change(session, Change::RemoveNetwork(index)),
+        (Selection::Part(part), _) => return change(session, Change::Network(network::Edit::Remove(part))),
         _ => return,
     }
     session.picked.selection = Selection::Nothing;

@@ -13,7 +13,7 @@ pub fn escape(session: &mut Session) {
         session.document.history.cancel();
     } else if session.sketching.open {
         sheet::sketch(session, Sketch::Select(None, None));
-    } else if session.picked.mode == Mode::Animation {
+    } else if session.picked.mode != Mode::Pose {
         session.playback.playing = false;
         session.picked.mode = Mode::Pose;
     } else {

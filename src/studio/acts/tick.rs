@@ -1,6 +1,6 @@
 //! Once a frame: what the threads report, the playhead, what should be seen next.
 
-use super::{animate, discover, edit, filing, mesh, rig, sheet, texture};
+use super::{animate, discover, edit, filing, judge, mesh, rig, sheet, texture};
 use crate::design::animation;
 use crate::engine::Setpoint;
 use crate::studio::canvas::Plushie;
@@ -29,15 +29,19 @@ pub fn tick(session: &mut Session, now_s: f64, passed_s: f64, hands_off: bool) {
     // Nobody sees the plushies while the outline is drawn.
     if !session.sketching.open {
         ask(session);
+        judge::follow(session, hands_off);
     }
 }
 
 /// Asks the solver for what the views show.
 fn ask(session: &mut Session) {
-    let design = session.design().clone();
+    let document = session.design().clone();
+    session.solo.follow(&document);
+    let design = session.acting().clone();
     let setpoint = match session.picked.mode {
         Mode::Pose => Setpoint::Targets(session.targets().to_vec()),
-        Mode::Animation => Setpoint::Activations(animation::activations_at(&design, session.playback.time_s)),
+        Mode::Animation => Setpoint::Activations(animation::activations_at(&document, session.playback.time_s)),
+        Mode::Winding => Setpoint::Activations(session.winding.wound_mm().to_vec()),
     };
     let shows = [Plushie::Idealized, Plushie::Realizable].map(|plushie| session.look.views.shows(plushie));
     session.solver.ask(design, setpoint, shows);
@@ -56,6 +60,7 @@ fn take(session: &mut Session, Finished { serial, outcome }: Finished) {
         Outcome::Rigged(rigged) => rig::take_rig(session, serial, rigged),
         Outcome::Explored(points) => rig::take_curve(session, serial, points),
         Outcome::Keyed(keyed) => animate::take_key(session, serial, keyed),
+        Outcome::Judged(judgement) => session.judging.take(serial, *judgement),
         Outcome::Imported(result) => filing::take_import(session, result),
         Outcome::Exported { folder, result } => filing::take_export(session, &folder, result),
         Outcome::Textured { path, texture } => texture::take_texture(session, path, texture),
@@ -82,6 +87,7 @@ fn break_off(session: &mut Session, serial: u64) {
             *running = None;
         }
     }
+    session.judging.break_off(serial);
     // As if there were none: a path can be typed.
     filing::take_path(session, serial, None, true);
     session.tasks.break_off(serial);

@@ -2,6 +2,7 @@
 
 use crate::design::{Design, Target};
 use crate::mesh::{BodyPoint, Mesh};
+use crate::operations::network::Part;
 use crate::outline::Point;
 
 /// How near the pointer must be to a handle, logical pixels.
@@ -20,6 +21,8 @@ pub enum Hit {
     Pin(usize),
     /// Any other point of the body.
     Body(BodyPoint),
+    /// A winch, or a hole or a piece of its tendons: of tools and menus that are about them.
+    Part(Part),
     Nothing,
 }
 

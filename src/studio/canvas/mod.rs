@@ -8,6 +8,7 @@ mod plushie;
 mod pointer;
 mod sheet;
 mod strokes;
+mod strung;
 mod surface;
 
 pub use camera::Camera;

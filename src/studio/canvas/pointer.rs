@@ -36,7 +36,7 @@ pub fn act(ui: &mut Ui, canvas: &Canvas<'_>, tool: &mut dyn Tool, response: &Res
         tool.click(canvas, at, response.double_clicked(), actions);
     }
     if let Some(at) = response.hover_pos() {
-        ui.ctx().set_cursor_icon(tool.cursor(canvas, canvas.hit(canvas.to_body(at))));
+        ui.ctx().set_cursor_icon(tool.cursor(canvas, tool.under(canvas, canvas.to_body(at))));
     }
 }
 

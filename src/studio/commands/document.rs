@@ -50,13 +50,18 @@ pub static REDO: Command = Command {
 
 pub static DELETE: Command = Command {
     icon: Some(Icon::Trash),
-    keys: &[Keys::plain(Key::Delete)],
+    keys: &[Keys::plain(Key::Delete), Keys::plain(Key::Backspace)],
     scope: Scope::Views,
     why_not: &|session, _| {
-        (session.selection() == Selection::Nothing).then_some("Select a target, pin, keyframe or network first")
+        (session.selection() == Selection::Nothing)
+            .then_some("Select a target, pin, keyframe, network, tendon or hole first")
     },
     run: &|session, _| acts::edit::delete_selected(session),
-    ..Command::new("edit.delete", "Delete selected", "Delete the target, pin, keyframe or network that is selected")
+    ..Command::new(
+        "edit.delete",
+        "Delete selected",
+        "Delete the target, pin, keyframe, network, tendon or hole that is selected",
+    )
 };
 
 pub static ESCAPE: Command = Command {
@@ -170,6 +175,6 @@ fn point(session: &Session, at: Hit) -> Option<BodyPoint> {
     match at {
         Hit::Target(index) => session.targets().get(index).map(|target| target.at),
         Hit::Body(at) => Some(at),
-        Hit::Pin(_) | Hit::Nothing => None,
+        Hit::Pin(_) | Hit::Part(_) | Hit::Nothing => None,
     }
 }

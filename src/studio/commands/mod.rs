@@ -8,6 +8,7 @@ pub mod discovery;
 pub mod document;
 pub mod files;
 pub mod layers;
+pub mod networks;
 pub mod outline;
 pub mod panels;
 pub mod tools;
@@ -26,6 +27,7 @@ pub static ALL: LazyLock<Vec<(&str, Vec<&Command>)>> = LazyLock::new(|| {
         ("View", view::ALL.to_vec()),
         ("Layers", layers::ALL.iter().collect()),
         ("Networks", discovery::ALL.to_vec()),
+        ("Winches and tendons", networks::ALL.to_vec()),
         ("Animation", animation::ALL.to_vec()),
         ("Panels", panels::ALL.iter().collect()),
         ("Outline", outline::ALL.to_vec()),

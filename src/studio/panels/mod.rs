@@ -22,9 +22,11 @@ mod sewable;
 pub mod shortcuts;
 mod stages;
 pub mod status;
+pub mod tendons;
 pub mod timeline;
 pub mod toolbar;
 mod widgets;
+mod winding;
 
 pub use panel::{Entry, Panel};
 pub use widgets::frame;

@@ -6,8 +6,11 @@ use crate::studio::action::{Action, Actions};
 use crate::studio::change::Change;
 use crate::studio::commands::document::{ADD_POSE, CLEAR_TARGETS, DELETE, DELETE_POSE, DUPLICATE_POSE, RENAME_POSE};
 use crate::studio::icons::{self, Icon};
-use crate::studio::session::{Mode, Renamed, Selection, Session};
-use eframe::egui::{Align, Button, DragValue, Layout, RichText, ScrollArea, Ui, vec2};
+use crate::studio::session::{Mode, PoseError, Renamed, Selection, Session};
+use eframe::egui::{Align, Button, Color32, DragValue, Layout, RichText, ScrollArea, Ui, vec2};
+
+/// How much of its strength a figure keeps that is not of the design as it is now.
+const STALE: f32 = 0.55;
 
 pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     title(ui, session, actions);
@@ -58,15 +61,15 @@ fn pose_buttons(ui: &mut Ui, session: &Session, actions: &mut Actions) {
 fn list(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     ui.spacing_mut().item_spacing.y = 2.0;
     let in_pose = session.picked.mode == Mode::Pose;
-    let row = |ui: &mut Ui, name: &str, detail: &str, selected: bool| {
+    let row = |ui: &mut Ui, name: &str, (detail, color): (&str, Color32), selected: bool| {
         let button = Button::selectable(selected, name)
-            .right_text(RichText::new(detail).small().weak())
+            .right_text(RichText::new(detail).small().color(color))
             .truncate()
             .min_size(vec2(ui.available_width(), 26.0));
         // Without the detail, which is for the eye.
         ui.add(button).accessible_name(name)
     };
-    let rest = row(ui, "Rest", "", in_pose && session.picked.pose.is_none());
+    let rest = row(ui, "Rest", ("", Color32::TRANSPARENT), in_pose && session.picked.pose.is_none());
     if rest.on_hover_text("The body as it was cut").clicked() {
         actions.push(Action::SelectPose(None));
     }
@@ -77,12 +80,21 @@ fn list(ui: &mut Ui, session: &Session, actions: &mut Actions) {
             }
             continue;
         }
-        let detail = match pose.targets.len() {
+        let targets = match pose.targets.len() {
             0 => "no targets".to_owned(),
             1 => "1 target".to_owned(),
             n => format!("{n} targets"),
         };
-        let response = row(ui, &pose.name, &detail, in_pose && session.picked.pose == Some(index));
+        let error = session.judging().error(index);
+        let (color, detail) = match error {
+            Some(error) => (error_color(ui, error), format!("{targets}  {:.2} %", 100.0 * error.error)),
+            None => (ui.visuals().weak_text_color(), targets),
+        };
+        let response = row(ui, &pose.name, (&detail, color), in_pose && session.picked.pose == Some(index));
+        let response = match error {
+            Some(error) => response.on_hover_text(error_text(session, error)),
+            None => response,
+        };
         if response.double_clicked() {
             actions.push(Action::Typed(Some((Renamed::Pose(index), pose.name.clone()))));
         } else if response.clicked() {
@@ -91,9 +103,30 @@ fn list(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     }
 }
 
+/// Of the error of a pose: paler than other words while a new one is worked out.
+fn error_color(ui: &Ui, error: PoseError) -> Color32 {
+    let weak = ui.visuals().weak_text_color();
+    if error.fresh { weak } else { weak.gamma_multiply(STALE) }
+}
+
+fn error_text(session: &Session, error: PoseError) -> String {
+    let mm = error.error * session.design().body_length_mm();
+    let percent = 100.0 * error.error;
+    let how = match error {
+        PoseError { fresh: false, .. } => "of the design before; the new one is worked out",
+        PoseError { thorough: false, .. } => "at a first look; the best pose is looked for",
+        _ => "the best pose that winding from rest reaches",
+    };
+    format!("The realizable plushie misses its targets by {mm:.2} mm, {percent:.2} % of the body length: {how}")
+}
+
 fn targets(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     if session.picked.mode == Mode::Animation {
         hint(ui, "The views show the animation. Choose a pose, or drag the body, to go on posing.");
+        return;
+    }
+    if session.picked.mode == Mode::Winding {
+        hint(ui, "The winches are wound by hand. Choose a pose, or drag the body, to go on posing.");
         return;
     }
     let Some(pose) = session.picked.pose else {

@@ -227,6 +227,8 @@ fn controller(ui: &mut Ui, session: &Session, actions: &mut Actions) {
         &mut c.acceleration,
         1..=30000,
     );
+    let tip = "Torque at the spool that the motor can keep up: winches that ask for more turn red";
+    number(ui, "Torque limit", "N mm", tip, &mut c.torque_nmm, 0.1..=10000.0);
     if c != session.design().controller {
         actions.push(Action::Live(Change::Controller(c)));
     }

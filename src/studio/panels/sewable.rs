@@ -1,72 +1,16 @@
-//! Which networks no hand can sew: judged on a thread of its own, once for each design that differs in what is sewn.
+//! Which networks no hand can sew, as the list of them tells it.
 
 use crate::design::Design;
-use crate::fabrication::judge_design;
 use crate::motion::winch_labels;
 use crate::sewing::{Breach, most_severe};
-use crate::studio::action::{Action, Actions};
 use crate::studio::icons::{self, Icon};
-use crate::studio::jobs::Told;
-use crate::studio::session::{Session, Task};
 use eframe::egui::{Label, Rect, RichText, Role, Sense, Ui, Vec2, WidgetInfo, vec2};
-use std::sync::Arc;
 
 /// Breaches that a tip tells one by one.
 const TOLD: usize = 8;
 /// Height of a mark: that of a row of the list, logical pixels.
 const ROW: f32 = 24.0;
 const MARK: f32 = 15.0;
-
-/// A design and the rules of sewing that it breaks.
-struct Judged {
-    design: Arc<Design>,
-    breaches: Vec<Breach>,
-}
-
-/// Knows for which design the newest judgement holds.
-#[derive(Default)]
-pub struct Sewable {
-    design: Option<Arc<Design>>,
-}
-
-impl Sewable {
-    /// The breaches known of the design as it is now; asks for a judgement where the newest one is of another. `owner`: the panel.
-    pub fn breaches<'a>(&mut self, owner: &'static str, session: &'a Session, actions: &mut Actions) -> &'a [Breach] {
-        let design = session.design();
-        let told = session.tasks().told::<Judged>(owner);
-        let holds = told.is_some_and(|told| self.holds(told, design));
-        if !holds && session.tasks().running(owner).is_none() {
-            actions.push(Action::Start(task(owner, design.clone())));
-        }
-        // Until the new one is there the old one stands, unless it is of other networks.
-        told.filter(|told| holds || told.design.networks == design.networks).map_or(&[], |told| &told.breaches)
-    }
-
-    /// Whether a judgement is of this design, or of one that is sewn alike.
-    fn holds(&mut self, told: &Judged, design: &Arc<Design>) -> bool {
-        if self.design.as_ref().is_some_and(|known| Arc::ptr_eq(known, design)) {
-            return true;
-        }
-        let holds = Arc::ptr_eq(&told.design, design) || sewn_alike(&told.design, design);
-        self.design = holds.then(|| design.clone());
-        holds
-    }
-}
-
-/// Whether two designs are equal in all that the judgement reads.
-fn sewn_alike(a: &Design, b: &Design) -> bool {
-    a.networks == b.networks
-        && a.sewing == b.sewing
-        && a.fabrication == b.fabrication
-        && a.pins == b.pins
-        && a.outline == b.outline
-        && a.mesh == b.mesh
-}
-
-fn task(owner: &'static str, design: Arc<Design>) -> Task {
-    let work = move |_: &_| Arc::new(Judged { design: design.clone(), breaches: judge_design(&design) }) as Told;
-    Task { owner, name: "Judging what can be sewn", work: Arc::new(work) }
-}
 
 /// A sign beside a network that breaks rules, with all of them in its tip. Nothing where it keeps them.
 pub fn mark(ui: &mut Ui, design: &Design, index: usize, breaches: &[Breach]) {

@@ -5,7 +5,7 @@ use crate::engine::{EQUILIBRIUM, NEAR_EQUILIBRIUM, Shape};
 use crate::studio::canvas::Plushie;
 use crate::studio::commands::command::Scope;
 use crate::studio::session::{Mode, Session};
-use crate::studio::tools::taken;
+use crate::studio::tools::{PULL, taken};
 use eframe::egui::{Align, Color32, FontId, Label, Layout, RichText, Ui, vec2};
 
 /// Height of both lines, logical pixels.
@@ -60,7 +60,10 @@ fn hint(session: &Session) -> &'static str {
     }
     match session.picked.mode {
         Mode::Animation => "Showing the animation. Escape, or choosing a pose, returns to posing",
-        Mode::Pose => taken(session, Scope::Views).hint,
+        Mode::Winding if taken(session, Scope::Views).id != PULL => {
+            "The winches are wound by hand. K keys that; choosing a pose, or dragging the body, returns to posing"
+        }
+        Mode::Pose | Mode::Winding => taken(session, Scope::Views).hint,
     }
 }
 

@@ -181,7 +181,8 @@ fn curves(ui: &Ui, session: &Session, axis: &Axis, base: f32) {
         })
         .collect();
     for winch in 0..design.networks.len() {
-        let color = style::color32(palette.winch(winch)).gamma_multiply(0.85);
+        let color = style::color32(palette.network(winch, &design.networks[winch]));
+        let color = color.gamma_multiply(if design.networks[winch].muted { 0.3 } else { 0.85 });
         let point = |(x, row): &(f32, Vec<f64>)| -> Pos2 {
             pos2(*x, base - (row.get(winch).copied().unwrap_or(0.0) / largest * height) as f32)
         };

@@ -1,6 +1,7 @@
 //! What is picked out of the document, and what of it the views show.
 
 use crate::design::Design;
+use crate::operations::network::Part;
 
 /// The part that is picked out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -10,14 +11,17 @@ pub enum Selection {
     Target(usize),
     Pin(usize),
     Keyframe(usize),
-    Network(usize),
+    /// A winch, a tendon or a hole.
+    Part(Part),
 }
 
-/// Whether the views show a pose or the animation.
+/// What the views show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
     Pose,
     Animation,
+    /// The winches as a hand has wound them.
+    Winding,
 }
 
 /// The pose, what is selected in it, and whether the views show it.
@@ -27,6 +31,16 @@ pub struct Picked {
     pub pose: Option<usize>,
     pub selection: Selection,
     pub mode: Mode,
+}
+
+impl Selection {
+    /// The network that it is, or belongs to.
+    pub fn network(self) -> Option<usize> {
+        match self {
+            Self::Part(part) => Some(part.winch()),
+            _ => None,
+        }
+    }
 }
 
 impl Picked {
@@ -47,7 +61,7 @@ impl Picked {
             Selection::Target(i) => i >= targets,
             Selection::Pin(i) => i >= design.pins.len(),
             Selection::Keyframe(i) => i >= design.keyframes.len(),
-            Selection::Network(i) => i >= design.networks.len(),
+            Selection::Part(part) => !part.is_in(design),
         };
         if gone {
             self.selection = Selection::Nothing;

@@ -3,6 +3,7 @@
 use super::discovery::Discovery;
 use super::document::Document;
 use super::files::Files;
+use super::judging::Judging;
 use super::look::Look;
 use super::meshing::{Meshing, Resolution};
 use super::overlay::{Overlay, Renamed};
@@ -11,9 +12,11 @@ use super::playback::Playback;
 use super::rigging::Rigging;
 use super::safety::Safety;
 use super::sketching::Sketching;
+use super::solo::Solo;
 use super::solver::{Shapes, Solver};
 use super::tasks::Tasks;
 use super::texturing::{self, Texturing};
+use super::winding::Winding;
 use crate::design::file::MAX_BYTES;
 use crate::design::history::History;
 use crate::design::{Design, Target};
@@ -56,6 +59,9 @@ pub struct Session {
     pub(crate) solver: Solver,
     pub(crate) discovery: Discovery,
     pub(crate) rigging: Rigging,
+    pub(crate) judging: Judging,
+    pub(crate) solo: Solo,
+    pub(crate) winding: Winding,
     pub(crate) meshing: Meshing,
     pub(crate) sketching: Sketching,
     pub(crate) texturing: Texturing,
@@ -91,6 +97,9 @@ impl Session {
             document,
             discovery: Discovery::default(),
             rigging: Rigging::default(),
+            judging: Judging::default(),
+            solo: Solo::default(),
+            winding: Winding::default(),
             meshing: Meshing::default(),
             sketching: Sketching::default(),
             texturing: Texturing::default(),
@@ -112,6 +121,20 @@ impl Session {
     /// The document as it is now.
     pub fn design(&self) -> &Arc<Design> {
         self.document.design()
+    }
+
+    /// The document as the views have it: with one network alone, where that is asked for.
+    pub fn acting(&self) -> &Arc<Design> {
+        self.solo.acting(self.design())
+    }
+
+    pub fn solo(&self) -> &Solo {
+        &self.solo
+    }
+
+    /// The winches as a hand has wound them.
+    pub fn winding(&self) -> &Winding {
+        &self.winding
     }
 
     pub fn history(&self) -> &History {
@@ -158,8 +181,14 @@ impl Session {
         match self.picked.selection {
             Selection::Target(index) => Hit::Target(index),
             Selection::Pin(index) => Hit::Pin(index),
+            Selection::Part(part) => Hit::Part(part),
             _ => Hit::Nothing,
         }
+    }
+
+    /// What the views show.
+    pub fn mode(&self) -> Mode {
+        self.picked.mode
     }
 
     pub fn selection(&self) -> Selection {
@@ -251,7 +280,7 @@ impl Session {
     pub fn cannot_propose(&self) -> Option<&'static str> {
         if self.discovery.running.is_some() && !self.discovery.is_stale() {
             Some("Discovery is running")
-        } else if self.picked.mode == Mode::Animation || self.targets().is_empty() {
+        } else if self.picked.mode != Mode::Pose || self.targets().is_empty() {
             Some("Choose a pose with at least one target first: drag a point of the body")
         } else {
             None
@@ -268,6 +297,11 @@ impl Session {
 
     pub fn rigging(&self) -> &Rigging {
         &self.rigging
+    }
+
+    /// How near each pose comes, and which rules of sewing are broken.
+    pub fn judging(&self) -> &Judging {
+        &self.judging
     }
 
     /// Why no rig can be looked for now, if so.
@@ -327,6 +361,7 @@ impl Drop for Session {
         self.discovery.cancel();
         self.meshing.cancel();
         self.rigging.cancel();
+        self.judging.cancel();
         self.tasks.cancel();
         jobs::cancel(&mut self.keying);
     }

@@ -24,6 +24,7 @@ fn pick_out(under: Hit) -> Action {
     Action::Select(match under {
         Hit::Target(index) => Selection::Target(index),
         Hit::Pin(index) => Selection::Pin(index),
+        Hit::Part(part) => Selection::Part(part),
         Hit::Body(_) | Hit::Nothing => Selection::Nothing,
     })
 }

@@ -2,6 +2,7 @@
 
 use super::tool::Tool;
 use crate::design::Target;
+use crate::operations::network::Part;
 use crate::outline::Point;
 use crate::studio::action::{Action, Actions};
 use crate::studio::canvas::{Canvas, Ground, Hit};
@@ -57,6 +58,15 @@ impl Grip {
     }
 }
 
+/// The winch, the hole or the tendon under a point, or the body.
+fn strung(canvas: &Canvas<'_>, at: Point) -> Hit {
+    match canvas.strung(at) {
+        Some(Part::Piece(winch, tendon, _)) => Hit::Part(Part::Tendon(winch, tendon)),
+        Some(part) => Hit::Part(part),
+        None => canvas.hit(at),
+    }
+}
+
 /// A tool whose drags pull at a [`Grip`].
 pub struct Gripping {
     grip: Grip,
@@ -90,7 +100,12 @@ impl Tool for Gripping {
     }
 
     fn click(&mut self, canvas: &Canvas<'_>, at: Point, _twice: bool, actions: &mut Actions) {
-        actions.push((self.click)(canvas.hit(at)));
+        let hit = match canvas.hit(at) {
+            // A cable can be picked out, though what is dragged is the body.
+            Hit::Body(_) if self.body => strung(canvas, at),
+            hit => hit,
+        };
+        actions.push((self.click)(hit));
     }
 
     fn key(&mut self, _session: &Session, key: Key, _actions: &mut Actions) -> bool {

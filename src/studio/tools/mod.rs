@@ -8,18 +8,24 @@ mod grip;
 mod parts;
 mod pin;
 mod polygon;
+mod pull;
 mod select;
+mod tendon;
 mod tool;
 mod toolbox;
 mod track;
 
+pub use pull::PULL;
+pub use tendon::TENDON;
 pub use tool::{Drawn, Entry, Tool};
 pub use toolbox::{Toolbox, taken};
 
 /// All tools; the first one of a canvas is taken at first.
-pub static ALL: [&Entry; 8] = [
+pub static ALL: [&Entry; 10] = [
     &drag::ENTRY,
     &pin::ENTRY,
+    &tendon::ENTRY,
+    &pull::ENTRY,
     &select::ENTRY,
     &freehand::ENTRY,
     &polygon::ENTRY,

@@ -26,6 +26,7 @@ fn pin(under: Hit) -> Action {
         Hit::Body(at) => Action::Change(Change::AddPin(at)),
         Hit::Pin(index) => Action::Change(Change::RemovePin(index)),
         Hit::Target(index) => Action::Select(Selection::Target(index)),
+        Hit::Part(part) => Action::Select(Selection::Part(part)),
         Hit::Nothing => Action::Select(Selection::Nothing),
     }
 }

@@ -67,6 +67,11 @@ pub trait Tool {
         None
     }
 
+    /// The part of a plushie under a point that it would act on.
+    fn under(&self, canvas: &Canvas<'_>, at: Point) -> Hit {
+        canvas.hit(at)
+    }
+
     /// `under`: what of a plushie lies under the pointer.
     fn cursor(&self, canvas: &Canvas<'_>, under: Hit) -> CursorIcon;
 

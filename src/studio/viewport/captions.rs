@@ -2,7 +2,7 @@
 
 use crate::picture::Stage;
 use crate::studio::canvas::{Camera, Canvas, Plushie};
-use crate::studio::session::Session;
+use crate::studio::session::{Mode, Session};
 use eframe::egui::{Align2, FontId, Pos2, Rect, Stroke, Ui, Vec2};
 
 pub fn show(ui: &Ui, canvas: &Canvas<'_>, plushie: Plushie) {
@@ -42,7 +42,14 @@ fn stage_name(stage: Stage) -> &'static str {
 }
 
 fn networks_text(session: &Session) -> String {
-    match session.design().networks.len() {
+    if let Some(name) = session.solo().name() {
+        return format!("{name} alone");
+    }
+    if session.picked.mode == Mode::Winding {
+        return "wound by hand".to_owned();
+    }
+    match session.design().acting_numbers().len() {
+        0 if !session.design().networks.is_empty() => "all winches switched off".to_owned(),
         0 => "no winches yet".to_owned(),
         1 => "1 winch".to_owned(),
         n => format!("{n} winches"),

@@ -2,12 +2,15 @@
 
 mod captions;
 pub mod geometry;
+mod loads;
 mod picture;
 mod pointer;
 pub mod renderer;
 mod skin;
+mod strings;
 pub mod thumbnail;
 mod views;
 
 pub use super::canvas::{Plushie, camera, hit};
+pub use loads::{is_beyond, limit, words as load_words};
 pub use views::{State, show};

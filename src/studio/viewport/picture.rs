@@ -51,6 +51,6 @@ fn subject<'a>(session: &'a Session, plushie: Plushie, shape: &'a Arc<Shape>) ->
         stage: proposal
             .filter(|_| idealized)
             .and_then(|proposal| Some((session.discovery.stage, &proposal.paper.as_ref()?.1))),
-        ..Subject::new(session.design(), shape)
+        ..Subject::new(session.acting(), shape)
     }
 }

@@ -1,12 +1,13 @@
 //! The pointer in a view: the tool, the menu, what lies under it.
 
 use crate::mesh::BodyPoint;
+use crate::operations::network::Part;
 use crate::outline::Point;
 use crate::studio::action::{Action, Actions};
 use crate::studio::canvas::{Canvas, Ground, Hit, act, navigate};
 use crate::studio::commands::view::FIT;
 use crate::studio::commands::{self, Place};
-use crate::studio::panels::buttons;
+use crate::studio::panels::{buttons, tendons};
 use crate::studio::session::Session;
 use crate::studio::style;
 use crate::studio::tools::Tool;
@@ -28,18 +29,25 @@ pub fn interact(
         *menu_at = pointer;
     }
     if let Some(at) = *menu_at {
-        response.context_menu(|ui| menu(ui, canvas.session, canvas.hit(at), actions));
+        let hits = [canvas.strung(at).map_or(Hit::Nothing, Hit::Part), canvas.hit(at)];
+        response.context_menu(|ui| menu(ui, canvas.session, hits, actions));
     }
     if response.double_clicked() {
         actions.push(Action::Run(&FIT, Hit::Nothing));
     }
-    pointer.map(|p| canvas.hit(p))
+    pointer.map(|p| tool.under(canvas, p))
 }
 
-fn menu(ui: &mut Ui, session: &Session, hit: Hit, actions: &mut Actions) {
+/// All that can be done to what lies under the pointer: to a winch or a cable, and to the body below.
+fn menu(ui: &mut Ui, session: &Session, hits: [Hit; 2], actions: &mut Actions) {
     ui.set_min_width(170.0);
-    for command in commands::at(Place::ContextMenu).filter(|command| command.refused(session, hit).is_none()) {
-        buttons::entry(ui, session, command, hit, actions);
+    for command in commands::at(Place::ContextMenu) {
+        if let Some(hit) = hits.into_iter().find(|&hit| command.refused(session, hit).is_none()) {
+            buttons::entry(ui, session, command, hit, actions);
+        }
+    }
+    if let Hit::Part(part) = hits[0] {
+        tendons::hand_over(ui, session, part, actions);
     }
 }
 
@@ -66,6 +74,11 @@ pub fn highlight(ui: &Ui, canvas: &Canvas<'_>, hovered: Option<Hit>) {
         Some(Hit::Pin(index)) => {
             if let Some(pin) = design.pins.get(index) {
                 ring(on_body(&pin.at), 10.0);
+            }
+        }
+        Some(Hit::Part(part)) => {
+            if let Some(place) = canvas.shown_part(part).filter(|_| !matches!(part, Part::Piece(..))) {
+                ring(place, 11.0);
             }
         }
         Some(Hit::Body(at)) if at.triangle < design.mesh.triangles.len() => ring(on_body(&at), 7.0),

@@ -1,7 +1,7 @@
 //! Both views side by side.
 
 use super::picture::Picture;
-use super::{captions, pointer};
+use super::{captions, loads, pointer, strings};
 use crate::design::Design;
 use crate::engine::Shape;
 use crate::outline::{Point, polygon};
@@ -87,6 +87,8 @@ fn view(
         view.picture.paint(ui, canvas, plushie, shape);
     }
     let hit = pointer::interact(ui, canvas, tool, &mut view.menu_at, &response, actions);
+    strings::show(ui, canvas);
+    loads::show(ui, canvas);
     pointer::highlight(ui, canvas, state.hovered);
     tool.paint(canvas, &ui.painter_at(canvas.rect), response.hover_pos());
     captions::show(ui, canvas, plushie);

@@ -5,3 +5,5 @@ mod looks;
 mod networks;
 mod outline;
 mod posing;
+mod tendons;
+mod winding;

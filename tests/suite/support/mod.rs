@@ -63,7 +63,7 @@ impl Random {
                 }
             })
             .collect();
-        Network { name: "winch 1".into(), tendons }
+        Network::new("winch 1", tendons)
     }
 }
 
@@ -100,8 +100,8 @@ pub fn rigged() -> Design {
     design.poses = vec![Pose { name: "lean".into(), targets: vec![target] }];
     // Nodes 8..12 lie on the line y = 20, 20 mm apart; 24 is (60, 60).
     design.networks = vec![
-        Network { name: "left".into(), tendons: vec![tendon(&[10, 9, 8]), tendon(&[10, 24])] },
-        Network { name: "right".into(), tendons: vec![tendon(&[12, 11, 18])] },
+        Network::new("left", vec![tendon(&[10, 9, 8]), tendon(&[10, 24])]),
+        Network::new("right", vec![tendon(&[12, 11, 18])]),
     ];
     let key = |time_s, left, right, easing| Keyframe { time_s, activations_mm: vec![left, right], pose: None, easing };
     design.keyframes = vec![

@@ -43,7 +43,7 @@ pub fn bar() -> Design {
 /// A winch at the left end with a tendon along the top, as discovery might propose.
 pub fn network() -> Network {
     let tendon = Tendon { routing: MaterialPoint::through(14..20), ratio: 1.0, slack_mm: 0.0 };
-    Network { name: "winch 1".to_owned(), tendons: vec![tendon] }
+    Network::new("winch 1", vec![tendon])
 }
 
 pub fn proposal(design: &Design, error_after: f64) -> Proposal {
@@ -66,7 +66,7 @@ pub fn proposal(design: &Design, error_after: f64) -> Proposal {
 /// One of another network, whose way nobody knows.
 pub fn other(design: &Design, error_after: f64) -> Proposal {
     let tendon = Tendon { routing: MaterialPoint::through(0..6), ratio: 1.0, slack_mm: 0.0 };
-    let network = Network { name: "winch 1".to_owned(), tendons: vec![tendon] };
+    let network = Network::new("winch 1", vec![tendon]);
     Proposal { network, paper: None, ..proposal(design, error_after) }
 }
 

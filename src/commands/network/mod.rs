@@ -1,0 +1,75 @@
+//! `network`: winches and tendons changed by hand.
+
+mod action;
+mod list;
+
+use super::document;
+use super::error::CommandError;
+use super::output::say;
+use crate::fabrication::judge_design;
+use crate::files::shown;
+use crate::motion::winch_labels;
+use crate::operations::Context;
+use crate::operations::network::{self, Error};
+use action::Action;
+use clap::{Args, Subcommand};
+use std::io::Write;
+use std::path::PathBuf;
+use std::sync::atomic::AtomicBool;
+
+/// Change winches and tendons: move and add holes, hand tendons over, make and split winches
+///
+/// Places are in mm, y up, origin at the lower left corner of the rest silhouette's box, and mean points of the body at rest. Winches go
+/// by name or by number; winches, tendons and pieces of cable are counted from 1, holes from the winch (number 0), as `check` does. After a
+/// change the rules of sewing that the design breaks are told.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example: plushwright network move pig.plush --winch 1 --tendon 2 --hole 1 --to 160,80 -o pig.plush"
+)]
+pub struct NetworkCommand {
+    #[command(subcommand)]
+    what: What,
+}
+
+#[derive(Debug, Subcommand)]
+enum What {
+    List(list::List),
+    #[command(flatten)]
+    Change(Action),
+}
+
+/// The design that is changed, and where it goes.
+#[derive(Debug, Args)]
+pub struct Files {
+    /// Design file to read
+    pub design: PathBuf,
+    #[command(flatten)]
+    pub target: document::Target,
+}
+
+impl NetworkCommand {
+    pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
+        let action = match &self.what {
+            What::List(list) => return list.run(out),
+            What::Change(action) => action,
+        };
+        let Files { design, target } = action.files();
+        let (mut design, edit) = target.open(design, cancel)?;
+        let change = action.edit(&design)?;
+        network::run(&mut design, &change, &Context::new(cancel)).map_err(failed)?;
+        edit.save(&design, cancel)?;
+        let (winches, tendons) =
+            (design.networks.len(), design.networks.iter().map(|n| n.tendons.len()).sum::<usize>());
+        let done = change.label().to_lowercase();
+        say(out, &format!("{}: {done}; {winches} winches, {tendons} tendons", shown(&target.output)))?;
+        let names = winch_labels(&design);
+        judge_design(&design).iter().try_for_each(|breach| say(out, &format!("hard to sew: {}", breach.words(&names))))
+    }
+}
+
+fn failed(error: Error) -> CommandError {
+    match error {
+        Error::Cancelled(_) => CommandError::Cancelled,
+        error => CommandError::Usage(error.to_string()),
+    }
+}
