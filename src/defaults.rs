@@ -53,6 +53,14 @@ pub const PHI: f64 = 0.5;
 /// Rounds of the joint search for winches: half a minute of one core for three poses and 414 fibres, after which gains are rare.
 pub const RIG_ROUNDS: usize = 60;
 
+/// Plushies that are sewn in thought to see what a hand's inaccuracy costs: an odd number has a median, five tell a routing that works from
+/// one that works by chance.
+pub const SEWN_DRAWS: usize = 5;
+/// How far a hole is from its mark there, mm: a darning needle set by eye on a pencil mark in felt. Unconfirmed.
+pub const SEWN_HOLE_MM: f64 = 2.0;
+/// How far a winch is from its place, mm: its housing is held by more than one stitch. Unconfirmed.
+pub const SEWN_WINCH_MM: f64 = 1.0;
+
 /// Muscle fibres of a new design, unless its file brings its own mesh. The paper's designs have 276 to 571. A new design has no
 /// default height: it is as large as its file says (plain numbers of an SVG and pixels measure 1/96 inch, those of a DXF or OBJ
 /// 1 mm), and one that is small for a plushie is told.

@@ -11,9 +11,8 @@ use super::shapes::{Subject, design};
 use super::trade::{Common, first_pose, rms};
 use super::{BenchError, Cell, Report, Session, Table};
 use crate::design::{Design, FiberSet};
-use crate::discovery::Parameters;
 use crate::outline::Point;
-use crate::rigging;
+use crate::rigging::{self, ProposeOptions};
 use crate::soft_ik::{Posture, Question};
 
 /// Radius over which activations are averaged, in body lengths.
@@ -46,7 +45,7 @@ struct Level {
 
 /// The best network found for the pose. Errors in body lengths.
 struct Network {
-    score: f64,
+    holes: usize,
     before: f64,
     after: f64,
     winch: Point,
@@ -69,7 +68,7 @@ impl Resolution {
                 "pose apart",
                 "activations apart",
                 "correlation",
-                "score",
+                "holes",
                 "error without network",
                 "error with network",
                 "winch apart",
@@ -105,7 +104,7 @@ impl Resolution {
                     apart.into(),
                     distance.into(),
                     correlation.into(),
-                    network.map(|n| n.score).into(),
+                    network.map(|n| n.holes as f64).into(),
                     network.map(|n| n.before).into(),
                     network.map(|n| n.after).into(),
                     winch.into(),
@@ -167,10 +166,11 @@ impl Resolution {
 
     fn network(&self, subject: &Subject, session: &Session) -> Option<Network> {
         let targets = &subject.design.poses.first()?.targets;
-        let best =
-            rigging::propose(&subject.design, targets, &Parameters::default(), session.cancel).into_iter().next()?;
+        let best = rigging::propose(&subject.design, targets, &ProposeOptions::default(), &mut |_| (), session.cancel)
+            .into_iter()
+            .next()?;
         let winch = best.network.winch()?.place(&subject.design.mesh.nodes);
-        Some(Network { score: best.stages.score, before: best.error_before, after: best.error_after, winch })
+        Some(Network { holes: best.holes, before: best.error_before(), after: best.error_after(), winch })
     }
 }
 

@@ -101,7 +101,7 @@ impl Tour<'_> {
         self.animation(&design)?;
         let text = file::to_text(&design).map_err(|e| CommandError::Failed(e.to_string()))?;
         self.files.push(("pig.plush".into(), text.into_bytes()));
-        let figures = table::figures(&design, None, self.cancel)?;
+        let figures = table::figures(&design, None, false, self.cancel)?;
         let (files, _) =
             fabrication::blueprint(&design, &Default::default()).map_err(|e| CommandError::Failed(e.to_string()))?;
         let count = files.len();

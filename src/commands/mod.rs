@@ -11,6 +11,7 @@ mod discover;
 pub mod document;
 mod drawing;
 pub mod error;
+mod explore;
 mod export;
 mod key;
 mod mesh;

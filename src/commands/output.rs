@@ -1,6 +1,7 @@
 //! Outputs: files and folders that appear whole or not at all, and lines on the given writer.
 
 use super::error::{CommandError, check_cancel};
+use super::explore;
 use crate::design::file::is_design;
 use crate::files::folder::{self, FolderError, MANIFEST, Manifest};
 use crate::files::{self, printable, shown};
@@ -24,6 +25,8 @@ pub enum Kind {
     Picture,
     Answer,
     Drawing,
+    Table,
+    Plot,
 }
 
 /// A file to be written that is no design: an answer, a picture, a drawing.
@@ -80,6 +83,8 @@ impl Kind {
             Self::Picture => "picture",
             Self::Answer => "answer",
             Self::Drawing => "drawing",
+            Self::Table => "table",
+            Self::Plot => "plot",
         }
     }
 
@@ -89,6 +94,8 @@ impl Kind {
             Self::Picture => "png",
             Self::Answer => "json",
             Self::Drawing => "ron",
+            Self::Table => "csv",
+            Self::Plot => "svg",
         }
     }
 
@@ -114,6 +121,8 @@ impl Kind {
                 let text = String::from_utf8_lossy(&head);
                 (text.trim_start().starts_with('(') && text.contains("parts:")).then_some(true)
             }
+            Self::Table => Some(head.starts_with(explore::HEADING.as_bytes())),
+            Self::Plot => Some(head.starts_with(explore::MARK.as_bytes())),
         };
         let named = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(self.ending()));
         !known.unwrap_or(named)

@@ -1,10 +1,13 @@
 //! `rig`: the design loop over all poses, without a window.
 
 use super::error::CommandError;
+use super::explore::Explore;
 use super::output::say;
 use super::{document, words};
 use crate::defaults;
+use crate::design::Design;
 use crate::files::shown;
+use crate::operations::explore;
 use crate::operations::key;
 use crate::operations::rig::{self, Error, Note, Options, TendonChoice};
 use crate::operations::{Context, Progress};
@@ -47,6 +50,8 @@ pub struct Rig {
     /// Seed of the search: another one may find other networks
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u64,
+    #[command(flatten)]
+    pub explore: Explore,
     /// Fibers that seed a network (SEED_NUM of Algorithm 2) [default: several are tried]
     #[arg(long, value_name = "N")]
     pub seed_num: Option<usize>,
@@ -107,6 +112,9 @@ impl Rig {
             join_len: self.join_len,
             phi: self.phi,
         };
+        if self.explore.explore {
+            return self.explore(design, edit, &options, out, cancel);
+        }
         let mut printed = Ok(());
         let mut told = None;
         let mut progress = |step: &Progress| {
@@ -115,7 +123,7 @@ impl Rig {
                 Progress::Rig(rigging::Progress::Round { worst, holes, .. }) => {
                     Some((format!("{:.1}", 100.0 * worst), *holes))
                 }
-                Progress::Rig(_) => None,
+                Progress::Rig(_) | Progress::Proposals(_) | Progress::Explored(_) => None,
             };
             let news = gain.is_none() || gain != told;
             told = gain;
@@ -136,6 +144,45 @@ impl Rig {
             Note::Key(key::Note::Unbalanced(unbalanced)) => Some(unbalanced),
             Note::AtRest { .. } => None,
         }))
+    }
+}
+
+impl Rig {
+    /// All numbers of winches and tendons; what was found is told though it be interrupted.
+    fn explore(
+        &self,
+        mut design: Design,
+        edit: document::Edit,
+        options: &Options,
+        out: &mut dyn Write,
+        cancel: &AtomicBool,
+    ) -> Result<(), CommandError> {
+        let files = self.explore.files(&self.design, self.target.force)?;
+        let (mut points, mut printed) = (Vec::new(), Ok(()));
+        let mut progress = |step: &Progress| {
+            if let Progress::Explored(list) = step {
+                points.clone_from(list);
+                if printed.is_ok() {
+                    printed = say(out, &words::progress(step));
+                }
+            }
+        };
+        let found = explore::run(&design, options, &mut Context::telling(cancel, &mut progress));
+        printed?;
+        if let (Err(Error::Cancelled(_)), false) = (&found, points.is_empty()) {
+            // Files are written by a run that ends by itself.
+            say(out, &super::explore::table(&points).text())?;
+        }
+        let points = found.map_err(|error| failed(&self.design, error))?;
+        files.tell(&points, out, cancel)?;
+        // Of equal ones the first: fewer winches and tendons.
+        let best = points.iter().min_by(|a, b| a.worst.total_cmp(&b.worst));
+        if let Some(best) = best {
+            best.rigged.clone().apply(&mut design).map_err(|error| CommandError::Failed(error.to_string()))?;
+        }
+        edit.save(&design, cancel)?;
+        let tendons: usize = design.networks.iter().map(|n| n.tendons.len()).sum();
+        say(out, &format!("{}: {} winches, {tendons} tendons", shown(&self.target.output), design.networks.len()))
     }
 }
 

@@ -2,18 +2,24 @@
 
 use super::error::CommandError;
 use super::output::say;
+use crate::defaults;
 use crate::design::Design;
 use crate::operations::check::{self, Error, Figures, Note};
 use crate::operations::{Context, Unbalanced};
 use std::io::Write;
 use std::sync::atomic::AtomicBool;
 
-/// The figures of all poses, with this coefficient of friction or the design's own.
+/// The figures of all poses, with this coefficient of friction or the design's own; where that is asked for, as a hand sews them too.
 ///
 /// # Errors
 /// The coefficient is none; it was cancelled.
-pub fn figures(design: &Design, friction: Option<f64>, cancel: &AtomicBool) -> Result<Figures, CommandError> {
-    let options = check::Options { friction, ..check::Options::default() };
+pub fn figures(
+    design: &Design,
+    friction: Option<f64>,
+    sewn: bool,
+    cancel: &AtomicBool,
+) -> Result<Figures, CommandError> {
+    let options = check::Options { friction, sewn, ..check::Options::default() };
     check::run(design, &options, &Context::new(cancel)).map_err(|error| match error {
         Error::Cancelled(_) => CommandError::Cancelled,
         error @ (Error::NoSuchPose(_) | Error::Friction(_)) => CommandError::Usage(error.to_string()),
@@ -77,6 +83,7 @@ fn poses(figures: &Figures, out: &mut dyn Write) -> Result<(), CommandError> {
         )?;
     }
     friction(figures, width, out)?;
+    by_hand(figures, width, out)?;
     // What is off equilibrium is told at the end, as the error that it is.
     for warning in figures.notes.iter().filter(|note| !matches!(note, Note::Unbalanced(_))) {
         say(out, &format!("note: {warning}"))?;
@@ -96,6 +103,27 @@ fn friction(figures: &Figures, width: usize, out: &mut dyn Write) -> Result<(), 
     for p in &figures.poses {
         let [pulled, let_out] = [p.error_realizable_friction, p.error_realizable_letting_out].map(percent);
         say(out, &format!("{:width$}  {pulled:>6}  {let_out:>16}", p.name))?;
+    }
+    Ok(())
+}
+
+/// What a hand's inaccuracy leaves of it, where that was asked for.
+fn by_hand(figures: &Figures, width: usize, out: &mut dyn Write) -> Result<(), CommandError> {
+    if figures.poses.iter().all(|p| p.error_realizable_sewn.is_none()) {
+        return Ok(());
+    }
+    let (draws, hole_mm) = (defaults::SEWN_DRAWS, defaults::SEWN_HOLE_MM);
+    say(out, "")?;
+    say(
+        out,
+        &format!("{:width$}  realizable sewn by hand, {draws} times, holes {hole_mm} mm off (% of body length)", ""),
+    )?;
+    say(out, &format!("{:width$}  as a rule  at worst", "pose"))?;
+    let percent = |error: f64| if error.is_finite() { format!("{:.2}", 100.0 * error) } else { "-".into() };
+    for p in &figures.poses {
+        if let Some(sewn) = p.error_realizable_sewn {
+            say(out, &format!("{:width$}  {:>9}  {:>8}", p.name, percent(sewn.median), percent(sewn.worst)))?;
+        }
     }
     Ok(())
 }

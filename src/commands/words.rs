@@ -2,8 +2,10 @@
 
 use super::error::CommandError;
 use super::output::refused_folder;
+use crate::defaults;
 use crate::fabrication::ExportError;
 use crate::motion::MotionError;
+use crate::operations::explore::Point;
 use crate::operations::{Progress, Unbalanced, new_design, reshape};
 use crate::outline::{Change, Changes, Note, OutlineError, Remedy};
 use crate::rigging;
@@ -68,12 +70,32 @@ pub fn progress(step: &Progress) -> String {
                 100.0 * worst
             )
         }
-        Progress::Rig(rigging::Progress::Found { winches, tendons, errors }) => {
+        Progress::Rig(rigging::Progress::Found { winches, tendons, errors, sewn }) => {
+            let by_hand = errors.iter().zip(sewn).map(|((name, _), sewn)| {
+                format!("{name} {:.2} % ({:.2} % at worst)", 100.0 * sewn.median, 100.0 * sewn.worst)
+            });
+            let by_hand: Vec<String> = by_hand.collect();
             let errors: Vec<String> =
                 errors.iter().map(|(name, error)| format!("{name} {:.2} %", 100.0 * error)).collect();
-            format!("{winches} winches, {tendons} tendons; {}", errors.join(", "))
+            let found = format!("{winches} winches, {tendons} tendons; {}", errors.join(", "));
+            if by_hand.is_empty() {
+                return found;
+            }
+            format!("{found}\nsewn by hand, holes {} mm off: {}", defaults::SEWN_HOLE_MM, by_hand.join(", "))
         }
+        Progress::Proposals(list) => format!("{} networks so far", list.len()),
+        Progress::Explored(list) => list.last().map(|point| explored(point)).unwrap_or_default(),
     }
+}
+
+/// One line about a point of the curve.
+fn explored(point: &Point) -> String {
+    let Point { winches, tendons, takes, worst, .. } = point;
+    let [taken, in_all] = takes;
+    format!(
+        "up to {winches} winches of {tendons} tendons: worst pose {:.1} % of its error at rest, with {taken} winches, {in_all} tendons",
+        100.0 * worst
+    )
 }
 
 /// A note of a reader or the clean-up, and the option that would have it otherwise.

@@ -2,10 +2,11 @@
 
 use super::posing::{self, solve};
 use super::{Cancelled, Context, NoSuchPose, Unbalanced, View};
-use crate::design::{Design, EditError, Pose, TendonSettings, edit};
+use crate::design::{Design, EditError, Pose, Target, TendonSettings, edit};
 use crate::engine::{FrictionPose, FrictionPoseError, Setpoint, Shape, Warning, pose_with_friction, target_error};
 use crate::fabrication::{judge_design, judge_pose};
 use crate::motion::winch_labels;
+use crate::rigging::{Sewn, sewn};
 use crate::sewing::Breach;
 use crate::threads::in_order;
 use serde::{Deserialize, Serialize};
@@ -20,6 +21,8 @@ pub struct Options {
     pub poses: Vec<String>,
     /// Coefficient of friction of all tendons at their holes; none for the design's own.
     pub friction: Option<f64>,
+    /// Whether it is worked out what a hand's inaccuracy costs.
+    pub sewn: bool,
 }
 
 /// Why a design has no figures.
@@ -121,6 +124,10 @@ pub struct PoseFigures {
     /// That of the same activations when all cables have been let out: the other end of what friction leaves open.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error_realizable_letting_out: Option<f64>,
+    /// What is left of the realizable plushie's error when a hand sews it, with friction where there is any; absent where it was not asked
+    /// for. A figure is null where a pose has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error_realizable_sewn: Option<Sewn>,
     /// Whether that is so much worse that the pose counts as narrow.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub narrow: Option<bool>,
@@ -165,10 +172,15 @@ pub fn run(design: &Design, options: &Options, context: &Context) -> Result<Figu
         sewing: judge_design(design).into_iter().map(|breach| unsewable(None, breach)).collect(),
         notes: Vec::new(),
     };
+    // Every pose shares its processors with the other draws.
+    let targets: Vec<&[Target]> = wanted.iter().map(|pose| pose.targets.as_slice()).collect();
+    let by_hand = if options.sewn { sewn(design, &targets, friction, cancel) } else { Vec::new() };
+    context.check()?;
+    let mut by_hand = by_hand.into_iter();
     for solved in solved {
         let Posed { figures: pose, outside, notes } = solved?;
         figures.sewing.extend(outside.into_iter().map(|breach| unsewable(Some(&pose.name), breach)));
-        figures.poses.push(pose);
+        figures.poses.push(PoseFigures { error_realizable_sewn: by_hand.next(), ..pose });
         figures.notes.extend(notes);
     }
     Ok(figures)
@@ -201,6 +213,7 @@ fn pose_figures(design: &Design, pose: &Pose, friction: f64, context: &Context) 
         error_realizable_1mm_off: realizable.play.map(|play| play.error),
         error_realizable_friction: rubbed[0],
         error_realizable_letting_out: rubbed[1],
+        error_realizable_sewn: None,
         narrow: realizable.play.map(|_| matches!(realizable.warning, Some(Warning::Narrow { .. }))),
         milliseconds_idealized: idealized.milliseconds,
         milliseconds_realizable: realizable.milliseconds,
@@ -244,8 +257,9 @@ mod tests {
         design.pins.clear();
         let first = design.poses[0].name.clone();
         let go = AtomicBool::new(false);
-        let of =
-            |name: &str| run(&design, &Options { poses: vec![name.to_owned()], friction: None }, &Context::new(&go));
+        let of = |name: &str| {
+            run(&design, &Options { poses: vec![name.to_owned()], ..Options::default() }, &Context::new(&go))
+        };
         let figures = of(&first).unwrap();
         assert_eq!((figures.poses.len(), &figures.poses[0].name), (1, &first));
         // Nothing holds the body.

@@ -1,6 +1,8 @@
 //! What an operation runs under.
 
+use super::explore;
 use crate::rigging;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Takes what an operation says on its way, and tells it when to stop.
@@ -10,9 +12,13 @@ pub struct Context<'a> {
 }
 
 /// A step of an operation that takes long.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub enum Progress {
     Rig(rigging::Progress),
+    /// Networks that were found so far, the best first.
+    Proposals(Vec<Arc<rigging::Proposal>>),
+    /// Rigs that were found so far, with more and more winches and tendons.
+    Explored(Vec<Arc<explore::Point>>),
 }
 
 /// The operation was told to stop; nothing has changed.

@@ -9,6 +9,7 @@
 //! | [`network`] | places and numbers to winches and tendons that are changed |
 //! | [`propose`] | a pose to networks that reach it, the best first |
 //! | [`rig`] | all poses to networks, and to a timeline where there is none |
+//! | [`explore`] | all poses to the curve of their error against winches and tendons |
 //! | [`key`] | a pose to a keyframe of winch activations |
 //! | [`check`] | a design to its figures |
 //! | [`export`] | a design to the folder of its blueprint |
@@ -40,6 +41,7 @@
 
 pub mod check;
 mod context;
+pub mod explore;
 pub mod export;
 mod fibers;
 pub mod key;

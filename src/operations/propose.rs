@@ -1,18 +1,18 @@
 //! Networks for a pose, tried out by simulation, the best first.
 
 use super::posing::{self, NoSuchPose};
-use super::{Cancelled, Context};
+use super::{Cancelled, Context, Progress};
 use crate::design::{Design, Target};
-use crate::discovery::Parameters;
-use crate::rigging::{self, Proposal};
+use crate::rigging::{self, Proposal, ProposeOptions};
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// Which pose is served, and how networks are looked for.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Options {
     pub pose: String,
-    pub parameters: Parameters,
+    pub search: ProposeOptions,
 }
 
 /// Why there is no proposal.
@@ -28,13 +28,13 @@ pub enum Error {
     Cancelled(#[from] Cancelled),
 }
 
-/// Looks for networks that bring the realizable plushie closer to a pose. The design stays as it is: accepting one is an edit.
+/// Looks for networks that bring the realizable plushie closer to a pose, and tells the list of them as it grows. The design stays as it is: accepting one is an edit.
 ///
 /// # Errors
 /// There is no such pose, it has no targets, nothing helps; [`Error::Cancelled`].
-pub fn run(design: &Design, options: &Options, context: &Context) -> Result<Vec<Proposal>, Error> {
+pub fn run(design: &Design, options: &Options, context: &mut Context) -> Result<Vec<Arc<Proposal>>, Error> {
     let targets = posing::targets(design, &options.pose)?;
-    for_targets(design, &targets, &options.parameters, context)
+    for_targets(design, &targets, &options.search, context)
 }
 
 /// [`run`] for the targets of a pose.
@@ -44,13 +44,15 @@ pub fn run(design: &Design, options: &Options, context: &Context) -> Result<Vec<
 pub fn for_targets(
     design: &Design,
     targets: &[Target],
-    parameters: &Parameters,
-    context: &Context,
-) -> Result<Vec<Proposal>, Error> {
+    options: &ProposeOptions,
+    context: &mut Context,
+) -> Result<Vec<Arc<Proposal>>, Error> {
     if targets.is_empty() {
         return Err(Error::NoTargets);
     }
-    let proposals = rigging::propose(&design.acting(), targets, parameters, context.cancel());
+    let cancel = context.cancel();
+    let mut found = |list: &[Arc<Proposal>]| context.tell(&Progress::Proposals(list.to_vec()));
+    let proposals = rigging::propose(&design.acting(), targets, options, &mut found, cancel);
     context.check()?;
     if proposals.is_empty() { Err(Error::NothingFound) } else { Ok(proposals) }
 }
@@ -67,7 +69,7 @@ mod tests {
         let (go, stop) = (AtomicBool::new(false), AtomicBool::new(true));
         let of = |pose: &str, cancel| {
             let options = Options { pose: pose.to_owned(), ..Options::default() };
-            run(&design, &options, &Context::new(cancel)).map(|proposals| proposals.len())
+            run(&design, &options, &mut Context::new(cancel)).map(|proposals| proposals.len())
         };
         assert!(matches!(of("none", &go), Err(Error::NoSuchPose(_))));
         assert_eq!(of("rest", &go), Err(Error::NoTargets));

@@ -12,21 +12,24 @@ use super::moves::{Sampler, Topology};
 use super::refine::{Fit, Task};
 use crate::random::Random;
 use crate::threads::in_order;
+use std::sync::{Arc, OnceLock};
 
 /// Random layouts at the beginning, bettered by so many changes in the linear model, and those of them that are looked at closely.
 const FIRST: usize = 64;
 const BETTERED: usize = 60;
 const CLOSELY: usize = 16;
 /// Islands, layouts that live on one, and children of a round on each.
-const ISLANDS: usize = 4;
+const ISLANDS: usize = 2;
 const ALIVE: usize = 4;
-const CHILDREN: usize = 4;
+const CHILDREN: usize = 8;
 /// Rounds after which the worst island is given up.
 const ERA: usize = 25;
 /// One child in so many has winches of two parents.
 const CROSSED: usize = 6;
 /// Most random changes of a child; one more has half the chance of one less.
 const MOST_CHANGES: usize = 5;
+/// Half of the children are the best of so many by the body linearised around their parent, the others are taken as they come.
+const SCREENED: usize = 16;
 /// Steps of improvement: of a first look, of a child, of the last one.
 const LOOK: usize = 4;
 const STEPS: usize = 12;
@@ -37,6 +40,20 @@ const BEHIND: f64 = 2.0;
 /// Two layouts whose costs differ by less than this part are the same valley.
 const SAME: f64 = 1e-3;
 
+/// A layout that lives on an island.
+#[derive(Clone)]
+struct Living<'a> {
+    fit: Fit,
+    /// The body around what it reaches, once somebody asks.
+    around: Arc<OnceLock<Option<Linear<'a>>>>,
+}
+
+impl Living<'_> {
+    fn new(fit: Fit) -> Self {
+        Self { fit, around: Arc::default() }
+    }
+}
+
 /// The search; the best so far is there at any moment.
 pub struct Joint<'a> {
     task: &'a Task<'a>,
@@ -45,7 +62,7 @@ pub struct Joint<'a> {
     seed: u64,
     round: u64,
     linear: Option<Linear<'a>>,
-    islands: Vec<Vec<Fit>>,
+    islands: Vec<Vec<Living<'a>>>,
     /// Islands were settled so often before.
     settlements: u64,
     /// The best few of earlier settlements.
@@ -61,7 +78,7 @@ impl<'a> Joint<'a> {
         seed: u64,
         stop: &(dyn Fn() -> bool + Sync),
     ) -> Self {
-        let linear = Linear::new(task);
+        let linear = Linear::at_rest(task);
         let mut joint = Self {
             task,
             sampler,
@@ -100,7 +117,7 @@ impl<'a> Joint<'a> {
         self.islands = vec![Vec::new(); ISLANDS.min(closely.len())];
         let count = self.islands.len().max(1);
         for (k, fit) in closely.into_iter().enumerate() {
-            self.islands[k % count].push(fit);
+            self.islands[k % count].push(Living::new(fit));
         }
         self.islands.iter_mut().for_each(keep);
         self.settlements += 1;
@@ -114,7 +131,7 @@ impl<'a> Joint<'a> {
         topology: Topology,
         stop: &(dyn Fn() -> bool + Sync),
     ) {
-        self.left.extend(self.islands.iter().filter_map(|island| island.first()).cloned());
+        self.left.extend(self.islands.iter().filter_map(|island| Some(island.first()?.fit.clone())));
         (self.task, self.sampler, self.topology) = (task, sampler, topology);
         self.settle(stop);
     }
@@ -125,41 +142,57 @@ impl<'a> Joint<'a> {
         if (self.round as usize).is_multiple_of(ERA) {
             self.give_up();
         }
-        let mut children: Vec<(usize, usize, Layout)> = Vec::new();
-        for (i, island) in self.islands.iter().enumerate() {
-            for k in 0..CHILDREN {
-                let number = (self.round * ISLANDS as u64 + i as u64) * CHILDREN as u64 + k as u64;
-                let random = &mut Random::of(self.seed, "child", number);
-                let parent = k % island.len();
-                let mut layout = island[parent].layout.clone();
-                if random.index(CROSSED) == 0 {
-                    layout = self.sampler.crossed(&layout, &island[random.index(island.len())].layout, random);
-                }
-                for _ in 0..MOST_CHANGES {
-                    layout = self.sampler.changed(&layout, &self.topology, random);
-                    if random.index(2) == 0 {
-                        break;
-                    }
-                }
-                children.push((i, parent, layout));
-            }
-        }
-        let (task, islands) = (self.task, &self.islands);
-        let tried = in_order(&children, |(island, parent, layout)| {
-            let begun = task.resume(layout.clone(), &islands[*island][*parent], stop)?;
-            let looked = task.improve(begun, LOOK, false, stop);
-            // Most children are far behind by now, and would stay there.
-            let behind = islands[*island].last().is_some_and(|last| looked.cost > BEHIND * last.cost);
-            let out = task.wound((!behind).then(|| task.improve(looked, STEPS, false, stop))?, STEPS, stop)?;
-            Some((*island, out))
-        });
+        let places = (0..self.islands.len()).flat_map(|island| (0..CHILDREN).map(move |k| (island, k)));
+        let places: Vec<(usize, usize)> = places.collect();
+        let tried = in_order(&places, |&(island, k)| Some((island, self.child(island, k, stop)?)));
         if stop() {
             return;
         }
         for (island, fit) in tried.into_iter().flatten() {
-            self.islands[island].push(fit);
+            self.islands[island].push(Living::new(fit));
         }
         self.islands.iter_mut().for_each(keep);
+    }
+
+    /// The child number `k` of a round on an island; `None` where it is far behind those that live there.
+    fn child(&self, island: usize, k: usize, stop: &dyn Fn() -> bool) -> Option<Fit> {
+        let (task, living) = (self.task, &self.islands[island]);
+        let number = (self.round * ISLANDS as u64 + island as u64) * CHILDREN as u64 + k as u64;
+        let random = &mut Random::of(self.seed, "child", number);
+        let parent = &living[(k / 2) % living.len()];
+        let around = || parent.around.get_or_init(|| Linear::at(task, &parent.fit)).as_ref();
+        let layout = match around().filter(|_| k % 2 == 0) {
+            None => self.varied(&parent.fit.layout, living, random),
+            Some(around) => self.promising(around, &parent.fit.layout, living, random),
+        };
+        let begun = task.resume(layout, &parent.fit, stop)?;
+        let looked = task.improve(begun, LOOK, false, stop);
+        // Most children are far behind by now, and would stay there.
+        let behind = living.last().is_some_and(|last| looked.cost > BEHIND * last.fit.cost);
+        task.wound((!behind).then(|| task.improve(looked, STEPS, false, stop))?, STEPS, stop)
+    }
+
+    /// A layout after random changes, perhaps with winches of another one.
+    fn varied(&self, layout: &Layout, living: &[Living], random: &mut Random) -> Layout {
+        let mut layout = layout.clone();
+        if random.index(CROSSED) == 0 {
+            layout = self.sampler.crossed(&layout, &living[random.index(living.len())].fit.layout, random);
+        }
+        for _ in 0..MOST_CHANGES {
+            layout = self.sampler.changed(&layout, &self.topology, random);
+            if random.index(2) == 0 {
+                break;
+            }
+        }
+        layout
+    }
+
+    /// The best of many varied layouts by the body around what the layout reaches.
+    fn promising(&self, around: &Linear, layout: &Layout, living: &[Living], random: &mut Random) -> Layout {
+        let varied = (0..SCREENED).map(|_| self.varied(layout, living, random));
+        let scored = varied.map(|layout| (around.left(&layout) + self.task.broken(&layout), layout));
+        let best = scored.min_by(|a, b| a.0.total_cmp(&b.0));
+        best.map_or_else(|| layout.clone(), |(_, layout)| layout)
     }
 
     /// Goes on with another task and its sampler: the same poses by other rules. Layouts that it does not take are dropped.
@@ -172,11 +205,11 @@ impl<'a> Joint<'a> {
     ) {
         (self.task, self.sampler, self.topology) = (task, sampler, topology);
         for island in &mut self.islands {
-            let again = in_order(island, |fit| {
+            let again = in_order(island, |Living { fit, .. }| {
                 let begun = task.resume(fit.layout.clone(), fit, stop)?;
                 task.wound(task.improve(begun, STEPS, false, stop), STEPS, stop)
             });
-            *island = again.into_iter().flatten().collect();
+            *island = again.into_iter().flatten().map(Living::new).collect();
             keep(island);
         }
         self.islands.retain(|island| !island.is_empty());
@@ -184,7 +217,7 @@ impl<'a> Joint<'a> {
 
     /// The worst island is given up for the best.
     fn give_up(&mut self) {
-        let cost = |island: &Vec<Fit>| island.first().map_or(f64::INFINITY, |fit| fit.cost);
+        let cost = |island: &Vec<Living>| island.first().map_or(f64::INFINITY, |living| living.fit.cost);
         self.islands.sort_by(|a, b| cost(a).total_cmp(&cost(b)));
         if self.islands.len() > 1 {
             self.islands.pop();
@@ -192,19 +225,23 @@ impl<'a> Joint<'a> {
         }
     }
 
+    fn living(&self) -> impl Iterator<Item = &Fit> {
+        self.islands.iter().flatten().map(|living| &living.fit)
+    }
+
     /// The best so far; its poses are wound from rest.
     pub fn best(&self) -> Option<&Fit> {
-        self.islands.iter().flatten().chain(&self.left).min_by(|a, b| a.cost.total_cmp(&b.cost))
+        self.living().chain(&self.left).min_by(|a, b| a.cost.total_cmp(&b.cost))
     }
 
     /// The best of the present islands.
     pub fn best_here(&self) -> Option<&Fit> {
-        self.islands.iter().flatten().min_by(|a, b| a.cost.total_cmp(&b.cost))
+        self.living().min_by(|a, b| a.cost.total_cmp(&b.cost))
     }
 
     /// The best few, by their worst pose.
     pub fn finalists(&self, count: usize) -> Vec<Fit> {
-        let mut all: Vec<Fit> = self.islands.iter().flatten().chain(&self.left).cloned().collect();
+        let mut all: Vec<Fit> = self.living().chain(&self.left).cloned().collect();
         all.sort_by(|a, b| a.worst().total_cmp(&b.worst()));
         all.dedup_by(|a, b| (a.cost - b.cost).abs() <= SAME * b.cost);
         all.truncate(count);
@@ -220,14 +257,20 @@ impl<'a> Joint<'a> {
 }
 
 /// The best few that differ.
-fn keep(island: &mut Vec<Fit>) {
-    island.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-    island.dedup_by(|a, b| (a.cost - b.cost).abs() <= SAME * b.cost);
+fn keep(island: &mut Vec<Living>) {
+    island.sort_by(|a, b| a.fit.cost.total_cmp(&b.fit.cost));
+    island.dedup_by(|a, b| (a.fit.cost - b.fit.cost).abs() <= SAME * b.fit.cost);
     island.truncate(ALIVE);
 }
 
 /// A layout after random changes that are kept where the linear model says that they help.
-fn bettered(sampler: &Sampler, topology: &Topology, linear: &Linear, layout: Layout, random: &mut Random) -> Layout {
+pub(super) fn bettered(
+    sampler: &Sampler,
+    topology: &Topology,
+    linear: &Linear,
+    layout: Layout,
+    random: &mut Random,
+) -> Layout {
     let (mut best, mut left) = (layout.clone(), linear.left(&layout));
     for _ in 0..BETTERED {
         let changed = sampler.changed(&best, topology, random);

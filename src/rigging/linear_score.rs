@@ -1,105 +1,238 @@
-//! How well cables would serve the poses, by the body linearised at rest.
+//! How well cables would serve the poses, by the body linearised around a state.
 //!
-//! With `A = S H^-1` at rest a cable under the tension `tau` moves the targets by `-A grad l tau`, and the cables of one winch pull
-//! alike. What the winches of a layout leave of the way to the targets, at their best tensions of each pose, ranks layouts before any of
-//! them is simulated: the model is far from large motions, but says which way a cable pulls at all.
+//! Around positions `x` with the body's Hessian `H`, cables with gradients of length `G`, gaps `b` (rest length less present length)
+//! and windings `alpha` of their winches carry the tensions `tau` of
+//!
+//! ```text
+//! (G H^-1 G^T + 1/k) tau = G u0 - b + B alpha,     u = u0 - H^-1 G^T tau,     u0 = H^-1 p
+//! ```
+//!
+//! where `p` is what the cables that are there in this state pull, and `u0` the way back without them. What the best windings of each
+//! pose, none below zero, leave of the way to the targets ranks layouts before any of them is simulated. Cables that would have to push
+//! are slack. Around rest the model is far from large motions, but says which way a cable pulls at all; around what a layout reaches
+//! already, it says which change of that layout is worth a simulation.
 
-use super::layout::Layout;
-use super::refine::Task;
+use super::layout::{Layout, rigs_of};
+use super::refine::{Fit, Task};
 use crate::engine::compile::{compile_with, objective};
 use crate::mesh::Mesh;
 use crate::outline::Point;
 use crate::outline::polygon::length;
+use nalgebra::{DMatrix, DVector};
 
-/// Rounds of the best tensions, one winch after the other.
+/// Rounds of the best windings, one winch after the other.
 const ROUNDS: usize = 12;
+/// Times that cables which would push are taken out.
+const SLACKENED: usize = 3;
+/// A cable yields at least as much as the body does, by this part: two cables on one way share what one would carry.
+const YIELDING: f64 = 1e-3;
 
-/// The poses of a task, linearised at rest.
+/// The poses of a task, linearised around a state of each.
 pub struct Linear<'a> {
     mesh: &'a Mesh,
-    /// Of every pose: rows of `S H^-1`, and the way that is left, both by the root of the targets' weights.
-    poses: Vec<(Vec<Vec<f64>>, Vec<f64>)>,
+    /// Winches that stay, and their cables.
+    fixed: Vec<(Point, Vec<Vec<Point>>)>,
+    states: Vec<State>,
+    /// Which state is a pose's: around rest all have the same.
+    poses: Vec<Pose>,
+}
+
+/// A state of the body.
+struct State {
+    x: Vec<f64>,
+    /// `H^-1`, column after column.
+    compliance: Vec<f64>,
+}
+
+struct Pose {
+    state: usize,
+    /// `u0`.
+    back: Vec<f64>,
+    /// Rows of `S H^-1` by the root of the targets' weights.
+    rows: Vec<Vec<f64>>,
+    /// What is left of the way after `u0`, likewise.
+    way: Vec<f64>,
+    /// The squared way at rest.
+    whole: f64,
+}
+
+/// A cable in a state: the gradient of its length, entry by entry, and its gap, mm.
+struct Taut {
+    gradient: Vec<(usize, f64)>,
+    gap: f64,
+    winch: usize,
 }
 
 impl<'a> Linear<'a> {
-    /// `None` where the design has no model, or the body is not held.
-    pub fn new(task: &'a Task<'a>) -> Option<Self> {
+    /// Around rest; `None` where the design has no model, or the body is not held.
+    pub fn at_rest(task: &'a Task<'a>) -> Option<Self> {
+        Self::around(task, None)
+    }
+
+    /// Around what a layout reaches.
+    pub fn at(task: &'a Task<'a>, fit: &Fit) -> Option<Self> {
+        Self::around(task, Some(fit))
+    }
+
+    fn around(task: &'a Task<'a>, fit: Option<&Fit>) -> Option<Self> {
         let mesh = &task.design.mesh;
-        let mut plushie = compile_with(task.design, task.fixed).ok()?;
+        let mut plushie = compile_with(task.design, &[]).ok()?;
         let rest = plushie.model.rest.clone();
-        plushie.model.contractile.set_contractions(&vec![0.0; plushie.tendons.len()]);
-        plushie.model.factorize_for_descent(&rest).ok()?;
-        let mut poses = Vec::new();
-        for (targets, _) in &task.poses {
+        let (mut states, mut poses) = (Vec::new(), Vec::new());
+        for (k, (targets, whole)) in task.poses.iter().enumerate() {
+            if fit.is_some() || k == 0 {
+                let x = fit.map_or_else(|| rest.clone(), |fit| fit.poses[k].x.clone());
+                plushie.model.factorize_for_descent(&x).ok()?;
+                let mut compliance = vec![0.0; x.len() * x.len()];
+                (0..x.len()).for_each(|i| compliance[i * x.len() + i] = 1.0);
+                plushie.model.solve_many(&mut compliance, x.len());
+                states.push(State { x, compliance });
+            }
+            let state = states.len() - 1;
+            let State { x, compliance } = &states[state];
+            // Without cables the body pulls back with what they carried.
+            let mut back = vec![0.0; x.len()];
+            if fit.is_some() {
+                plushie.model.gradient(x, &mut back);
+                back.iter_mut().for_each(|g| *g = -*g);
+                plushie.model.solve(&mut back);
+            }
             let objective = objective(task.design, &plushie, targets);
             let (mut rows, mut way) = (Vec::new(), Vec::new());
             for target in &objective.targets {
                 let root = target.weight.sqrt();
-                for (axis, offset) in target.offset(&rest).into_iter().enumerate() {
-                    let mut row = vec![0.0; rest.len()];
+                for (axis, offset) in target.offset(x).into_iter().enumerate() {
+                    let mut row = vec![0.0; x.len()];
+                    let mut gone = 0.0;
                     for (&n, w) in target.nodes.iter().zip(&target.weights) {
-                        row[2 * n + axis] += root * w;
+                        let column = &compliance[(2 * n + axis) * x.len()..][..x.len()];
+                        row.iter_mut().zip(column).for_each(|(r, c)| *r += root * w * c);
+                        gone += w * back[2 * n + axis];
                     }
-                    plushie.model.solve(&mut row);
                     rows.push(row);
-                    way.push(-root * offset);
+                    way.push(-root * (offset + gone));
                 }
             }
-            poses.push((rows, way));
+            poses.push(Pose { state, back, rows, way, whole: *whole });
         }
-        Some(Self { mesh, poses })
+        let fixed = rigs_of(task.fixed, mesh).into_iter().map(|rig| {
+            let cables = rig.cables.into_iter().map(|cable| cable[1.min(cable.len())..].to_vec()).collect();
+            (rig.winch, cables)
+        });
+        Some(Self { mesh, fixed: fixed.collect(), states, poses })
     }
 
     /// The squared way that is left of every pose, as a part of the whole, squared again and summed: as `C` counts. Infinite for a
     /// layout outside of the body.
     pub fn left(&self, layout: &Layout) -> f64 {
-        let Some(effects) = layout.winches.iter().map(|w| self.effects(w.at, &w.cables)).collect::<Option<Vec<_>>>()
-        else {
-            return f64::INFINITY;
+        let own = layout.winches.iter().map(|placed| (placed.at, placed.cables.as_slice()));
+        let winches: Vec<(Point, &[Vec<Point>])> =
+            self.fixed.iter().map(|(at, cables)| (*at, cables.as_slice())).chain(own).collect();
+        let taut = |state: &State| -> Option<Vec<Taut>> {
+            let cables = winches
+                .iter()
+                .enumerate()
+                .flat_map(|(winch, (at, cables))| cables.iter().map(move |cable| self.taut(state, winch, *at, cable)));
+            cables.collect()
         };
-        let left = |k: usize| {
-            let mine: Vec<&Vec<f64>> = effects.iter().map(|of_winch| &of_winch[k]).collect();
-            left(&self.poses[k].1, &mine)
+        let Some(taut) = self.states.iter().map(taut).collect::<Option<Vec<_>>>() else { return f64::INFINITY };
+        let left = |pose: &Pose| {
+            let compliance = &self.states[pose.state].compliance;
+            pose.left(compliance, &taut[pose.state], winches.len()).map_or(f64::INFINITY, |left| left.powi(2))
         };
-        (0..self.poses.len()).map(|k| left(k).powi(2)).sum()
+        self.poses.iter().map(left).sum()
     }
 
-    /// How a winch moves the targets of every pose, all its cables pulled alike.
-    fn effects(&self, winch: Point, cables: &[Vec<Point>]) -> Option<Vec<Vec<f64>>> {
-        let mut out: Vec<Vec<f64>> = self.poses.iter().map(|(_, way)| vec![0.0; way.len()]).collect();
-        for cable in cables {
-            let points = [&[winch], &cable[..]].concat();
-            for s in points.windows(2) {
-                let whole = length(s[0], s[1]).max(f64::MIN_POSITIVE);
-                let u = [(s[1][0] - s[0][0]) / whole, (s[1][1] - s[0][1]) / whole];
-                for (p, sign) in [(s[0], 1.0), (s[1], -1.0)] {
-                    let at = self.mesh.locate(p, &self.mesh.nodes)?;
-                    for (n, w) in self.mesh.triangles[at.triangle].into_iter().zip(at.weights) {
-                        for ((rows, _), out) in self.poses.iter().zip(&mut out) {
-                            for (row, out) in rows.iter().zip(out) {
-                                *out += sign * w * (u[0] * row[2 * n] + u[1] * row[2 * n + 1]);
-                            }
-                        }
+    fn taut(&self, state: &State, winch: usize, at: Point, cable: &[Point]) -> Option<Taut> {
+        let mut out = Taut { gradient: Vec::new(), gap: 0.0, winch };
+        let mut before: Option<(Point, Point, crate::mesh::BodyPoint)> = None;
+        for &p in std::iter::once(&at).chain(cable) {
+            let body = self.mesh.locate(p, &self.mesh.nodes)?;
+            let corners = self.mesh.triangles[body.triangle];
+            let mut here = [0.0; 2];
+            for (n, w) in corners.into_iter().zip(body.weights) {
+                here[0] += w * state.x[2 * n];
+                here[1] += w * state.x[2 * n + 1];
+            }
+            if let Some((rest, there, other)) = before {
+                let now = length(there, here).max(f64::MIN_POSITIVE);
+                out.gap += length(rest, p) - now;
+                let u = [(here[0] - there[0]) / now, (here[1] - there[1]) / now];
+                for (point, sign) in [(&other, -1.0), (&body, 1.0)] {
+                    for (n, w) in self.mesh.triangles[point.triangle].into_iter().zip(point.weights) {
+                        out.gradient.extend([(2 * n, sign * w * u[0]), (2 * n + 1, sign * w * u[1])]);
                     }
                 }
             }
+            before = Some((p, here, body));
         }
         Some(out)
     }
 }
 
-/// The part of a squared way that winches of these effects leave at the best tensions, none below zero.
-fn left(way: &[f64], effects: &[&Vec<f64>]) -> f64 {
-    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
-    let whole = dot(way, way).max(f64::MIN_POSITIVE);
-    let (mut rest, mut tensions) = (way.to_vec(), vec![0.0; effects.len()]);
-    for _ in 0..ROUNDS {
-        for (effect, tension) in effects.iter().zip(&mut tensions) {
-            let by = dot(effect, &rest) / dot(effect, effect).max(f64::MIN_POSITIVE);
-            let next = f64::max(*tension + by, 0.0);
-            rest.iter_mut().zip(effect.iter()).for_each(|(r, e)| *r -= (next - *tension) * e);
-            *tension = next;
+impl Pose {
+    /// The part of the squared way at rest that cables leave at the best windings of their winches; `None` where they have none.
+    fn left(&self, compliance: &[f64], cables: &[Taut], winches: usize) -> Option<f64> {
+        let n = self.back.len();
+        let dot = |row: &[f64], cable: &Taut| cable.gradient.iter().map(|&(i, g)| g * row[i]).sum::<f64>();
+        let effects: Vec<DVector<f64>> = cables
+            .iter()
+            .map(|cable| DVector::from_iterator(self.rows.len(), self.rows.iter().map(|row| dot(row, cable))))
+            .collect();
+        let coupling = DMatrix::from_fn(cables.len(), cables.len(), |a, b| {
+            if b > a {
+                return 0.0;
+            }
+            cables[a].gradient.iter().map(|&(i, g)| g * dot(&compliance[i * n..][..n], &cables[b])).sum()
+        });
+        let mut taut: Vec<usize> = (0..cables.len()).collect();
+        let mut left = self.way.iter().map(|w| w * w).sum::<f64>();
+        for _ in 0..SLACKENED {
+            if taut.is_empty() {
+                break;
+            }
+            let m = taut.len();
+            let mut matrix = DMatrix::from_fn(m, m, |a, b| coupling[(taut[a].max(taut[b]), taut[a].min(taut[b]))]);
+            (0..m).for_each(|k| matrix[(k, k)] *= 1.0 + YIELDING);
+            let factor = matrix.cholesky()?;
+            let own = factor
+                .solve(&DVector::from_iterator(m, taut.iter().map(|&c| dot(&self.back, &cables[c]) - cables[c].gap)));
+            // Tensions by the winding of each winch.
+            let by_winch: Vec<DVector<f64>> = (0..winches)
+                .map(|w| {
+                    let pulled = taut.iter().map(|&c| if cables[c].winch == w { 1.0 } else { 0.0 });
+                    factor.solve(&DVector::from_iterator(m, pulled))
+                })
+                .collect();
+            let moved = |tensions: &DVector<f64>| {
+                let mut out = DVector::zeros(self.rows.len());
+                taut.iter().zip(tensions.iter()).for_each(|(&c, t)| out.axpy(*t, &effects[c], 1.0));
+                out
+            };
+            let mut rest = DVector::from_column_slice(&self.way) + moved(&own);
+            let moves: Vec<DVector<f64>> = by_winch.iter().map(moved).collect();
+            let mut windings = vec![0.0; winches];
+            for _ in 0..ROUNDS {
+                for (by, winding) in moves.iter().zip(&mut windings) {
+                    let square = by.dot(by);
+                    if square > 0.0 {
+                        let next = f64::max(*winding - by.dot(&rest) / square, 0.0);
+                        rest.axpy(next - *winding, by, 1.0);
+                        *winding = next;
+                    }
+                }
+            }
+            left = rest.dot(&rest);
+            let tension = |k: usize| own[k] + by_winch.iter().zip(&windings).map(|(by, w)| by[k] * w).sum::<f64>();
+            let pulling: Vec<usize> = (0..m).filter(|&k| tension(k) > 0.0).map(|k| taut[k]).collect();
+            if pulling.len() == m {
+                break;
+            }
+            taut = pulling;
         }
+        if taut.is_empty() {
+            left = self.way.iter().map(|w| w * w).sum::<f64>();
+        }
+        Some(left / self.whole)
     }
-    dot(&rest, &rest) / whole
 }

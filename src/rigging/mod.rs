@@ -10,7 +10,9 @@
 //! | `sewable` | the rules of sewing as figures that a search brings to zero |
 //! | `prune` | points, tendons and winches that cost little are left out |
 //! | `greedy` | the paper's loop: solve, discover, try out, accept, winch by winch (section 3) |
-//! | `propose` | networks for one pose, for somebody to choose from |
+//! | `propose/` | networks for one pose, for somebody to choose from, as they are found |
+//! | `checked` | a pose of a rig as a check has it |
+//! | `robust` | what the inaccuracy of a hand costs |
 //! | `generators/`, `criteria/` | where their candidates come from, and what makes one better than another |
 //! | `trial`, `rank` | a design wound from rest towards a pose; many candidates tried out and put in order |
 //!
@@ -21,6 +23,7 @@
 
 pub mod activation;
 mod candidate;
+mod checked;
 pub mod criteria;
 pub mod criterion;
 pub mod generator;
@@ -35,13 +38,16 @@ mod propose;
 mod prune;
 mod rank;
 mod refine;
+mod robust;
 mod search;
 mod sewable;
 mod trial;
 
 pub use candidate::{Baseline, Candidate, with_network};
+pub use checked::Checked;
 pub use options::{BadTendons, Method, Progress, RigError, RigOptions, TendonChoice};
-pub use propose::{Proposal, propose};
+pub use propose::{PoseServed, Proposal, ProposeOptions, propose};
+pub use robust::{Sewn, sewn};
 pub use search::rig;
 pub use trial::{Reached, Scrutiny, Trial};
 

@@ -1,5 +1,6 @@
 //! What a search for a rig may build, what it tells on the way, and why it may fail.
 
+use super::robust::Sewn;
 use crate::defaults;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -111,8 +112,9 @@ pub enum Progress {
     Accepted { winch: usize, tendons: usize, errors: Vec<(String, f64)> },
     /// A round of the joint search begins: the worst pose's error so far, as a part of that at rest, and the holes of the rig.
     Round { round: usize, rounds: usize, worst: f64, holes: usize },
-    /// The end of the joint search; `errors`: what a check says of every pose, body lengths.
-    Found { winches: usize, tendons: usize, errors: Vec<(String, f64)> },
+    /// The end of the joint search; `errors`: what a check says of every pose, body lengths; `sewn`: what is left of each when a
+    /// hand sews it, empty where no rule of sewing counts.
+    Found { winches: usize, tendons: usize, errors: Vec<(String, f64)>, sewn: Vec<Sewn> },
 }
 
 /// Why no rig was found.

@@ -7,7 +7,7 @@ use super::refine::{Fit, KEPT, Task};
 /// All poses served to this part of their rest errors need no better rig.
 pub(super) const SERVED: f64 = 0.005;
 /// What is left out may make the worst pose worse by this part.
-const PRICE: f64 = 0.03;
+pub(super) const PRICE: f64 = 0.03;
 /// Steps of improvement after something was left out.
 const STEPS: usize = 25;
 
@@ -46,7 +46,7 @@ fn without_a_winch(layout: &Layout, topology: &Topology) -> Fewer {
     if optional { (0..layout.winches.len()).map(without).collect() } else { Vec::new() }
 }
 
-fn without_a_tendon(layout: &Layout, topology: &Topology) -> Fewer {
+pub(super) fn without_a_tendon(layout: &Layout, topology: &Topology) -> Fewer {
     let fewest = |winch: usize| topology.tendons.get(winch).map_or(1, |[fewest, _]| *fewest);
     let mut out = Vec::new();
     for (winch, placed) in layout.winches.iter().enumerate().filter(|(k, w)| w.cables.len() > fewest(*k)) {
@@ -59,7 +59,7 @@ fn without_a_tendon(layout: &Layout, topology: &Topology) -> Fewer {
     out
 }
 
-fn without_a_point(layout: &Layout, _: &Topology) -> Fewer {
+pub(super) fn without_a_point(layout: &Layout, _: &Topology) -> Fewer {
     let mut out = Vec::new();
     for (winch, placed) in layout.winches.iter().enumerate() {
         for (cable, points) in placed.cables.iter().enumerate() {

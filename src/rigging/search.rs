@@ -1,6 +1,7 @@
 //! Winches and tendons for all poses of a design, without a hand.
 
 use super::candidate::unused_name;
+use super::checked::Checked;
 use super::greedy;
 use super::joint::Joint;
 use super::layout::rigs_of;
@@ -8,10 +9,11 @@ use super::moves::{Sampler, Topology};
 use super::options::{Method, Progress, RigError, RigOptions, TendonChoice};
 use super::prune::{SERVED, pruned};
 use super::refine::{Fit, Task};
+use super::robust::{self, Sewn};
 use super::sewable::Sewable;
-use crate::design::{Design, Network, remesh};
+use crate::design::{Design, Network, Pose, Target, remesh};
 use crate::engine::compile::{View, compile};
-use crate::engine::{Setpoint, pose_with_friction, solve_once, target_error};
+use crate::engine::target_error;
 use crate::mesh::{Mesh, MeshSpec};
 use crate::outline::Outline;
 use crate::threads::in_order;
@@ -29,7 +31,7 @@ const SHARPENING: usize = 40;
 const PATIENCE: usize = 25;
 const GAIN: f64 = 0.99;
 /// Most holes of a tendon where no rule is asked for.
-const FREE_HOLES: usize = 20;
+pub(super) const FREE_HOLES: usize = 20;
 
 /// The design with winches for its poses, in addition to those that it has.
 ///
@@ -55,7 +57,7 @@ pub fn rig(
 }
 
 /// The rim of a mesh at rest.
-fn rim(mesh: &Mesh) -> Outline {
+pub(super) fn rim(mesh: &Mesh) -> Outline {
     let mut rings = mesh.boundary().into_iter().map(|ring| ring.into_iter().map(|n| mesh.nodes[n]).collect());
     Outline { outer: rings.next().unwrap_or_default(), holes: rings.collect() }
 }
@@ -82,21 +84,23 @@ fn together(
             in_order(&found, |fit| task.transferred(fit, &stop)).into_iter().flatten().collect()
         }
     };
-    let verified = in_order(&found, |fit| verified(design, fit, cancel));
+    let verified = in_order(&found, |fit| verified(design, fit, options.rules, cancel));
     if cancel.load(atomic::Ordering::Relaxed) {
         return Err(RigError::Cancelled);
     }
     let worst =
         |poses: &[Verified], error: fn(&Verified) -> f64| poses.iter().map(|p| error(p) / p.rest).fold(0.0, f64::max);
-    // With friction where the design has it; a rig that has no figure there is the last choice.
-    let order = |poses: &[Verified]| (worst(poses, |p| p.with_friction), worst(poses, |p| p.error));
+    // As a hand sews it where it should, with friction where the design has it; a rig that has no figure there is the last choice.
+    let real = |p: &Verified| p.sewn.map_or(p.real, |sewn| sewn.median.max(p.real));
+    let order = |poses: &[Verified]| (worst(poses, real), worst(poses, |p| p.error));
     let best = verified.into_iter().min_by(|a, b| order(&a.1).partial_cmp(&order(&b.1)).unwrap_or(Ordering::Equal));
     let Some((rigged, poses)) = best.filter(|(_, poses)| helps(poses)) else {
         return Err(RigError::NothingFound);
     };
     let tendons = rigged.networks[design.networks.len()..].iter().map(|n| n.tendons.len()).sum();
+    let sewn = poses.iter().filter_map(|pose| pose.sewn).collect();
     let errors = poses.into_iter().map(|pose| (pose.name, pose.error)).collect();
-    progress(Progress::Found { winches: rigged.networks.len() - design.networks.len(), tendons, errors });
+    progress(Progress::Found { winches: rigged.networks.len() - design.networks.len(), tendons, errors, sewn });
     Ok(rigged)
 }
 
@@ -111,7 +115,7 @@ fn topology(design: &Design, options: &RigOptions) -> Topology {
 }
 
 /// The design on a coarse mesh, where its own is fine and the outline takes another one.
-fn coarser(design: &Design) -> Option<Design> {
+pub(super) fn coarser(design: &Design) -> Option<Design> {
     if design.mesh.edges().len() <= FINE {
         return None;
     }
@@ -121,7 +125,8 @@ fn coarser(design: &Design) -> Option<Design> {
     Some(coarse)
 }
 
-fn sewable<'a>(design: &'a Design, rim: &'a Outline) -> Sewable<'a> {
+/// The rules for new networks beside those that are there.
+pub(super) fn sewable<'a>(design: &'a Design, rim: &'a Outline) -> Sewable<'a> {
     let gap_mm = design.fabrication.turning_gap_mm;
     Sewable::new(design.sewing, &design.outline, rim, gap_mm, rigs_of(&design.networks, &design.mesh))
 }
@@ -186,7 +191,9 @@ struct Verified {
     name: String,
     error: f64,
     /// With the design's friction at the holes; infinite where there is no such figure.
-    with_friction: f64,
+    real: f64,
+    /// Where it should be sewn.
+    sewn: Option<Sewn>,
     rest: f64,
 }
 
@@ -195,8 +202,8 @@ fn helps(poses: &[Verified]) -> bool {
     poses.iter().map(|pose| (pose.error / pose.rest).powi(2)).sum::<f64>() < poses.len() as f64
 }
 
-/// The design with a layout's networks, and what a check says of every pose.
-fn verified(design: &Design, fit: &Fit, cancel: &AtomicBool) -> (Design, Vec<Verified>) {
+/// The design with a layout's networks, and what a check says of every pose; where it should be `sewn`, what a hand leaves of it too.
+fn verified(design: &Design, fit: &Fit, sewn: bool, cancel: &AtomicBool) -> (Design, Vec<Verified>) {
     let mut with = design.clone();
     if let Some(points) = fit.layout.located(&design.mesh) {
         for network in fit.layout.networks(&design.mesh, &points) {
@@ -206,18 +213,16 @@ fn verified(design: &Design, fit: &Fit, cancel: &AtomicBool) -> (Design, Vec<Ver
     }
     let count = with.networks.len();
     with.keyframes.iter_mut().for_each(|keyframe| keyframe.activations_mm.resize(count, 0.0));
-    let poses = design.poses.iter().filter(|pose| !pose.targets.is_empty());
-    let (mu, stop) = (design.tendons.friction, || cancel.load(atomic::Ordering::Relaxed));
-    let poses = poses.map(|pose| {
-        let setpoint = Setpoint::Targets(pose.targets.clone());
-        let shape = solve_once(&with, setpoint, [false, true], cancel).realizable;
-        let error = shape.as_ref().map_or(f64::INFINITY, |shape| shape.target_error);
-        let with_friction = shape.filter(|_| mu > 0.0).map(|shape| {
-            let found = pose_with_friction(&with, &pose.targets, &shape.activations_mm, mu, &stop);
-            found.map_or(f64::INFINITY, |found| found.error)
-        });
+    let posed: Vec<&Pose> = design.poses.iter().filter(|pose| !pose.targets.is_empty()).collect();
+    let targets: Vec<&[Target]> = posed.iter().map(|pose| pose.targets.as_slice()).collect();
+    let friction = design.tendons.friction;
+    let sewn = if sewn { robust::sewn(&with, &targets, friction, cancel) } else { Vec::new() };
+    let mut sewn = sewn.into_iter();
+    let poses = posed.into_iter().map(|pose| {
+        let checked = Checked::of(&with, &pose.targets, friction, cancel);
         let rest = target_error(design, &pose.targets, &design.mesh.nodes).max(f64::MIN_POSITIVE);
-        Verified { name: pose.name.clone(), error, with_friction: with_friction.unwrap_or(error), rest }
+        let sewn = sewn.next();
+        Verified { name: pose.name.clone(), error: checked.error(), real: checked.real_error(), sewn, rest }
     });
     let poses = poses.collect();
     (with, poses)

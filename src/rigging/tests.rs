@@ -16,7 +16,7 @@ use std::sync::atomic::AtomicBool;
 const GO: &(dyn Fn() -> bool + Sync) = &|| false;
 
 /// A bar of 240 x 60 mm, held at the left, to be bent up at the right, and down.
-fn bar(fibers: usize) -> Design {
+pub(super) fn bar(fibers: usize) -> Design {
     let corners = vec![[0.0, 0.0], [240.0, 0.0], [240.0, 60.0], [0.0, 60.0]];
     let outline = Outline { outer: corners, holes: vec![] };
     let mesh = mesh::generate(&outline, fibers).unwrap();

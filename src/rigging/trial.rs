@@ -2,13 +2,11 @@
 
 use crate::design::{Design, Target};
 use crate::engine::compile::{Plushie, View, compile, objective};
-use crate::engine::report::report;
-use crate::engine::{Shape, target_error};
+use crate::engine::target_error;
 use crate::soft_ik::contraction::GaussNewton;
 use crate::soft_ik::winding::{self, Search};
 use crate::soft_ik::{Actuation, Budget, Method, Posture, Question};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
 
 /// Steps in which new winches are wound over their range.
 const SCREENING_STEPS: usize = 4;
@@ -96,13 +94,6 @@ impl Trial {
         }
         let nodes: Vec<[f64; 2]> = posture.x.chunks_exact(2).map(|p| [p[0], p[1]]).collect();
         Reached { error: target_error(design, targets, &nodes), posture }
-    }
-
-    /// The posture that was reached, as it is shown.
-    pub fn shape(&mut self, design: &Design, targets: &[Target], reached: &Reached) -> Shape {
-        let contractions = self.actuation.contractions(&reached.posture.beta);
-        self.plushie.model.contractile.set_contractions(&contractions);
-        report(design, &self.plushie, targets, &reached.posture, Instant::now())
     }
 }
 

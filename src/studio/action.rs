@@ -5,12 +5,12 @@ use super::change::Change;
 use super::commands::command::Command;
 pub use super::session::FileAction;
 use super::session::{Overlay, Renamed, Resolution, RigChoice, Selection, Task};
-use crate::discovery::Parameters;
 use crate::engine::Quality;
 use crate::operations::network::Part;
 use crate::outline::Point;
 use crate::outline::drawing::Item;
 use crate::picture::Stage;
+use crate::rigging::ProposeOptions;
 
 /// Wanted, in the order in which it was asked for.
 pub type Actions = Vec<Action>;
@@ -38,10 +38,12 @@ pub enum Action {
     SetQuality(Quality),
     SetCamera(Camera),
     Scrub(f64),
-    SetParameters(Parameters),
+    SetProposeOptions(ProposeOptions),
     SetResolution(Resolution),
     SetRig(RigChoice),
     ShowProposal(Option<usize>),
+    /// Puts a rig of the curve in.
+    TakeRig(usize),
     ShowStage(Stage),
     /// Of the outline.
     Sketch(Sketch),

@@ -3,6 +3,7 @@
 use super::keeping::Kept;
 use super::session::{ImportChoice, Judgement};
 use crate::design::Design;
+use crate::operations::explore::Point;
 use crate::operations::key::{self, Keyed};
 use crate::operations::new_design::Note;
 use crate::operations::remesh::{self, Remeshed};
@@ -31,10 +32,11 @@ pub type Told = Arc<dyn Any + Send + Sync>;
 
 /// The result of a job.
 pub enum Outcome {
-    Proposed(Vec<Proposal>),
+    Proposed(Vec<Arc<Proposal>>),
     Remeshed(Result<Box<Remeshed>, remesh::Error>),
     Reshaped(Result<Box<Reshaped>, reshape::Error>),
     Rigged(Result<Box<Rigged>, rig::Error>),
+    Explored(Result<Vec<Arc<Point>>, rig::Error>),
     Keyed(Result<Keyed, key::Error>),
     Judged(Box<Judgement>),
     Imported(Result<Box<New>, Box<Refused>>),

@@ -32,7 +32,7 @@ pub mod viewport;
 mod words;
 
 use crate::design::{Design, bundled};
-use crate::operations::{Context, export, propose};
+use crate::operations::{Context, Progress, export, propose};
 use crate::picture::palette::Theme;
 use app::Studio;
 use eframe::egui;
@@ -123,9 +123,15 @@ pub fn run(design: Option<Design>, path: Option<PathBuf>) -> Result<(), StudioEr
 /// The real engine and exporter.
 pub fn services() -> Services {
     Services {
-        propose: Arc::new(|design, targets, parameters, cancel| {
+        propose: Arc::new(|design, targets, options, found, cancel| {
+            let mut progress = |step: &Progress| {
+                if let Progress::Proposals(list) = step {
+                    found(list);
+                }
+            };
+            let mut context = Context::telling(cancel, &mut progress);
             // That nothing was found is told where the proposals would be.
-            propose::for_targets(design, targets, parameters, &Context::new(cancel)).unwrap_or_default()
+            propose::for_targets(design, targets, options, &mut context).unwrap_or_default()
         }),
         export: Arc::new(|design, folder, options| {
             export::run(design, folder, options, &Context::new(&AtomicBool::new(false)))

@@ -94,6 +94,8 @@ pub fn progress(step: &Progress) -> String {
         Progress::Rig(rigging::Progress::Found { winches, tendons, .. }) => {
             format!("{winches} winches with {tendons} tendons")
         }
+        Progress::Proposals(list) => format!("{} networks so far", list.len()),
+        Progress::Explored(list) => format!("{} rigs so far", list.len()),
     }
 }
 

@@ -34,6 +34,26 @@ fn what_is_told_is_what_a_check_says_and_every_rule_is_kept() {
 }
 
 #[test]
+fn what_sewing_by_hand_costs_is_told_as_a_check_tells_it() {
+    let folder = place();
+    let f = folder.path();
+    let told = succeed(f, &["rig", "bar.plush", "-o", "new.plush", "--fresh", "--max-winches", "1", "--rounds", "1"]);
+    let line = told.lines().find(|line| line.starts_with("sewn by hand, holes 2 mm off: ")).expect("told");
+    let json: Value = serde_json::from_str(&succeed(f, &["check", "new.plush", "--json", "--sewn"])).unwrap();
+    for pose in json["poses"].as_array().unwrap() {
+        let [median, worst] = ["median", "worst"].map(|key| pose["error_realizable_sewn"][key].as_f64().unwrap());
+        assert!(median <= worst && (median - pose["error_realizable"].as_f64().unwrap()).abs() < 0.1, "{pose}");
+        let (_, figures) = line.split_once(&format!("{} ", pose["name"].as_str().unwrap())).expect("told");
+        let told: f64 = figures.split(' ').next().unwrap().parse().unwrap();
+        // Points are rounded in the file.
+        assert!((told - 100.0 * median).abs() < 0.05, "{line} {pose}");
+    }
+    let table = succeed(f, &["check", "new.plush", "--sewn"]);
+    assert!(table.contains("realizable sewn by hand, 5 times, holes 2 mm off"), "{table}");
+    assert!(!succeed(f, &["check", "new.plush"]).contains("sewn by hand"));
+}
+
+#[test]
 fn parameters_of_algorithm_2_belong_to_it() {
     let folder = place();
     let f = folder.path();

@@ -18,11 +18,15 @@ pub(super) const SPARING: f64 = 1e-6;
 /// Activation in which poses are begun, as a part of the range.
 const FIRST_ACTIVATION: f64 = 0.25;
 
+/// Targets are known to the search as whole multiples of this length, mm. A search by chance would turn another way for a difference that
+/// nobody can see, or type.
+const GRAIN_MM: f64 = 1e-3;
+
 /// Poses that a rig should serve, and what it is made in.
 pub struct Task<'a> {
     pub design: &'a Design,
     /// Targets of every pose, and the sum of their weighted squares at rest, mm^2.
-    pub poses: Vec<(&'a [Target], f64)>,
+    pub poses: Vec<(Vec<Target>, f64)>,
     /// `None` where no rule is asked for.
     pub sewable: Option<&'a Sewable<'a>>,
     /// Winches that are there and stay.
@@ -75,7 +79,8 @@ pub(super) struct Built {
 
 impl<'a> Task<'a> {
     pub fn new(design: &'a Design, sewable: Option<&'a Sewable<'a>>, fixed: &'a [Network]) -> Self {
-        let poses = design.poses.iter().map(|pose| pose.targets.as_slice());
+        let rounded = |target: &Target| Target { to: target.to.map(|v| (v / GRAIN_MM).round() * GRAIN_MM), ..*target };
+        let poses = design.poses.iter().map(|pose| pose.targets.iter().map(rounded).collect());
         let miss = |targets: &[Target]| -> f64 {
             let square = |t: &Target| {
                 let p = design.mesh.position(&t.at, &design.mesh.nodes);
@@ -83,7 +88,11 @@ impl<'a> Task<'a> {
             };
             targets.iter().map(square).sum()
         };
-        let poses = poses.map(|targets| (targets, miss(targets))).filter(|(_, miss)| *miss > 0.0).collect();
+        let with_miss = |targets: Vec<Target>| {
+            let miss = miss(&targets);
+            (targets, miss)
+        };
+        let poses = poses.map(with_miss).filter(|(_, miss)| *miss > 0.0).collect();
         Self { design, poses, sewable, fixed, rings: design.mesh.boundary(), power: POWER, whole: 1.0 }
     }
 
@@ -143,6 +152,11 @@ impl<'a> Task<'a> {
         // A winch without a range has no part of it: such a layout is never the best.
         let cost = if cost.is_nan() { f64::INFINITY } else { cost };
         Fit { layout, poses, misses, violation, cost }
+    }
+
+    /// What a layout's broken rules at rest add to `C`.
+    pub fn broken(&self, layout: &Layout) -> f64 {
+        self.sewable.map_or(0.0, |s| RULES * s.violations(layout).iter().map(|v| v * v).sum::<f64>())
     }
 
     /// By how much cables leave the body in a pose.

@@ -27,10 +27,11 @@ pub fn apply(session: &mut Session, action: Action) {
             session.look.zoom = None;
         }
         Action::Scrub(time_s) => animate::scrub(session, time_s),
-        Action::SetParameters(parameters) => session.discovery.parameters = parameters,
+        Action::SetProposeOptions(options) => session.discovery.options = options,
         Action::SetResolution(resolution) => session.meshing.wanted = Some(resolution),
         Action::SetRig(choice) => session.rigging.choice = choice,
-        Action::ShowProposal(index) => session.discovery.shown = index,
+        Action::ShowProposal(index) => (session.discovery.shown, session.discovery.picked) = (index, true),
+        Action::TakeRig(index) => super::rig::take_point(session, index),
         Action::ShowStage(stage) => session.discovery.stage = stage,
         Action::Sketch(sketch) => sheet::sketch(session, sketch),
         Action::File(action) => filing::ask(session, action),

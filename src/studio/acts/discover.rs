@@ -1,56 +1,65 @@
 //! Network discovery on its thread, and what becomes of its proposals.
 
 use super::edit;
-use crate::picture::Stage;
 use crate::rigging::Proposal;
 use crate::studio::change::Change;
 use crate::studio::jobs::{Outcome, Running};
 use crate::studio::session::Session;
 use std::sync::Arc;
 
-/// Begins to look for networks.
+/// Begins to look for networks; what is looked for elsewhere is given up.
 pub fn start_propose(session: &mut Session) {
     if let Some(why) = session.cannot_propose() {
         session.messages.info(why);
         return;
     }
-    session.discovery.clear();
-    let design = session.design().clone();
-    let (targets, parameters) = (session.targets().to_vec(), session.discovery.parameters.clone());
+    session.discovery.cancel();
+    let (design, targets) = (session.design().clone(), session.targets().to_vec());
+    session.discovery.ask(&design, &targets);
+    let options = session.discovery.options.clone();
     let propose = session.services.propose.clone();
-    session.discovery.running =
-        Some(session.jobs.start("Network discovery", move |cancel| {
-            Outcome::Proposed(propose(&design, &targets, &parameters, cancel))
-        }));
+    let (coming, wake) = (session.discovery.coming.clone(), session.jobs.wake());
+    session.discovery.running = Some(session.jobs.start("Network discovery", move |cancel| {
+        let mut found = |list: &[Arc<Proposal>]| {
+            if let Ok(mut coming) = coming.lock() {
+                *coming = Some(list.to_vec());
+            }
+            wake();
+        };
+        Outcome::Proposed(propose(&design, &targets, &options, &mut found, cancel))
+    }));
+}
+
+/// Takes what has been found by now, and finds out whether it still belongs to what is there.
+pub fn follow(session: &mut Session) {
+    let (design, targets) = (session.design().clone(), session.targets().to_vec());
+    session.discovery.follow(&design, &targets);
+    session.discovery.take_coming();
 }
 
 /// The search is over.
-pub fn take_proposals(session: &mut Session, serial: u64, proposals: Vec<Proposal>) {
+pub fn take_proposals(session: &mut Session, serial: u64, proposals: Vec<Arc<Proposal>>) {
     if !Running::is(session.discovery.running.as_ref(), serial) {
         return;
     }
     session.discovery.running = None;
     if proposals.is_empty() {
-        session.messages.warning("No network was found for this pose. Try more seeds or longer joining paths.");
+        session.messages.warning(match session.discovery.options.rules {
+            true => "No network that can be sewn was found for this pose. Try more tendons, or lift the rules.",
+            false => "No network was found for this pose. Try more tendons.",
+        });
     }
-    session.discovery.proposals = proposals.into_iter().map(Arc::new).collect();
-    session.discovery.shown = if session.discovery.proposals.is_empty() { None } else { Some(0) };
-    session.discovery.stage = Stage::Result;
+    session.discovery.take(proposals);
 }
 
-/// Builds the network of the shown proposal in.
+/// Builds the network of the shown proposal in. The others are of a body without it.
 pub fn accept(session: &mut Session) {
+    if session.discovery.is_stale() {
+        return;
+    }
     if let Some(proposal) = session.shown_proposal().cloned() {
+        session.discovery.cancel();
         session.discovery.clear();
         edit::change(session, Change::AcceptNetwork(proposal.network.clone()));
-    }
-}
-
-/// Drops the shown proposal; the next one is shown.
-pub fn reject(session: &mut Session) {
-    if let Some(index) = session.discovery.shown.filter(|&index| index < session.discovery.proposals.len()) {
-        session.discovery.proposals.remove(index);
-        let left = session.discovery.proposals.len();
-        session.discovery.shown = left.checked_sub(1).map(|last| index.min(last));
     }
 }

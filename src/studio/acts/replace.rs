@@ -2,7 +2,7 @@
 
 use crate::design::Design;
 use crate::studio::jobs;
-use crate::studio::session::{Document, Picked, Session, Sketching, Texturing};
+use crate::studio::session::{Curve, Document, Picked, Session, Sketching, Texturing};
 use std::path::PathBuf;
 
 /// Replaces the document; undo starts anew.
@@ -10,6 +10,7 @@ pub fn open(session: &mut Session, design: Design, path: Option<PathBuf>) {
     session.discovery.cancel();
     session.meshing.cancel();
     session.rigging.cancel();
+    session.rigging.curve = Curve::default();
     session.tasks.cancel();
     jobs::cancel(&mut session.keying);
     session.meshing.wanted = None;

@@ -1,5 +1,6 @@
 //! Networks for all poses at once, looked for on a thread.
 
+use crate::operations::explore::{self, Point};
 use crate::operations::rig::{self, Error, Rigged};
 use crate::operations::{Context, Progress};
 use crate::studio::jobs::{Outcome, Running};
@@ -12,7 +13,7 @@ pub fn start_rig(session: &mut Session) {
     if session.rigging.running.is_some() {
         return;
     }
-    let options = match session.rigging.choice.options(&session.discovery.parameters) {
+    let options = match session.rigging.choice.options(&session.discovery.options.parameters) {
         Ok(options) => options,
         Err(error) => return session.messages.warning(format!("Tendons of each winch: {error}")),
     };
@@ -31,6 +32,48 @@ pub fn start_rig(session: &mut Session) {
     }));
 }
 
+/// Begins to look for rigs with more and more winches and tendons.
+pub fn start_curve(session: &mut Session) {
+    if session.cannot_rig().is_some() {
+        return;
+    }
+    let options = match session.rigging.choice.options(&session.discovery.options.parameters) {
+        Ok(options) => options,
+        Err(error) => return session.messages.warning(format!("Tendons of each winch: {error}")),
+    };
+    let design = session.design().clone();
+    session.rigging.curve.begin(&design);
+    let (coming, wake) = (session.rigging.curve.coming.clone(), session.jobs.wake());
+    session.rigging.curve.running = Some(session.jobs.start("The curve of winches", move |cancel| {
+        let mut progress = |done: &Progress| {
+            if let (Progress::Explored(list), Ok(mut coming)) = (done, coming.lock()) {
+                *coming = Some(list.clone());
+            }
+            wake();
+        };
+        Outcome::Explored(explore::run(&design, &options, &mut Context::telling(cancel, &mut progress)))
+    }));
+}
+
+/// The curve is there.
+pub fn take_curve(session: &mut Session, serial: u64, points: Result<Vec<Arc<Point>>, Error>) {
+    if !Running::is(session.rigging.curve.running.as_ref(), serial) {
+        return;
+    }
+    session.rigging.curve.running = None;
+    match points {
+        Ok(points) => session.rigging.curve.points = points,
+        Err(error) => session.messages.warning(words::unrigged(&error)),
+    }
+}
+
+/// Puts a rig of the curve into the design that it was found for.
+pub fn take_point(session: &mut Session, index: usize) {
+    let curve = &session.rigging.curve;
+    let Some(point) = curve.points.get(index).filter(|_| !curve.stale).cloned() else { return };
+    put(session, point.rigged.clone());
+}
+
 /// The search is over.
 pub fn take_rig(session: &mut Session, serial: u64, rigged: Result<Box<Rigged>, Error>) {
     if !Running::is(session.rigging.running.as_ref(), serial) {
@@ -38,9 +81,14 @@ pub fn take_rig(session: &mut Session, serial: u64, rigged: Result<Box<Rigged>, 
     }
     session.rigging.running = None;
     let rigged = match rigged {
-        Ok(rigged) => rigged,
+        Ok(rigged) => *rigged,
         Err(error) => return session.messages.warning(words::unrigged(&error)),
     };
+    put(session, rigged);
+}
+
+/// Puts a rig into the design, where that is still the one that it was found for.
+fn put(session: &mut Session, rigged: Rigged) {
     if rigged.is_stale(session.design()) {
         let text = "The body or its networks were changed meanwhile, so what was found does not fit any more.";
         return session.messages.warning(text);

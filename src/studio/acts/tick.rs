@@ -23,6 +23,8 @@ pub fn tick(session: &mut Session, now_s: f64, passed_s: f64, hands_off: bool) {
         session.playback.advance(passed_s, animation::duration_s(session.document.design()));
     }
     edit::clamp(session);
+    discover::follow(session);
+    session.rigging.curve.follow(session.document.design());
     texture::follow_texture(session);
     // Nobody sees the plushies while the outline is drawn.
     if !session.sketching.open {
@@ -56,6 +58,7 @@ fn take(session: &mut Session, Finished { serial, outcome }: Finished) {
         Outcome::Remeshed(made) => mesh::take_mesh(session, serial, made),
         Outcome::Reshaped(made) => sheet::take_body(session, serial, made),
         Outcome::Rigged(rigged) => rig::take_rig(session, serial, rigged),
+        Outcome::Explored(points) => rig::take_curve(session, serial, points),
         Outcome::Keyed(keyed) => animate::take_key(session, serial, keyed),
         Outcome::Judged(judgement) => session.judging.take(serial, *judgement),
         Outcome::Imported(result) => filing::take_import(session, result),
@@ -76,6 +79,7 @@ fn break_off(session: &mut Session, serial: u64) {
         &mut session.discovery.running,
         &mut session.meshing.running,
         &mut session.rigging.running,
+        &mut session.rigging.curve.running,
         &mut session.keying,
     ];
     for running in jobs {

@@ -2,10 +2,12 @@
 
 use super::command::{Command, Keys, Scope};
 use crate::studio::acts;
+use crate::studio::jobs;
 use crate::studio::session::Session;
 use eframe::egui::Key;
 
-pub static ALL: [&Command; 6] = [&PROPOSE, &CANCEL, &ACCEPT, &REJECT, &RIG, &CANCEL_RIG];
+pub static ALL: [&Command; 9] =
+    [&PROPOSE, &PROPOSE_AGAIN, &CANCEL, &ACCEPT, &REJECT, &RIG, &CANCEL_RIG, &CURVE, &CANCEL_CURVE];
 
 pub static PROPOSE: Command = Command {
     keys: &[Keys::plain(Key::G)],
@@ -13,6 +15,16 @@ pub static PROPOSE: Command = Command {
     why_not: &|session, _| session.cannot_propose(),
     run: &|session, _| acts::discover::start_propose(session),
     ..Command::new("discovery.propose", "Propose networks", "Look for winch-tendon networks that reach this pose")
+};
+
+pub static PROPOSE_AGAIN: Command = Command {
+    scope: Scope::Views,
+    why_not: &|session, _| match session.discovery().is_stale() {
+        true => session.cannot_propose(),
+        false => Some("What was proposed is for this body and pose"),
+    },
+    run: &|session, _| acts::discover::start_propose(session),
+    ..Command::new("discovery.again", "Propose again", "Look for networks for the body and the pose as they are now")
 };
 
 pub static CANCEL: Command = Command {
@@ -34,7 +46,7 @@ pub static REJECT: Command = Command {
     keys: &[Keys::plain(Key::Backspace)],
     scope: Scope::Views,
     why_not: &|session, _| none_shown(session),
-    run: &|session, _| acts::discover::reject(session),
+    run: &|session, _| session.discovery.reject(),
     ..Command::new("discovery.reject", "Reject", "Drop this proposal")
 };
 
@@ -55,6 +67,26 @@ pub static CANCEL_RIG: Command = Command {
     ..Command::new("rig.cancel", "Cancel rigging", "Stop looking for winches and tendons; the plushie stays as it is")
 };
 
+pub static CURVE: Command = Command {
+    scope: Scope::Views,
+    why_not: &|session, _| session.cannot_rig(),
+    run: &|session, _| acts::rig::start_curve(session),
+    ..Command::new(
+        "rig.curve",
+        "Compare numbers of winches",
+        "Look for a rig with every number of winches and tendons up to the most, to choose from. Takes minutes",
+    )
+};
+
+pub static CANCEL_CURVE: Command = Command {
+    why_not: &|session, _| session.rigging().curve.running.is_none().then_some("No rigs are being compared"),
+    run: &|session, _| jobs::cancel(&mut session.rigging.curve.running),
+    ..Command::new("rig.curve.cancel", "Stop comparing", "Stop looking for more rigs; those that were found stay")
+};
+
 fn none_shown(session: &Session) -> Option<&'static str> {
+    if session.discovery().is_stale() {
+        return Some("What was proposed is for another body or pose: propose again");
+    }
     session.shown_proposal().is_none().then_some("No proposal is shown")
 }

@@ -4,6 +4,7 @@
 
 pub mod accuracy;
 pub mod buttons;
+mod curve;
 pub mod dialogs;
 mod discovery;
 pub mod inspector;
@@ -14,9 +15,12 @@ pub mod outline;
 pub mod palette;
 mod panel;
 pub mod poses;
+mod proposal;
+mod rig;
 mod settings;
 mod sewable;
 pub mod shortcuts;
+mod stages;
 pub mod status;
 pub mod tendons;
 pub mod timeline;

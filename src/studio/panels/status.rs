@@ -136,7 +136,7 @@ mod tests {
     #[test]
     fn figures_keep_their_width() {
         let services =
-            Services { propose: Arc::new(|_, _, _, _| Vec::new()), export: Arc::new(|_, _, _| Ok(Vec::new())) };
+            Services { propose: Arc::new(|_, _, _, _, _| Vec::new()), export: Arc::new(|_, _, _| Ok(Vec::new())) };
         let session = Session::new(crate::studio::blank::design(), None, Arc::new(|| ()), services);
         for (milliseconds, residual, converged) in [(0.04, 0.0, true), (12.3, 3e-12, true), (4321.0, 0.5, false)] {
             let shape = Shape { milliseconds, residual, converged, force_scale: 1.0, ..Shape::default() };

@@ -1,25 +1,48 @@
 //! Network discovery: what was asked, and what came of it.
 
-use crate::discovery::Parameters;
+use super::basis::Basis;
+use crate::design::{Design, Network, Target};
 use crate::picture::Stage;
-use crate::rigging::Proposal;
+use crate::rigging::{Proposal, ProposeOptions};
 use crate::studio::jobs::{Running, cancel};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
+
+/// Proposals that have come since somebody looked.
+pub(crate) type Coming = Arc<Mutex<Option<Vec<Arc<Proposal>>>>>;
 
 /// Network discovery: what was asked, and what came of it.
 pub struct Discovery {
-    pub parameters: Parameters,
+    pub options: ProposeOptions,
     pub running: Option<Running>,
     pub proposals: Vec<Arc<Proposal>>,
     /// Which proposal the views show.
     pub shown: Option<usize>,
     pub stage: Stage,
+    /// What the proposals are for; none before the first question.
+    asked: Option<Asked>,
+    /// Whether the document or the pose is another one by now.
+    stale: bool,
+    /// Whether the shown proposal was picked by a hand: then it stays while others come.
+    pub(crate) picked: bool,
+    dropped: Vec<Network>,
+    pub(crate) coming: Coming,
+}
+
+/// A design and the targets that networks were looked for.
+struct Asked {
+    targets: Vec<Target>,
+    basis: Basis,
 }
 
 impl Discovery {
     /// The proposal that the views show.
     pub fn shown(&self) -> Option<&Arc<Proposal>> {
         self.shown.and_then(|index| self.proposals.get(index))
+    }
+
+    /// Whether what is on the list was found for another body or pose than there is now: its figures do not hold.
+    pub fn is_stale(&self) -> bool {
+        self.stale
     }
 
     pub fn cancel(&mut self) {
@@ -29,13 +52,104 @@ impl Discovery {
     /// Drops what was proposed.
     pub fn clear(&mut self) {
         self.proposals.clear();
-        self.shown = None;
+        self.dropped.clear();
+        (self.shown, self.asked, self.stale, self.picked) = (None, None, false, false);
+        self.coming = Coming::default();
+    }
+
+    /// A new question.
+    pub(crate) fn ask(&mut self, design: &Arc<Design>, targets: &[Target]) {
+        self.clear();
+        self.stage = Stage::Result;
+        self.asked = Some(Asked { targets: targets.to_vec(), basis: Basis::new(design) });
+    }
+
+    /// Finds out whether the list is stale. A stale one is not shown in the views.
+    pub(crate) fn follow(&mut self, design: &Arc<Design>, targets: &[Target]) {
+        let Some(asked) = &mut self.asked else { return };
+        self.stale = !asked.basis.holds(design) || asked.targets != targets;
+        if self.stale {
+            self.shown = None;
+        }
+    }
+
+    /// Takes the list as it is by now. What was picked out stays so, what was dropped does not come again.
+    pub(crate) fn take(&mut self, list: Vec<Arc<Proposal>>) {
+        let picked = self.shown().filter(|_| self.picked).cloned();
+        self.proposals = list.into_iter().filter(|p| !self.dropped.contains(&p.network)).collect();
+        let place = |picked: &Arc<Proposal>| self.proposals.iter().position(|p| p.network == picked.network);
+        let first = (!self.stale && !self.proposals.is_empty()).then_some(0);
+        let still = picked.as_ref().and_then(place);
+        self.picked = still.is_some();
+        self.shown = still.or(first);
+    }
+
+    /// Takes what has come since.
+    pub(crate) fn take_coming(&mut self) {
+        let list = self.coming.lock().ok().and_then(|mut coming| coming.take());
+        if let Some(list) = list.filter(|_| self.running.is_some()) {
+            self.take(list);
+        }
+    }
+
+    /// Drops the shown proposal; the next one is shown.
+    pub(crate) fn reject(&mut self) {
+        if let Some(index) = self.shown.filter(|&index| index < self.proposals.len()) {
+            self.dropped.push(self.proposals.remove(index).network.clone());
+            let left = self.proposals.len();
+            self.shown = left.checked_sub(1).map(|last| index.min(last));
+        }
     }
 }
 
 impl Default for Discovery {
     fn default() -> Self {
-        let parameters = Parameters::default();
-        Self { parameters, running: None, proposals: Vec::new(), shown: None, stage: Stage::Result }
+        Self {
+            options: ProposeOptions::default(),
+            running: None,
+            proposals: Vec::new(),
+            shown: None,
+            stage: Stage::Result,
+            asked: None,
+            stale: false,
+            picked: false,
+            dropped: Vec::new(),
+            coming: Coming::default(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::testing;
+
+    #[test]
+    fn a_list_is_stale_as_long_as_the_body_or_the_pose_is_another_one() {
+        let design = Arc::new(testing::sample());
+        let targets = design.poses[0].targets.clone();
+        let mut discovery = Discovery::default();
+        discovery.follow(&design, &[]);
+        assert!(!discovery.is_stale());
+        discovery.ask(&design, &targets);
+        let changed = |change: &dyn Fn(&mut Design)| {
+            let mut design = Design::clone(&design);
+            change(&mut design);
+            Arc::new(design)
+        };
+        for (stale, design) in [
+            (false, changed(&|d| d.name.push('x'))),
+            (false, changed(&|d| d.keyframes.clear())),
+            (true, changed(&|d| d.networks.truncate(1))),
+            (true, changed(&|d| d.tendons.friction += 0.1)),
+            (true, changed(&|d| d.sewing.turn_degrees += 1.0)),
+            (true, changed(&|d| d.poses[0].targets[0].to[0] += 1.0)),
+            (false, design.clone()),
+        ] {
+            discovery.follow(&design, &targets);
+            assert_eq!(discovery.is_stale(), stale);
+        }
+        discovery.follow(&design, &[]);
+        assert!(discovery.is_stale());
     }
 }

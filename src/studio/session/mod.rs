@@ -1,5 +1,6 @@
 //! The state of the window: a [`Session`] of parts, each with what can be done to it alone.
 
+mod basis;
 mod discovery;
 mod document;
 mod files;
@@ -33,7 +34,7 @@ pub use meshing::{FINEST, Meshing, Resolution};
 pub use overlay::{Overlay, Renamed};
 pub use picked::{Mode, Picked, Selection};
 pub use playback::Playback;
-pub use rigging::{RigChoice, Rigging};
+pub use rigging::{Curve, RigChoice, Rigging};
 pub use safety::Safety;
 pub use session::{Export, Propose, Services, Session};
 pub use sketching::{FREEHAND, Sketching};

@@ -1,10 +1,40 @@
 //! Networks for all poses at once: what may be built, and who looks for them.
 
+use super::basis::Basis;
+use crate::design::Design;
 use crate::discovery::Parameters;
+use crate::operations::explore::Point;
 use crate::operations::rig::{Method, Options};
 use crate::rigging::BadTendons;
 use crate::studio::jobs::{Running, cancel};
 use std::sync::{Arc, Mutex};
+
+/// Rigs with more and more winches and tendons, to choose from.
+#[derive(Default)]
+pub struct Curve {
+    pub running: Option<Running>,
+    pub points: Vec<Arc<Point>>,
+    /// Whether the design is another one by now than that which they were found for.
+    pub stale: bool,
+    basis: Option<Basis>,
+    pub(crate) coming: Arc<Mutex<Option<Vec<Arc<Point>>>>>,
+}
+
+impl Curve {
+    /// Nothing is known yet of a design.
+    pub(crate) fn begin(&mut self, design: &Arc<Design>) {
+        *self = Self { basis: Some(Basis::new(design)), ..Self::default() };
+    }
+
+    /// Takes what has come since, and finds out whether it holds for a design.
+    pub(crate) fn follow(&mut self, design: &Arc<Design>) {
+        self.stale = self.basis.as_mut().is_some_and(|basis| !basis.holds(design));
+        let list = self.coming.lock().ok().and_then(|mut coming| coming.take());
+        if let Some(list) = list.filter(|_| self.running.is_some()) {
+            self.points = list;
+        }
+    }
+}
 
 /// The options of a rig, as the panel has them.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,6 +77,7 @@ impl RigChoice {
 pub struct Rigging {
     pub choice: RigChoice,
     pub running: Option<Running>,
+    pub curve: Curve,
     /// The step that was done last, from the thread.
     pub(crate) step: Arc<Mutex<String>>,
 }
@@ -54,6 +85,7 @@ pub struct Rigging {
 impl Rigging {
     pub fn cancel(&mut self) {
         cancel(&mut self.running);
+        cancel(&mut self.curve.running);
     }
 
     /// The step that was done last.

@@ -15,19 +15,18 @@ use super::sketching::Sketching;
 use super::solo::Solo;
 use super::solver::{Shapes, Solver};
 use super::tasks::Tasks;
-use super::texturing::{Found, Texturing};
+use super::texturing::{self, Texturing};
 use super::winding::Winding;
 use crate::design::file::MAX_BYTES;
 use crate::design::history::History;
 use crate::design::{Design, Target};
-use crate::discovery::Parameters;
 use crate::engine::{Quality, Request};
 use crate::files::Stamp;
 use crate::operations::export;
 use crate::outline::Drawing;
 use crate::picture::Texture;
 use crate::picture::layers::{Layer, Textured};
-use crate::rigging::Proposal;
+use crate::rigging::{Proposal, ProposeOptions};
 use crate::studio::canvas::Hit;
 use crate::studio::jobs::{self, Jobs, Running, Wake};
 use crate::studio::keeper::Abandoned;
@@ -36,8 +35,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-/// Makes proposals for a design and the targets of a pose.
-pub type Propose = Arc<dyn Fn(&Design, &[Target], &Parameters, &AtomicBool) -> Vec<Proposal> + Send + Sync>;
+/// Makes proposals for a design and the targets of a pose, and tells of them as they are found.
+pub type Propose =
+    Arc<dyn Fn(&Design, &[Target], &ProposeOptions, Found<'_>, &AtomicBool) -> Vec<Arc<Proposal>> + Send + Sync>;
+/// Hears of the list of proposals as it grows.
+pub type Found<'f> = &'f mut dyn FnMut(&[Arc<Proposal>]);
 /// Writes the blueprint of a design into a folder, and returns its remarks.
 pub type Export = Arc<dyn Fn(&Design, &Path, &export::Options) -> Result<Vec<String>, String> + Send + Sync>;
 
@@ -221,7 +223,8 @@ impl Session {
     /// The work that threads are busy with, ready to be shown.
     pub fn working(&self) -> Option<&'static str> {
         let keying = self.keying.is_some().then_some("Working out the keyframe");
-        let rigging = self.rigging.running.is_some().then_some("Looking for winches and tendons");
+        let rigging = self.rigging.running.is_some() || self.rigging.curve.running.is_some();
+        let rigging = rigging.then_some("Looking for winches and tendons");
         self.files.working.or(rigging).or(keying)
     }
 
@@ -275,7 +278,7 @@ impl Session {
 
     /// Why networks cannot be proposed now, if so.
     pub fn cannot_propose(&self) -> Option<&'static str> {
-        if self.discovery.running.is_some() {
+        if self.discovery.running.is_some() && !self.discovery.is_stale() {
             Some("Discovery is running")
         } else if self.picked.mode != Mode::Pose || self.targets().is_empty() {
             Some("Choose a pose with at least one target first: drag a point of the body")
@@ -303,7 +306,7 @@ impl Session {
 
     /// Why no rig can be looked for now, if so.
     pub fn cannot_rig(&self) -> Option<&'static str> {
-        if self.rigging.running.is_some() {
+        if self.rigging.running.is_some() || self.rigging.curve.running.is_some() {
             return Some("A rig is being looked for");
         }
         let posed = self.design().poses.iter().any(|pose| !pose.targets.is_empty());
@@ -332,7 +335,7 @@ impl Session {
     /// The texture of the document, as soon as it is read.
     pub fn texture(&self) -> Option<&Arc<Texture>> {
         match &self.texturing.found {
-            Found::Picture(texture) => Some(texture),
+            texturing::Found::Picture(texture) => Some(texture),
             _ => None,
         }
     }
@@ -343,10 +346,12 @@ impl Session {
             return None;
         }
         match self.texturing.found {
-            Found::Picture(_) => None,
-            Found::Trouble => Some("The texture of this plushie is missing or broken"),
-            Found::Nothing if self.texturing.path.is_some() => Some("The texture is being read"),
-            Found::Nothing => Some("This plushie has no texture; the import has “Keep the picture as texture”"),
+            texturing::Found::Picture(_) => None,
+            texturing::Found::Trouble => Some("The texture of this plushie is missing or broken"),
+            texturing::Found::Nothing if self.texturing.path.is_some() => Some("The texture is being read"),
+            texturing::Found::Nothing => {
+                Some("This plushie has no texture; the import has “Keep the picture as texture”")
+            }
         }
     }
 }

@@ -9,11 +9,13 @@ pub fn show(ui: &Ui, canvas: &Canvas<'_>, plushie: Plushie) {
     let Canvas { session, rect, camera, .. } = *canvas;
     let painter = ui.painter_at(rect);
     let (title, detail) = match (plushie, session.shown_proposal()) {
-        (Plushie::Idealized, Some(_)) => ("Idealized", stage_name(session.discovery.stage).to_owned()),
-        (Plushie::Realizable, Some(p)) => {
-            ("Realizable", format!("with the proposal, error {:.1} %", 100.0 * p.error_after))
+        (Plushie::Idealized, Some(p)) if p.paper.is_some() => {
+            ("Idealized", stage_name(session.discovery.stage).to_owned())
         }
-        (Plushie::Idealized, None) => ("Idealized", "muscle fibres".to_owned()),
+        (Plushie::Realizable, Some(p)) => {
+            ("Realizable", format!("with the proposal, error {:.1} %", 100.0 * p.error_after()))
+        }
+        (Plushie::Idealized, _) => ("Idealized", "muscle fibres".to_owned()),
         (Plushie::Realizable, None) => ("Realizable", networks_text(session)),
     };
     let corner = rect.left_top() + Vec2::new(14.0, 10.0);

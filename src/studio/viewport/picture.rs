@@ -48,7 +48,9 @@ fn subject<'a>(session: &'a Session, plushie: Plushie, shape: &'a Arc<Shape>) ->
         targets: session.targets(),
         selected_target,
         proposed: proposal.filter(|_| !idealized).map(|proposal| &proposal.network),
-        stage: proposal.filter(|_| idealized).map(|proposal| (session.discovery.stage, &proposal.stages)),
+        stage: proposal
+            .filter(|_| idealized)
+            .and_then(|proposal| Some((session.discovery.stage, &proposal.paper.as_ref()?.1))),
         ..Subject::new(session.acting(), shape)
     }
 }

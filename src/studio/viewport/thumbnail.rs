@@ -61,7 +61,7 @@ impl Thumbnails {
 fn picture(design: &Arc<Design>, proposal: &Proposal, theme: Theme, stage: Stage) -> Geometry {
     let rest = Arc::new(Shape { nodes: design.mesh.nodes.clone(), ..Shape::default() });
     let shown = Shown::default().with(Pins::NAME, false);
-    let stage = Some((stage, &proposal.stages));
+    let stage = proposal.paper.as_ref().map(|(_, stages)| (stage, stages));
     let subject = Subject { theme, shown: &shown, stage, ..Subject::new(design, &rest) };
     let mut geometry = Geometry::of(&Layers::of(&subject).scene());
     for capsule in &mut geometry.capsules {

@@ -12,7 +12,7 @@ use std::time::Duration;
 
 #[test]
 fn what_goes_wrong_is_said_and_can_be_dismissed() {
-    let services = Services { propose: Arc::new(|_, _, _, _| panic!("out of yarn")), ..services() };
+    let services = Services { propose: Arc::new(|_, _, _, _, _| panic!("out of yarn")), ..services() };
     let mut window = window_with(bar(), services);
     pose(&mut window, "Idealized view");
     click(&mut window, "Propose networks");

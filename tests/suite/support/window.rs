@@ -7,7 +7,7 @@ use plushwright::design::{Design, MaterialPoint, Network, Pin, Tendon};
 use plushwright::engine::Shape;
 use plushwright::mesh::Mesh;
 use plushwright::outline::Outline;
-use plushwright::rigging::Proposal;
+use plushwright::rigging::{PoseServed, Proposal, Sewn};
 use plushwright::studio::app::Studio;
 use plushwright::studio::session::{Services, Session};
 use plushwright::studio::store::Store;
@@ -49,18 +49,31 @@ pub fn network() -> Network {
 pub fn proposal(design: &Design, error_after: f64) -> Proposal {
     Proposal {
         network: network(),
-        parameters: Default::default(),
-        stages: Arc::default(),
+        poses: vec![PoseServed { name: Some("Pose 1".into()), before: 0.2, after: error_after, with_friction: None }],
+        current: 0,
+        sewn: Some(Sewn { median: error_after, worst: 2.0 * error_after }),
+        thread_mm: 100.0,
+        holes: 4,
+        turn_degrees: 0.0,
+        turning_degrees: 0.0,
+        force_n: 5.0,
+        breaches: Vec::new(),
         preview: Arc::new(Shape { nodes: design.mesh.nodes.clone(), ..Shape::default() }),
-        error_before: 0.2,
-        error_after,
+        paper: Some(Default::default()),
     }
+}
+
+/// One of another network, whose way nobody knows.
+pub fn other(design: &Design, error_after: f64) -> Proposal {
+    let tendon = Tendon { routing: MaterialPoint::through(0..6), ratio: 1.0, slack_mm: 0.0 };
+    let network = Network::new("winch 1", vec![tendon]);
+    Proposal { network, paper: None, ..proposal(design, error_after) }
 }
 
 /// Proposes two networks at once.
 pub fn services() -> Services {
     Services {
-        propose: Arc::new(|design, _, _, _| vec![proposal(design, 0.05), proposal(design, 0.1)]),
+        propose: Arc::new(|design, _, _, _, _| vec![Arc::new(proposal(design, 0.05)), Arc::new(other(design, 0.1))]),
         export: Arc::new(|_, folder, _| {
             std::fs::create_dir(folder).map_err(|e| e.to_string())?;
             std::fs::write(folder.join("pattern.svg"), "<svg/>").map_err(|e| e.to_string())?;

@@ -1,0 +1,123 @@
+//! A network becomes a proposal: every pose wound from rest, as a check does, and what the network asks of a hand.
+
+use super::pool::Origin;
+use super::proposal::{PoseServed, Proposal};
+use crate::design::{Design, Network, Target};
+use crate::outline::{Point, polygon};
+use crate::rigging::candidate::unused_name;
+use crate::rigging::checked::Checked;
+use crate::rigging::layout::rigs_of;
+use crate::rigging::robust::{self, Sewn};
+use crate::sewing::{self, Body, Breach, Rig};
+use crate::threads::in_order;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Bodies of more fibres are not sewn in thought: five more poses of each proposal would take most of the time.
+const SEWN_UP_TO: usize = 1500;
+
+/// A design and its poses as they are before anything is proposed.
+pub(super) struct Subject<'a> {
+    design: &'a Design,
+    poses: Vec<(Option<String>, &'a [Target], Checked)>,
+    current: usize,
+    friction: f64,
+}
+
+impl<'a> Subject<'a> {
+    /// `None` where the body has no model, and when cancelled.
+    pub fn new(design: &'a Design, targets: &'a [Target], cancel: &AtomicBool) -> Option<Self> {
+        let posed = design.poses.iter().filter(|pose| !pose.targets.is_empty());
+        let mut poses: Vec<(Option<String>, &[Target])> =
+            posed.map(|pose| (Some(pose.name.clone()), pose.targets.as_slice())).collect();
+        let current = poses.iter().position(|(_, known)| *known == targets).unwrap_or(poses.len());
+        if current == poses.len() {
+            poses.push((None, targets));
+        }
+        let friction = design.tendons.friction;
+        let before = in_order(&poses, |(_, targets)| Checked::of(design, targets, friction, cancel));
+        if cancel.load(Ordering::Relaxed) || before.iter().any(|checked| checked.shape.nodes.is_empty()) {
+            return None;
+        }
+        let poses = poses.into_iter().zip(before).map(|((name, targets), checked)| (name, targets, checked)).collect();
+        Some(Self { design, poses, current, friction })
+    }
+
+    /// The network tried out; `None` when cancelled.
+    pub fn proposal(&self, network: Network, origin: Origin, cancel: &AtomicBool) -> Option<Proposal> {
+        let mut with = self.design.clone();
+        let network = Network { name: unused_name(&with), ..network };
+        with.networks.push(network.clone());
+        with.keyframes.clear();
+        let own = with.networks.len() - 1;
+        let tendons = with.networks[..own].iter().map(|n| n.tendons.len()).sum::<usize>();
+        let (mut poses, mut force_n, mut preview) = (Vec::new(), 0.0_f64, None);
+        let mut breaches = self.breaches(&with, own);
+        for (k, (name, targets, before)) in self.poses.iter().enumerate() {
+            let after = Checked::of(&with, targets, self.friction, cancel);
+            if cancel.load(Ordering::Relaxed) {
+                return None;
+            }
+            force_n = after.shape.tendon_tensions.iter().skip(tendons).fold(force_n, |m, t| m.max(*t));
+            breaches.extend(outside(&with, &after.shape.nodes, own));
+            let rubbed = after.with_friction.map(|after| [before.real_error(), after]);
+            poses.push(PoseServed {
+                name: name.clone(),
+                before: before.error(),
+                after: after.error(),
+                with_friction: rubbed,
+            });
+            if k == self.current {
+                preview = Some(Arc::new(after.shape));
+            }
+        }
+        let cables = rigs_of(&[network.clone()], &with.mesh).pop()?.cables;
+        let turns = cables.iter().flat_map(|cable| cable.windows(3)).map(|p| sewing::turn(p[0], p[1], p[2]));
+        Some(Proposal {
+            network,
+            poses,
+            current: self.current,
+            sewn: None,
+            thread_mm: cables.iter().map(|cable| length(cable)).sum(),
+            holes: cables.iter().map(|cable| cable.len().saturating_sub(2)).sum(),
+            turn_degrees: turns.fold(0.0, f64::max),
+            turning_degrees: cables.iter().map(|cable| sewing::turning(cable)).fold(0.0, f64::max),
+            force_n,
+            breaches,
+            preview: preview?,
+            paper: origin,
+        })
+    }
+
+    /// What is left of the pose at hand when a hand sews a network; `None` for a large body, and when cancelled.
+    pub fn sewn(&self, network: &Network, cancel: &AtomicBool) -> Option<Sewn> {
+        if self.design.mesh.triangles.len() * 3 / 2 > SEWN_UP_TO {
+            return None;
+        }
+        let mut with = self.design.clone();
+        with.networks.push(network.clone());
+        robust::sewn(&with, &[self.poses[self.current].1], self.friction, cancel).first().copied()
+    }
+
+    /// Rules broken at rest in which a winch has a part.
+    fn breaches(&self, with: &Design, own: usize) -> Vec<Breach> {
+        let rigs: Vec<Rig> = rigs_of(&with.networks, &with.mesh);
+        let gap_mm = with.fabrication.turning_gap_mm;
+        let found = sewing::judge(&with.sewing, &Body::new(&with.outline), &rigs, gap_mm);
+        found.into_iter().filter(|breach| breach.winches().any(|winch| winch == own)).collect()
+    }
+}
+
+/// Pieces of a winch's cables outside of the body in a pose.
+fn outside(with: &Design, nodes: &[Point], own: usize) -> Vec<Breach> {
+    let mut mesh = with.mesh.clone();
+    mesh.nodes = nodes.to_vec();
+    let ring = |ring: Vec<usize>| ring.into_iter().map(|node| nodes[node]).collect();
+    let rings: Vec<Vec<Point>> = mesh.boundary().into_iter().map(ring).collect();
+    let found = sewing::judge_pieces(rings.iter().map(Vec::as_slice), &rigs_of(&with.networks, &mesh));
+    found.into_iter().filter(|breach| breach.winches().any(|winch| winch == own)).collect()
+}
+
+fn length(cable: &[Point]) -> f64 {
+    cable.windows(2).map(|s| polygon::length(s[0], s[1])).sum()
+}

@@ -1,0 +1,82 @@
+//! Which networks are the same in kind: one is shown, the better one.
+
+use crate::outline::{Point, polygon};
+use crate::rigging::layout::{Layout, Placed};
+
+/// Networks nearer than this part of the body are of one kind: an eye that compares two pictures takes them for the same.
+pub(super) const APART: f64 = 0.07;
+/// Places along a cable that are compared.
+const PLACES: usize = 12;
+
+/// How far two layouts of one winch are apart, mm: the distance of the winches, or the mean distance of the cables where that is more; each
+/// cable with the one nearest to it of the other. Infinite for different numbers of tendons.
+pub(super) fn distance(a: &Layout, b: &Layout) -> f64 {
+    let pairs = a.winches.iter().zip(&b.winches);
+    let alike = a.winches.len() == b.winches.len() && pairs.clone().all(|(p, q)| p.cables.len() == q.cables.len());
+    if alike { pairs.map(|(p, q)| apart(p, q)).fold(0.0, f64::max) } else { f64::INFINITY }
+}
+
+fn apart(a: &Placed, b: &Placed) -> f64 {
+    let [mine, theirs] = [a, b].map(|winch| -> Vec<Vec<Point>> {
+        winch.cables.iter().map(|cable| resampled(&[&[winch.at], &cable[..]].concat())).collect()
+    });
+    let nearest = |cable: &Vec<Point>, others: &[Vec<Point>]| {
+        others.iter().map(|other| mean(cable, other)).fold(f64::INFINITY, f64::min)
+    };
+    let one_way = |cables: &[Vec<Point>], others: &[Vec<Point>]| {
+        cables.iter().map(|cable| nearest(cable, others)).sum::<f64>() / cables.len().max(1) as f64
+    };
+    let cables = one_way(&mine, &theirs).max(one_way(&theirs, &mine));
+    polygon::length(a.at, b.at).max(cables)
+}
+
+fn mean(a: &[Point], b: &[Point]) -> f64 {
+    a.iter().zip(b).map(|(p, q)| polygon::length(*p, *q)).sum::<f64>() / a.len().max(1) as f64
+}
+
+/// Places at equal steps along a cable, its ends included.
+fn resampled(cable: &[Point]) -> Vec<Point> {
+    let steps: Vec<f64> = cable.windows(2).map(|s| polygon::length(s[0], s[1])).collect();
+    let whole: f64 = steps.iter().sum();
+    let at = |k: usize| {
+        let mut left = whole * k as f64 / (PLACES - 1) as f64;
+        for (piece, step) in cable.windows(2).zip(&steps) {
+            if left <= *step {
+                return polygon::lerp(piece[0], piece[1], left / step.max(f64::MIN_POSITIVE));
+            }
+            left -= step;
+        }
+        cable[cable.len() - 1]
+    };
+    (0..PLACES).map(at).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn one(cables: Vec<Vec<Point>>) -> Layout {
+        Layout { winches: vec![Placed { at: [0.0, 0.0], cables }] }
+    }
+
+    #[test]
+    fn the_distance_is_that_of_the_ways_and_not_of_their_points() {
+        let straight = one(vec![vec![[10.0, 0.0]]]);
+        assert_eq!(distance(&straight, &straight), 0.0);
+        // A hole on the way changes nothing.
+        assert!(distance(&straight, &one(vec![vec![[3.0, 0.0], [10.0, 0.0]]])) < 1e-12);
+        // From the winch to an end 6 mm off: 3 mm in the mean.
+        let off = one(vec![vec![[10.0, 6.0]]]);
+        assert!(
+            (distance(&straight, &off) - 3.0).abs() < 1e-12 && distance(&straight, &off) == distance(&off, &straight)
+        );
+        // The order of tendons is no difference, their number is.
+        let both = one(vec![vec![[10.0, 0.0]], vec![[10.0, 6.0]]]);
+        let turned = one(vec![vec![[10.0, 6.0]], vec![[10.0, 0.0]]]);
+        assert_eq!(distance(&both, &turned), 0.0);
+        assert_eq!(distance(&both, &straight), f64::INFINITY);
+        let mut elsewhere = straight.clone();
+        elsewhere.winches[0].at = [0.0, 5.0];
+        assert_eq!(distance(&straight, &elsewhere), 5.0);
+    }
+}

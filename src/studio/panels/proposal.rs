@@ -1,0 +1,82 @@
+//! A proposal on the list: what it reaches, what it costs, whom it serves.
+
+use crate::discovery::Parameters;
+use crate::rigging::{PoseServed, Proposal};
+use crate::studio::action::{Action, Actions};
+use crate::studio::session::Session;
+use eframe::egui::{Button, Label, RichText, Ui, vec2};
+
+/// Height of the button, logical pixels.
+const ROW: f32 = 26.0;
+
+/// The button that shows it in the views, and its figures below.
+pub fn card(ui: &mut Ui, session: &Session, index: usize, proposal: &Proposal, actions: &mut Actions) {
+    let tendons = proposal.network.tendons.len();
+    let name = format!("{}  {tendons} tendon{}", index + 1, plural(tendons));
+    let error = format!("{} to {}", percent(proposal.error_before()), percent(proposal.error_after()));
+    let better = proposal.error_after() < proposal.error_before();
+    let color = if better { ui.visuals().text_color() } else { ui.visuals().warn_fg_color };
+    let button = Button::selectable(session.discovery.shown == Some(index), name)
+        .right_text(RichText::new(error).small().color(color))
+        .min_size(vec2(ui.available_width(), ROW));
+    let response = ui.add(button).accessible_name(format!("Proposal {}", index + 1));
+    if response.on_hover_text(details(proposal)).clicked() {
+        actions.push(Action::ShowProposal(Some(index)));
+    }
+    let small = |text: String| Label::new(RichText::new(text).small().weak()).wrap();
+    ui.add(small(costs(proposal)));
+    ui.add(small(serves(proposal)));
+    if !proposal.breaches.is_empty() {
+        let text = format!("Hard to sew in {} place{}", proposal.breaches.len(), plural(proposal.breaches.len()));
+        ui.add(Label::new(RichText::new(text).small().color(ui.visuals().warn_fg_color)).wrap());
+    }
+    ui.add_space(4.0);
+}
+
+/// What it takes to make.
+fn costs(proposal: &Proposal) -> String {
+    let Proposal { thread_mm, holes, force_n, .. } = proposal;
+    let sewn = proposal.sewn.map_or(String::new(), |sewn| format!(", sewn by hand {}", percent(sewn.median)));
+    format!("{thread_mm:.0} mm of cable, {holes} hole{}, {force_n:.1} N{sewn}", plural(*holes))
+}
+
+fn serves(proposal: &Proposal) -> String {
+    let served: Vec<&str> = proposal.serves().collect();
+    if served.is_empty() { "serves no pose well".to_owned() } else { format!("serves {}", served.join(", ")) }
+}
+
+/// Every figure, for the tip.
+fn details(proposal: &Proposal) -> String {
+    let Proposal { turn_degrees, turning_degrees, .. } = proposal;
+    let mut lines =
+        vec!["Error of the realizable plushie without and with it, in body lengths. Click to see it".to_owned()];
+    lines.extend(proposal.poses.iter().map(pose));
+    if let Some(sewn) = proposal.sewn {
+        let (median, worst) = (percent(sewn.median), percent(sewn.worst));
+        lines.push(format!("Sewn by hand, this pose: {median} as a rule, {worst} at worst"));
+    }
+    lines.push(format!("Largest turn at a hole {turn_degrees:.0} degrees, of a cable in all {turning_degrees:.0}"));
+    if let Some((parameters, _)) = &proposal.paper {
+        let Parameters { seed_num, join_depth, join_len, phi, .. } = parameters;
+        lines.push(format!(
+            "Found by Algorithm 2: {seed_num} seeds, {join_depth} rounds of {join_len} edges, phi {phi:.2}; moved since"
+        ));
+    }
+    lines.join("\n")
+}
+
+fn pose(pose: &PoseServed) -> String {
+    let name = pose.name.as_deref().unwrap_or("This pose");
+    let rubbed =
+        pose.with_friction.map(|[before, after]| format!(" (with friction {} to {})", percent(before), percent(after)));
+    format!("{name}: {} to {}{}", percent(pose.before), percent(pose.after), rubbed.unwrap_or_default())
+}
+
+/// An error, where there is such a figure.
+fn percent(error: f64) -> String {
+    if error.is_finite() { format!("{:.1} %", 100.0 * error) } else { "no figure".to_owned() }
+}
+
+fn plural(count: usize) -> &'static str {
+    if count == 1 { "" } else { "s" }
+}
