@@ -24,7 +24,7 @@
 //! | [`motion`] | what motors are told: trajectories of winches, programs, links that carry them |
 //! | [`fabrication`] | the blueprint: products (patterns, routings, tracks, programs) and the writers of their files |
 //! | [`picture`] | pictures of both plushies in layers, rasterised without a graphics adapter |
-//! | [`operations`] | every use case once: new, remesh, reshape, pose, propose, rig, key, check, export, render |
+//! | [`operations`] | every use case once: new, remesh, reshape, pose, propose, rig, explore, key, check, export, render |
 //! | [`bench`](mod@bench) | whole studies of the solvers, repeatable from a seed |
 //! | [`commands`] | the headless commands |
 //! | `studio` | the window (feature `studio`) |

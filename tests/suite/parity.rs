@@ -333,6 +333,35 @@ fn a_rig_with_fixed_options_is_the_same_both_ways() {
     same(&window, &folder.path().join("rigged.plush"));
 }
 
+#[test]
+fn a_rig_of_the_curve_is_the_same_both_ways() {
+    let (folder, mut window) = posed();
+    let fixed = ["--max-winches", "1", "--tendons", "1", "--seed-num", "12", "--join-depth", "2", "--join-len", "2"];
+    let fixed = [&["--explore", "--method", "algorithm2", "--phi", "0.5"][..], &fixed].concat();
+    run(folder.path(), &[&["rig", "bar.plush", "-o", "rigged.plush"][..], &fixed].concat());
+    click(&mut window, "Parameters");
+    for (name, value) in [("Seeds", "12"), ("Join rounds", "2"), ("Join length", "2"), ("Phi", "0.5")] {
+        enter(&mut window, Role::SpinButton, name, value);
+    }
+    click(&mut window, "All poses");
+    enter(&mut window, Role::SpinButton, "Most winches", "1");
+    enter(&mut window, Role::TextInput, "Tendons of each winch", "1");
+    click(&mut window, "Hold the parameters");
+    window.get_by_label("Compare numbers of winches").scroll_to_me();
+    settle(&mut window);
+    click(&mut window, "Compare numbers of winches");
+    assert!(session(&window).design().networks.is_empty() && !session(&window).rigging().curve.stale);
+    window.get_by_label("Take up to 1 winch of 1").scroll_to_me();
+    settle(&mut window);
+    click(&mut window, "Take up to 1 winch of 1");
+    assert_eq!(session(&window).design().keyframes.len(), 3);
+    same(&window, &folder.path().join("rigged.plush"));
+    // With it the design is another one, and nothing is taken twice.
+    assert!(session(&window).rigging().curve.stale);
+    click(&mut window, "Undo");
+    assert!(session(&window).design().networks.is_empty() && !session(&window).rigging().curve.stale);
+}
+
 /// The window's export has the files of the program's, byte for byte.
 #[track_caller]
 fn same_blueprint(folder: &Path, cli: &str, by_hand: &str) {

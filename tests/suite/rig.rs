@@ -54,6 +54,35 @@ fn what_sewing_by_hand_costs_is_told_as_a_check_tells_it() {
 }
 
 #[test]
+fn more_winches_and_tendons_are_compared_in_a_table_a_file_and_a_plot() {
+    let folder = place();
+    let f = folder.path();
+    let numbers = ["--fresh", "--max-winches", "1", "--tendons", "1..2", "--rounds", "1"];
+    let files = ["--csv", "curve.csv", "--plot", "curve.svg"];
+    let args = [&["rig", "bar.plush", "-o", "best.plush", "--explore"][..], &numbers, &files].concat();
+    let told = succeed(f, &args);
+    let csv = std::fs::read_to_string(f.join("curve.csv")).unwrap();
+    let rows: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
+    assert!(rows[0][0] == "up to winches" && rows[0].last() == Some(&"bend") && rows.len() == 3, "{csv}");
+    assert_eq!((&rows[1][..2], &rows[2][..2]), (&["1", "1"][..], &["1", "2"][..]));
+    let worst = |row: &[&str]| row[6].parse::<f64>().unwrap();
+    assert!(worst(&rows[2]) <= worst(&rows[1]), "{csv}");
+    let svg = std::fs::read_to_string(f.join("curve.svg")).unwrap();
+    assert!(svg.contains("1 winch") && svg.contains("<svg"), "{svg}");
+    assert!(told.contains("up to 1 winches of 2 tendons") && told.contains("worst pose (% of rest)"), "{told}");
+    // The best of them is kept, and a check says the figure of the table: with the friction that a new design has.
+    let json: Value = serde_json::from_str(&succeed(f, &["check", "best.plush", "--json"])).unwrap();
+    let error = json["poses"][0]["error_realizable_friction"].as_f64().unwrap();
+    let told: f64 = rows[2].last().unwrap().parse().unwrap();
+    assert!((told - 100.0 * error).abs() < 0.01, "{told} {error}");
+    // Its own files are written again, those of others are not.
+    succeed(f, &[&args[..], &["--force"]].concat());
+    std::fs::write(f.join("curve.csv"), "mine").unwrap();
+    assert_eq!(run(f, &args).status.code(), Some(2));
+    assert_eq!(std::fs::read_to_string(f.join("curve.csv")).unwrap(), "mine");
+}
+
+#[test]
 fn parameters_of_algorithm_2_belong_to_it() {
     let folder = place();
     let f = folder.path();

@@ -15,8 +15,9 @@ use std::ops::Range;
 pub(super) const ALIVE: usize = 8;
 /// Layouts begun in a batch, each the best of so many random ones in the linear model.
 const BEGUN: usize = 4;
-/// In the first one, after which something is shown.
+/// In the first few, after each of which something is shown.
 const FIRST: usize = 2;
+const SMALL: usize = 3;
 const DRAWN: usize = 6;
 /// Children of each layout in a round.
 const CHILDREN: usize = 2;
@@ -49,7 +50,7 @@ impl<'a> Pool<'a> {
 
     /// Begins new layouts.
     pub fn begin(&mut self, batch: usize, stop: Stop) {
-        let numbers: Vec<usize> = (0..if batch == 0 { FIRST } else { BEGUN }).map(|k| batch * BEGUN + k).collect();
+        let numbers: Vec<usize> = (0..if batch < SMALL { FIRST } else { BEGUN }).map(|k| batch * BEGUN + k).collect();
         let begun = in_order(&numbers, |&number| self.begun(number, stop));
         begun.into_iter().flatten().for_each(|fit| self.offer(fit, None));
     }

@@ -32,9 +32,11 @@ pub fn start_propose(session: &mut Session) {
 
 /// Takes what has been found by now, and finds out whether it still belongs to what is there.
 pub fn follow(session: &mut Session) {
-    let (design, targets) = (session.design().clone(), session.targets().to_vec());
-    session.discovery.follow(&design, &targets);
-    session.discovery.take_coming();
+    if session.discovery.has_asked() {
+        let (design, targets) = (session.design().clone(), session.targets().to_vec());
+        session.discovery.follow(&design, &targets);
+        session.discovery.take_coming();
+    }
 }
 
 /// The search is over.

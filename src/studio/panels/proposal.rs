@@ -23,12 +23,12 @@ pub fn card(ui: &mut Ui, session: &Session, index: usize, proposal: &Proposal, a
     if response.on_hover_text(details(proposal)).clicked() {
         actions.push(Action::ShowProposal(Some(index)));
     }
-    let small = |text: String| Label::new(RichText::new(text).small().weak()).wrap();
+    let small = |text: String| Label::new(RichText::new(text).small().weak()).truncate();
     ui.add(small(costs(proposal)));
     ui.add(small(serves(proposal)));
     if !proposal.breaches.is_empty() {
         let text = format!("Hard to sew in {} place{}", proposal.breaches.len(), plural(proposal.breaches.len()));
-        ui.add(Label::new(RichText::new(text).small().color(ui.visuals().warn_fg_color)).wrap());
+        ui.add(Label::new(RichText::new(text).small().color(ui.visuals().warn_fg_color)).truncate());
     }
     ui.add_space(4.0);
 }

@@ -7,6 +7,9 @@ use crate::studio::style;
 use crate::studio::viewport::thumbnail::Thumbnails;
 use eframe::egui::{Align2, FontId, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2};
 
+/// Height of a picture, logical pixels: that of the panel must not depend on its width, which scroll bars take from.
+const HEIGHT: f32 = 104.0;
+
 /// Four pictures, like the paper's fig. 6; the one chosen is shown large in the left view.
 pub fn show(ui: &mut Ui, session: &Session, thumbnails: &mut Thumbnails, actions: &mut Actions) {
     const GAP: f32 = 6.0;
@@ -37,7 +40,7 @@ fn thumbnail(
     name: &str,
     width: f32,
 ) -> Response {
-    let (rect, response) = ui.allocate_exact_size(vec2(width, 0.72 * width), Sense::click());
+    let (rect, response) = ui.allocate_exact_size(vec2(width, HEIGHT), Sense::click());
     let chosen = session.discovery.stage == stage;
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, name));
     if !ui.is_rect_visible(rect) {

@@ -64,6 +64,11 @@ impl Discovery {
         self.asked = Some(Asked { targets: targets.to_vec(), basis: Basis::new(design) });
     }
 
+    /// Whether there was a question.
+    pub(crate) fn has_asked(&self) -> bool {
+        self.asked.is_some()
+    }
+
     /// Finds out whether the list is stale. A stale one is not shown in the views.
     pub(crate) fn follow(&mut self, design: &Arc<Design>, targets: &[Target]) {
         let Some(asked) = &mut self.asked else { return };

@@ -1,8 +1,8 @@
 //! Networks and the animation: proposals, keyframes, playing.
 
 use crate::support::window::{
-    Window, bar, click, drag, other, pose, press, proposal, services, session, settle, wait, window, window_with,
-    with_network,
+    Window, bar, click, drag, on_screen, other, pose, press, proposal, services, session, settle, wait, window,
+    window_with, with_network,
 };
 use eframe::egui::{Key, Modifiers, accesskit, pos2, vec2};
 use egui_kittest::kittest::Queryable;
@@ -85,7 +85,11 @@ fn proposals_stream_in_and_a_list_for_another_pose_is_stale() {
     click(&mut window, "Proposal 1");
     assert!(window.query_by_label("Seeds").is_none(), "no stages are known of this one");
     // Other targets: nothing of it holds, and nothing can be accepted.
-    pose(&mut window, "Idealized view");
+    let drag_on = |window: &mut Window, from: [f64; 2], to: [f64; 2]| {
+        let [from, to] = [from, to].map(|p| on_screen(window, "Idealized view", p));
+        drag(window, from, to);
+    };
+    drag_on(&mut window, [115.0, 45.0], [110.0, 50.0]);
     assert!(session(&window).discovery().is_stale() && session(&window).shown_proposal().is_none());
     assert!(window.query_by_label("Accept").is_none());
     press(&mut window, Modifiers::NONE, Key::Enter);
@@ -96,7 +100,7 @@ fn proposals_stream_in_and_a_list_for_another_pose_is_stale() {
     assert!(session(&window).discovery().is_stale());
     click(&mut window, "Pose 1");
     assert!(!session(&window).discovery().is_stale());
-    pose(&mut window, "Idealized view");
+    drag_on(&mut window, [115.0, 45.0], [110.0, 50.0]);
     click(&mut window, "Propose again");
     assert!(!session(&window).discovery().is_stale() && session(&window).discovery().proposals.len() == 2);
     click(&mut window, "Accept");
