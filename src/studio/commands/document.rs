@@ -50,7 +50,7 @@ pub static REDO: Command = Command {
 
 pub static DELETE: Command = Command {
     icon: Some(Icon::Trash),
-    keys: &[Keys::plain(Key::Delete), Keys::plain(Key::Backspace)],
+    keys: &[Keys::plain(Key::Delete)],
     scope: Scope::Views,
     why_not: &|session, _| {
         (session.selection() == Selection::Nothing)

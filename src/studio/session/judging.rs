@@ -41,6 +41,8 @@ pub struct Judging {
     /// The pose that is worked on with all effort, and for which design.
     thorough: Option<(Arc<Design>, usize)>,
     pub(crate) trackers: Trackers,
+    /// Poses whose job broke: not tried again before the design changes.
+    broken: Vec<usize>,
 }
 
 impl Judging {
@@ -79,6 +81,7 @@ impl Judging {
         if Arc::ptr_eq(&before, design) {
             return;
         }
+        self.broken.clear();
         if before.mesh != design.mesh {
             self.cancel();
             self.begin_with(design);
@@ -119,7 +122,11 @@ impl Judging {
             return None;
         }
         let known = |pose: usize| self.error(pose).is_some_and(|error| error.fresh && error.thorough);
-        let open = |pose: &usize| design.poses.get(*pose).is_some_and(|p| !p.targets.is_empty()) && !known(*pose);
+        let open = |pose: &usize| {
+            design.poses.get(*pose).is_some_and(|p| !p.targets.is_empty())
+                && !known(*pose)
+                && !self.broken.contains(pose)
+        };
         first.into_iter().chain(0..design.poses.len()).find(open).map(|pose| (design.clone(), pose))
     }
 
@@ -161,6 +168,7 @@ impl Judging {
     /// A job broke.
     pub(crate) fn break_off(&mut self, serial: u64) {
         if Running::is(self.running.as_ref(), serial) {
+            self.broken.extend(self.thorough.as_ref().map(|(_, pose)| *pose));
             self.cancel();
         }
     }
@@ -240,5 +248,11 @@ mod tests {
         judging.take(serial, told);
         assert_eq!((error(&judging), judging.is_running()), (Some((0.1, false, true)), false));
         assert!(judging.take_due().is_some());
+        // One that breaks is not tried again and again.
+        let (serial, _) = found(&mut judging, &strung, 0.3);
+        judging.break_off(serial);
+        assert!(judging.next_pose(None).is_none());
+        judging.follow(&moved);
+        assert!(judging.next_pose(None).is_some());
     }
 }

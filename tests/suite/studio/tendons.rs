@@ -78,7 +78,7 @@ fn a_hole_is_put_in_by_a_drag_and_taken_out_by_a_key() {
     press(&mut window, Modifiers::NONE, Key::Delete);
     assert_eq!(places(&window, 0, 0).len(), 3);
     // The tendon is selected then, and goes with the next one.
-    press(&mut window, Modifiers::NONE, Key::Backspace);
+    press(&mut window, Modifiers::NONE, Key::Delete);
     assert_eq!(session(&window).design().networks[0].tendons.len(), 1);
     click(&mut window, "Undo");
     click(&mut window, "Undo");
