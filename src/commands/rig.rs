@@ -105,6 +105,7 @@ impl Rig {
             fresh: self.fresh,
             rounds: usize::from(self.rounds),
             seed: self.seed,
+            keep: true,
             max_winches: usize::from(self.max_winches),
             tendons: self.tendons.clone(),
             seed_num: self.seed_num,
@@ -113,7 +114,7 @@ impl Rig {
             phi: self.phi,
         };
         if self.explore.explore {
-            return self.explore(design, edit, &options, out, cancel);
+            return self.explore(design, edit, &Options { keep: false, ..options }, out, cancel);
         }
         let mut printed = Ok(());
         let mut told = None;
@@ -134,16 +135,21 @@ impl Rig {
         let mut context = Context::telling(cancel, &mut progress);
         let rigged = rig::run(&mut design, &options, &mut context).map_err(|error| failed(&self.design, error))?;
         printed?;
-        edit.save(&design, cancel)?;
+        // What an interrupted search has found is not lost.
+        let go = AtomicBool::new(false);
+        edit.save(&design, if rigged.interrupted { &go } else { cancel })?;
         let tendons: usize = design.networks.iter().map(|n| n.tendons.len()).sum();
-        say(out, &format!("{}: {} winches, {tendons} tendons", shown(&self.target.output), design.networks.len()))?;
+        let ended = if rigged.interrupted { ", the best so far" } else { "" };
+        let winches = design.networks.len();
+        say(out, &format!("{}: {winches} winches, {tendons} tendons{ended}", shown(&self.target.output)))?;
         for note in rigged.notes.iter().filter(|note| matches!(note, Note::AtRest { .. })) {
             say(out, &format!("note: {note}"))?;
         }
         words::balanced(rigged.notes.iter().filter_map(|note| match note {
             Note::Key(key::Note::Unbalanced(unbalanced)) => Some(unbalanced),
             Note::AtRest { .. } => None,
-        }))
+        }))?;
+        if rigged.interrupted { Err(CommandError::Cancelled) } else { Ok(()) }
     }
 }
 

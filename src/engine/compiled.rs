@@ -128,12 +128,18 @@ pub(super) fn compiled<'a>(
         Some(compiled) if BodySpec::of(&compiled.source) == BodySpec::of(design) => compiled,
         before => {
             let plushie = compile(design, view).map_err(|e| e.to_string())?;
-            // On the same mesh its last posture is a start that is nearer than rest: a hole is dragged.
-            let last = before.filter(|before| before.source.mesh == design.mesh).and_then(|before| before.last);
+            // Where networks alone are others, its last posture is a start that is nearer than rest: a hole is dragged.
+            let strung = |before: &Compiled| bare(&before.source) == bare(design);
+            let last = before.filter(strung).and_then(|before| before.last);
             Compiled { source: body_of(design), plushie, last, tracker: None }
         }
     };
     Ok(slot.insert(compiled))
+}
+
+/// What a model depends on but for the networks.
+fn bare(design: &Design) -> BodySpec<'_> {
+    BodySpec { networks: &[], ..BodySpec::of(design) }
 }
 
 /// The design without what no model depends on.

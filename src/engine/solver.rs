@@ -171,6 +171,23 @@ mod tests {
     }
 
     #[test]
+    fn a_dragged_hole_goes_on_from_the_last_posture() {
+        let mut design = testing::sample();
+        design.pins.truncate(1);
+        let pose = || Setpoint::Targets(testing::sample().poses[0].targets.clone());
+        let mut solver = Solver::default();
+        for step in 0..6 {
+            let at = 0.05 * f64::from(step);
+            let hole = crate::physics::MaterialPoint::of_triangle([2, 3, 4], [at, 0.0, 1.0 - at]);
+            design.networks[1].tendons[0].routing[1] = hole;
+            let followed = ask(&mut solver, &design, pose(), [false, true]).realizable.unwrap();
+            let fresh = ask(&mut Solver::default(), &design, pose(), [false, true]).realizable.unwrap();
+            assert!(followed.target_error <= fresh.target_error + 1e-3, "{step}");
+            assert!(followed.distance_from_equilibrium() < super::super::NEAR_EQUILIBRIUM, "{step}");
+        }
+    }
+
+    #[test]
     fn a_shape_says_how_far_from_equilibrium_it_is() {
         let design = testing::sample();
         let outcome = ask(&mut Solver::default(), &design, Setpoint::Activations(vec![3.0, 1.0]), [true, true]);

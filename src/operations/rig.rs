@@ -8,6 +8,7 @@ use crate::mesh::Mesh;
 use crate::motion;
 use crate::rigging::{self, RigError};
 use std::fmt;
+use std::sync::atomic::AtomicBool;
 
 pub use crate::rigging::{Method, RigOptions as Options, TendonChoice};
 
@@ -72,6 +73,8 @@ pub struct Rigged {
     /// The timeline, where the design had none.
     pub keyframes: Vec<Keyframe>,
     pub notes: Vec<Note>,
+    /// Whether the search was told to stop, and this is the best that it had by then.
+    pub interrupted: bool,
     /// Whether the networks replace those that are there.
     fresh: bool,
     /// What it was found for.
@@ -92,7 +95,12 @@ pub fn prepare(design: &Design, options: &Options, context: &mut Context) -> Res
     let bare = options.fresh.then(|| without_networks(design));
     let from = bare.as_ref().unwrap_or(&acting);
     let mut rigged = rigging::rig(from, options, &mut progress, cancel)?;
-    context.check()?;
+    let interrupted = context.check().is_err();
+    if interrupted && !options.keep {
+        return Err(Cancelled.into());
+    }
+    let go = AtomicBool::new(false);
+    let context = &Context::new(if interrupted { &go } else { cancel });
     let notes = if rigged.keyframes.is_empty() {
         lay_out(&mut rigged, context)?
     } else if options.fresh {
@@ -106,7 +114,8 @@ pub fn prepare(design: &Design, options: &Options, context: &mut Context) -> Res
     if !options.fresh {
         keyframes.iter_mut().for_each(|keyframe| keyframe.activations_mm = design.of_all(&keyframe.activations_mm));
     }
-    Ok(Rigged { networks, keyframes, notes, fresh: options.fresh, mesh: rigged.mesh, present: design.networks.clone() })
+    let (mesh, present) = (rigged.mesh, design.networks.clone());
+    Ok(Rigged { networks, keyframes, notes, interrupted, fresh: options.fresh, mesh, present })
 }
 
 /// The design before it had winches: its keyframes at rest.
@@ -205,7 +214,6 @@ pub fn run(design: &mut Design, options: &Options, context: &mut Context) -> Res
 mod tests {
     use super::*;
     use crate::design::testing;
-    use std::sync::atomic::AtomicBool;
 
     #[test]
     fn a_design_without_poses_and_a_cancelled_one_stay_as_they_are() {
@@ -228,6 +236,7 @@ mod tests {
             networks: vec![added],
             keyframes: Vec::new(),
             notes: Vec::new(),
+            interrupted: false,
             fresh: false,
             mesh: design.mesh.clone(),
             present: design.networks.clone(),

@@ -215,6 +215,16 @@ impl<'a> Joint<'a> {
         self.islands.retain(|island| !island.is_empty());
     }
 
+    /// One more layout lives on the first island: one from elsewhere, with activations and positions of every pose.
+    pub fn take(&mut self, layout: Layout, from: &[(Vec<f64>, Vec<f64>)], stop: &dyn Fn() -> bool) {
+        let taken = self.task.taken(layout, from, stop);
+        let improved = taken.and_then(|fit| self.task.wound(self.task.improve(fit, STEPS, false, stop), STEPS, stop));
+        if let (Some(fit), Some(island)) = (improved, self.islands.first_mut()) {
+            island.push(Living::new(fit));
+            keep(island);
+        }
+    }
+
     /// The worst island is given up for the best.
     fn give_up(&mut self) {
         let cost = |island: &Vec<Living>| island.first().map_or(f64::INFINITY, |living| living.fit.cost);

@@ -26,6 +26,15 @@ pub struct Spot {
 }
 
 impl Layout {
+    /// Where networks are that somebody else made.
+    pub fn of(networks: &[Network], mesh: &Mesh) -> Self {
+        let placed = |rig: sewing::Rig| Placed {
+            at: rig.winch,
+            cables: rig.cables.into_iter().map(|cable| cable.into_iter().skip(1).collect()).collect(),
+        };
+        Self { winches: rigs_of(networks, mesh).into_iter().map(placed).collect() }
+    }
+
     /// All points that can be moved: each winch, then the points of its cables.
     pub fn spots(&self) -> Vec<Spot> {
         let mut out = Vec::new();

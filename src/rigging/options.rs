@@ -18,6 +18,8 @@ pub struct RigOptions {
     /// Rounds of search, and the seed of its random numbers ([`Method::Joint`] alone).
     pub rounds: usize,
     pub seed: u64,
+    /// Whether a search that is told to stop ends with the best that it has, instead of [`RigError::Cancelled`] ([`Method::Joint`] alone).
+    pub keep: bool,
     pub max_winches: usize,
     pub tendons: TendonChoice,
     /// Parameters of Algorithm 2 held at these values; `None` lets the search vary them.
@@ -35,6 +37,7 @@ impl Default for RigOptions {
             rules: true,
             rounds: defaults::RIG_ROUNDS,
             seed: 1,
+            keep: false,
             max_winches: 3,
             tendons: TendonChoice::default(),
             seed_num: None,

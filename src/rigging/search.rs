@@ -4,7 +4,7 @@ use super::candidate::unused_name;
 use super::checked::Checked;
 use super::greedy;
 use super::joint::Joint;
-use super::layout::rigs_of;
+use super::layout::{Layout, rigs_of};
 use super::moves::{Sampler, Topology};
 use super::options::{Method, Progress, RigError, RigOptions, TendonChoice};
 use super::prune::{SERVED, pruned};
@@ -75,6 +75,9 @@ fn together(
     let coarse = coarser(design);
     let searched = coarse.as_ref().unwrap_or(design);
     let found = layouts(searched, options, &topology, progress, cancel)?;
+    // What was found before the end is judged all the same, in a moment.
+    let (ended, go) = (cancel.load(atomic::Ordering::Relaxed), AtomicBool::new(false));
+    let cancel = if ended { &go } else { cancel };
     let found: Vec<Fit> = match coarse {
         None => found,
         Some(_) => {
@@ -84,7 +87,7 @@ fn together(
             in_order(&found, |fit| task.transferred(fit, &stop)).into_iter().flatten().collect()
         }
     };
-    let verified = in_order(&found, |fit| verified(design, fit, options.rules, cancel));
+    let verified = in_order(&found, |fit| verified(design, fit, options.rules && !ended, cancel));
     if cancel.load(atomic::Ordering::Relaxed) {
         return Err(RigError::Cancelled);
     }
@@ -150,11 +153,15 @@ fn layouts(
     let samplers = [Some(&sewable), None].map(|sewable| Sampler::new(&design.mesh, sewable));
     let school = Topology { most_holes: design.sewing.most_holes, ..topology.clone() };
     let mut joint = Joint::new(&lawful, &samplers[0], school.clone(), options.seed, &stop);
+    let mut algorithm2 = if options.rules { None } else { of_algorithm2(&free, options, cancel) };
     let (mut best, mut since, mut lawfully, mut settled) = (f64::INFINITY, 0, true, 0);
     for round in 0..options.rounds {
         let schooled = round - settled >= (options.rounds - settled) / 2;
         if lawfully && !options.rules && (schooled || since > PATIENCE) {
             joint.turn_to(&free, &samplers[1], topology.clone(), &stop);
+            if let Some((layout, poses)) = algorithm2.take() {
+                joint.take(layout, &poses, &stop);
+            }
             (best, since, lawfully) = (f64::INFINITY, 0, false);
         } else if since > PATIENCE {
             joint.leave(&lawful, &samplers[0], school.clone(), &stop);
@@ -170,20 +177,45 @@ fn layouts(
         best = best.min(here.worst());
         joint.advance(&stop);
         if stop() {
-            return Err(RigError::Cancelled);
+            break;
         }
+    }
+    if stop() {
+        return so_far(joint.best(), options);
     }
     let task = if options.rules { &lawful } else { &free };
     let mut finished = in_order(&joint.finalists(FINALISTS), |fit| {
         task.sharpened(pruned(task, topology, joint.finished(fit, &stop), &stop), SHARPENING, &stop)
     });
     if stop() {
-        return Err(RigError::Cancelled);
+        return so_far(joint.best(), options);
     }
     if options.rules && finished.iter().any(|fit| sewable.is_kept(&fit.layout)) {
         finished.retain(|fit| sewable.is_kept(&fit.layout));
     }
     Ok(finished)
+}
+
+/// What Algorithm 2 builds, its parameters varied, with activations and positions of every pose: a start where no rule forbids it, so that
+/// the search never ends above it.
+fn of_algorithm2(
+    task: &Task,
+    options: &RigOptions,
+    cancel: &AtomicBool,
+) -> Option<(Layout, Vec<(Vec<f64>, Vec<f64>)>)> {
+    let swept = RigOptions { method: Method::Algorithm2, ..options.clone() };
+    let rigged = greedy::rig(task.design, &swept, &mut |_| (), cancel).ok()?;
+    let layout = Layout::of(&rigged.networks[task.fixed.len()..], &task.design.mesh);
+    let posed = |(targets, _): &(Vec<Target>, f64)| {
+        let shape = Checked::of(&rigged, targets, 0.0, cancel).shape;
+        (shape.activations_mm, shape.nodes.into_iter().flatten().collect())
+    };
+    Some((layout, task.poses.iter().map(posed).collect()))
+}
+
+/// What a search that was told to stop ends with.
+fn so_far(best: Option<&Fit>, options: &RigOptions) -> Result<Vec<Fit>, RigError> {
+    if options.keep { Ok(best.cloned().into_iter().collect()) } else { Err(RigError::Cancelled) }
 }
 
 /// A pose as a check has it, errors in body lengths.

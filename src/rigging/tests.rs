@@ -2,8 +2,9 @@
 
 use super::joint::Joint;
 use super::layout::{Layout, Placed};
+use super::linear_score::Linear;
 use super::moves::{Sampler, Topology};
-use super::refine::Task;
+use super::refine::{Fit, Task};
 use super::sewable::Sewable;
 use super::{RigOptions, TendonChoice, rig};
 use crate::design::{Design, Pin, Pose, Target};
@@ -11,7 +12,7 @@ use crate::engine::{Setpoint, solve_once};
 use crate::mesh::{self, BodyPoint};
 use crate::outline::{Outline, Point};
 use crate::sewing::Rules;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 const GO: &(dyn Fn() -> bool + Sync) = &|| false;
 
@@ -133,4 +134,58 @@ fn options_that_leave_nothing_to_build_find_nothing() {
     // The wrong way around, and no tendon at all: one is the least that a winch has.
     let odd = RigOptions { max_winches: 1, rounds: 0, tendons: TendonChoice::Between(2, 0), ..RigOptions::default() };
     assert_eq!(of(&bar(80), &odd).map(|design| design.networks[0].tendons.len()), Ok(2));
+}
+
+#[test]
+fn a_search_that_is_told_to_stop_ends_with_the_best_so_far_where_that_is_asked_for() {
+    let design = bar(80);
+    let searched = |keep: bool| {
+        let stop = AtomicBool::new(false);
+        let options =
+            RigOptions { max_winches: 1, tendons: TendonChoice::PerWinch(vec![1]), keep, ..RigOptions::default() };
+        // After the first layouts, in the first round.
+        rig(&design, &options, &mut |_| stop.store(true, Ordering::SeqCst), &stop)
+    };
+    assert_eq!(searched(false), Err(super::RigError::Cancelled));
+    let kept = searched(true).unwrap();
+    kept.validate().unwrap();
+    assert_eq!(kept.networks.len(), 1);
+}
+
+#[test]
+fn targets_that_move_by_less_than_anybody_sees_change_no_bit_of_a_rig() {
+    let design = bar(80);
+    let go = AtomicBool::new(false);
+    let options = RigOptions { max_winches: 1, rounds: 1, ..RigOptions::default() };
+    let mut moved = design.clone();
+    for target in moved.poses.iter_mut().flat_map(|pose| &mut pose.targets) {
+        target.to = target.to.map(|v| v + 240.0 * 1e-9);
+    }
+    let [a, b] = [&design, &moved].map(|design| rig(design, &options, &mut |_| (), &go).unwrap());
+    assert_eq!(a.networks, b.networks);
+}
+
+/// What the linear model says of the fit that it is around, and of a small change, is what a simulation finds.
+#[test]
+fn the_body_around_a_fit_tells_what_small_changes_do() {
+    let design = bar(150);
+    let task = Task::new(&design, None, &[]);
+    let fit = task.improve(task.begin(layout(), GO).unwrap(), 12, false, GO);
+    let fit = task.improve(fit, 30, true, GO);
+    let around = Linear::at(&task, &fit).unwrap();
+    let squares = |fit: &Fit| fit.misses.iter().map(|f| f * f).sum::<f64>();
+    assert!((around.left(&fit.layout) - squares(&fit)).abs() < 0.05 * squares(&fit) + 1e-4);
+    let (mut told, mut found) = (Vec::new(), Vec::new());
+    for spot in fit.layout.spots() {
+        for by in [-3.0, 3.0] {
+            let mut layout = fit.layout.clone();
+            layout.point_mut(spot)[1] += by;
+            let there = task.improve(task.resume(layout.clone(), &fit, GO).unwrap(), 30, true, GO);
+            told.push(around.left(&layout) - around.left(&fit.layout));
+            found.push(squares(&there) - squares(&fit));
+        }
+    }
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
+    let cosine = dot(&told, &found) / (dot(&told, &told) * dot(&found, &found)).sqrt();
+    assert!(cosine > 0.9, "{cosine}: {told:?} {found:?}");
 }

@@ -79,28 +79,7 @@ pub fn draw(icon: Icon, rect: Rect, color: Color32) -> Vec<Shape> {
         Icon::Redo => {
             vec![pen.arc((0.48, 0.6), 0.34, -30.0, -240.0), pen.line(&[(0.84, 0.12), (0.8, 0.46), (0.48, 0.36)])]
         }
-        Icon::Hand => vec![pen.line(&[
-            (0.2, 0.08),
-            (0.2, 0.78),
-            (0.38, 0.62),
-            (0.5, 0.92),
-            (0.64, 0.86),
-            (0.52, 0.58),
-            (0.76, 0.58),
-            (0.2, 0.08),
-        ])],
-        Icon::Pin => vec![pen.ring(0.5, 0.3, 0.2), pen.line(&[(0.5, 0.5), (0.5, 0.94)]), pen.dot(0.5, 0.3, 0.07)],
-        Icon::Pull => vec![
-            pen.arc((0.3, 0.5), 0.24, 30.0, 330.0),
-            pen.line(&[(0.5, 0.5), (0.94, 0.5)]),
-            pen.line(&[(0.76, 0.32), (0.94, 0.5), (0.76, 0.68)]),
-        ],
-        Icon::Tendon => vec![
-            pen.ring(0.2, 0.78, 0.14),
-            pen.line(&[(0.3, 0.66), (0.46, 0.34), (0.84, 0.2)]),
-            pen.dot(0.46, 0.34, 0.09),
-            pen.dot(0.86, 0.2, 0.09),
-        ],
+        Icon::Hand | Icon::Pin | Icon::Tendon | Icon::Pull => tool(icon, &pen),
         Icon::Fit => vec![
             pen.line(&[(0.06, 0.32), (0.06, 0.06), (0.32, 0.06)]),
             pen.line(&[(0.68, 0.06), (0.94, 0.06), (0.94, 0.32)]),
@@ -161,6 +140,35 @@ pub fn draw(icon: Icon, rect: Rect, color: Color32) -> Vec<Shape> {
             pen.dot(0.5, 0.76, 0.05),
         ],
         Icon::Check => vec![pen.line(&[(0.08, 0.54), (0.38, 0.84), (0.92, 0.16)])],
+    }
+}
+
+/// The icons of the tools on the views.
+fn tool(icon: Icon, pen: &Pen) -> Vec<Shape> {
+    match icon {
+        Icon::Hand => vec![pen.line(&[
+            (0.2, 0.08),
+            (0.2, 0.78),
+            (0.38, 0.62),
+            (0.5, 0.92),
+            (0.64, 0.86),
+            (0.52, 0.58),
+            (0.76, 0.58),
+            (0.2, 0.08),
+        ])],
+        Icon::Pin => vec![pen.ring(0.5, 0.3, 0.2), pen.line(&[(0.5, 0.5), (0.5, 0.94)]), pen.dot(0.5, 0.3, 0.07)],
+        Icon::Pull => vec![
+            pen.arc((0.3, 0.5), 0.24, 30.0, 330.0),
+            pen.line(&[(0.5, 0.5), (0.94, 0.5)]),
+            pen.line(&[(0.76, 0.32), (0.94, 0.5), (0.76, 0.68)]),
+        ],
+        Icon::Tendon => vec![
+            pen.ring(0.2, 0.78, 0.14),
+            pen.line(&[(0.3, 0.66), (0.46, 0.34), (0.84, 0.2)]),
+            pen.dot(0.46, 0.34, 0.09),
+            pen.dot(0.86, 0.2, 0.09),
+        ],
+        _ => Vec::new(),
     }
 }
 

@@ -101,6 +101,9 @@ fn wrong_usage_is_one_line_and_code_2() {
         &["pose", "bar.plush", "--name", "p", "--pin", "-60,10", "-o", "x.plush"],
         &["rig", "bar.plush", "-o", "x.plush", "--tendons", "3..1"],
         &["rig", "bar.plush", "-o", "x.plush"],
+        &["network", "remove", "bar.plush", "--winch", "1", "-o", "x.plush"],
+        &["network", "new", "bar.plush", "--through", "20,20", "-o", "x.plush"],
+        &["network", "new", "bar.plush", "--through", "20,20", "--through", "-20,20", "-o", "x.plush"],
         &["key", "bar.plush", "--pose", "p", "--time", "0", "-o", "x.plush"],
         &["export", "bar.plush", "-o", "x"],
         &["render", "bar.plush", "-o", "x.png", "--pose", "none"],
@@ -472,4 +475,64 @@ fn a_mesh_is_measured_and_changed() {
     assert!(fail(here, 2, &["new", "bad.ron", "-o", "no.plush"]).contains("tracks[0]"));
     assert!(fail(here, 2, &["remesh", "bar.plush", "-o", "no.plush"]).contains("--fibers"));
     assert!(!here.join("no.plush").exists());
+}
+
+#[test]
+fn networks_are_listed_changed_and_what_is_hard_to_sew_told() {
+    let folder = bar();
+    let f = folder.path();
+    let network = |action: &str, args: &[&str]| {
+        succeed(f, &[&["network", action, "bar.plush", "-o", "bar.plush"][..], args].concat())
+    };
+    let told = network("new", &["--through", "20,20", "--through", "60,30", "--through", "110,20"]);
+    assert!(told.starts_with("bar.plush: new winch; 1 winches, 1 tendons\n"), "{told}");
+    let told = network("move", &["--winch", "winch 1", "--tendon", "1", "--hole", "1", "--to", "60,38"]);
+    assert!(told.contains("hard to sew: winch 1, tendon 1: hole 1 from the winch is 2.0 mm from the seam"), "{told}");
+    network("color", &["--winch", "1", "--color", "#0a141e"]);
+    network("mute", &["--winch", "1"]);
+    let listed: serde_json::Value =
+        serde_json::from_str(&succeed(f, &["network", "list", "bar.plush", "--json"])).unwrap();
+    assert_eq!((&listed[0]["muted"], &listed[0]["color"]), (&true.into(), &serde_json::json!([10, 20, 30])));
+    let hole: Vec<f64> = serde_json::from_value(listed[0]["tendons"][0]["places"][1].clone()).unwrap();
+    assert!((hole[0] - 60.0).abs() < 1e-9 && (hole[1] - 38.0).abs() < 1e-9, "{hole:?}");
+    assert!(
+        succeed(f, &["network", "list", "bar.plush"]).contains("1 winch 1 (switched off)\n  tendon 1: 20.000,20.000 ")
+    );
+    assert!(succeed(f, &["check", "bar.plush"]).contains("switched off: winch 1"));
+    for args in [
+        &["network", "color", "bar.plush", "--winch", "1", "--color", "red", "-o", "bar.plush"][..],
+        &[
+            "network",
+            "move",
+            "bar.plush",
+            "--winch",
+            "1",
+            "--tendon",
+            "0",
+            "--hole",
+            "1",
+            "--to",
+            "9,9",
+            "-o",
+            "bar.plush",
+        ],
+        &[
+            "network",
+            "move",
+            "bar.plush",
+            "--winch",
+            "1",
+            "--tendon",
+            "1",
+            "--hole",
+            "3",
+            "--to",
+            "9,9",
+            "-o",
+            "bar.plush",
+        ],
+        &["network", "hand-over", "bar.plush", "--winch", "1", "--tendon", "1", "--to", "2", "-o", "bar.plush"],
+    ] {
+        fail(f, 2, args);
+    }
 }

@@ -177,6 +177,12 @@ impl<'a> Task<'a> {
         self.fit(layout, &mut built, &from, stop)
     }
 
+    /// A layout from elsewhere, with activations and positions of every pose.
+    pub fn taken(&self, layout: Layout, from: &[(Vec<f64>, Vec<f64>)], stop: &dyn Fn() -> bool) -> Option<Fit> {
+        let mut built = self.build(&layout)?;
+        self.fit(layout, &mut built, from, stop)
+    }
+
     /// A layout that is like another one: begun where that one ended, as far as the winches are the same.
     pub fn resume(&self, layout: Layout, from: &Fit, stop: &dyn Fn() -> bool) -> Option<Fit> {
         let mut built = self.build(&layout)?;

@@ -19,6 +19,7 @@ pub fn change(session: &mut Session, change: Change) {
 /// Part of a gesture, which is one step of undo.
 pub fn live(session: &mut Session, change: Change) {
     let label = change.label();
+    let of_networks = matches!(change, Change::Network(_));
     if session.document.history.undo_label() != Some(label) || !session.document.history.in_gesture() {
         session.document.history.begin(label);
     }
@@ -27,7 +28,7 @@ pub fn live(session: &mut Session, change: Change) {
         // On the way through a refused value: the last good one stays, and the control shows it.
         Err(EditError::TimeTaken(_)) => {}
         // A hole on top of the one before it.
-        Err(EditError::Invalid(_)) if matches!(session.picked.selection, Selection::Part(_)) => {}
+        Err(EditError::Invalid(_)) if of_networks => {}
         Err(error) => session.messages.error(format!("{label}: {error}")),
     }
 }

@@ -1,7 +1,7 @@
 //! Judges the design on a thread while it changes: how near its poses come, which rules of sewing it breaks.
 
 use crate::design::Design;
-use crate::engine::{Quality, Request, Setpoint, Solver, solve_once};
+use crate::engine::{Effort, Quality, Request, Setpoint, Solver};
 use crate::fabrication::judge_design;
 use crate::studio::jobs::Outcome;
 use crate::studio::session::{Judgement, Session};
@@ -37,10 +37,17 @@ pub fn follow(session: &mut Session, hands_off: bool) {
     }
     if let Some((design, pose)) = session.judging.next_pose(session.pose()) {
         let of = (design.clone(), pose);
+        let trackers = session.judging.trackers.clone();
         let running = session.jobs.start("Judging a pose", move |cancel| {
-            let setpoint = Setpoint::Targets(design.poses[pose].targets.clone());
-            let found = solve_once(&design, setpoint, [false, true], cancel).realizable;
+            // From rest, as `check` does; what follows the hand later goes on from there.
+            let mut solver = Solver::default();
+            let request = request(&design, pose, Quality::Accurate);
+            let found = solver.solve_with(&request, Effort::Thorough, cancel).realizable;
             let error = found.filter(|_| !cancel.load(Ordering::SeqCst)).map(|shape| shape.target_error);
+            if error.is_some() {
+                let mut trackers = trackers.lock().unwrap_or_else(PoisonError::into_inner);
+                trackers.insert(design.poses[pose].name.clone(), solver);
+            }
             Outcome::Judged(Box::new(Judgement::Thorough { design, pose, error }))
         });
         session.judging.begin(running, Some(of));
@@ -54,14 +61,7 @@ fn quick(design: &Arc<Design>, trackers: &mut BTreeMap<String, Solver>, cancel: 
     }
     let mut errors = Vec::new();
     for (number, pose) in design.poses.iter().enumerate().filter(|(_, pose)| !pose.targets.is_empty()) {
-        let request = Request {
-            id: 0,
-            design: design.clone(),
-            setpoint: Setpoint::Targets(pose.targets.clone()),
-            quality: Quality::Balanced,
-            show_idealized: false,
-            show_realizable: true,
-        };
+        let request = request(design, number, Quality::Balanced);
         let solver = trackers.entry(pose.name.clone()).or_default();
         let mut error = None;
         for _ in 0..FRAMES {
@@ -77,4 +77,10 @@ fn quick(design: &Arc<Design>, trackers: &mut BTreeMap<String, Solver>, cancel: 
         errors.extend(error.map(|error| (number, error)));
     }
     errors
+}
+
+/// The realizable plushie in a pose.
+fn request(design: &Arc<Design>, pose: usize, quality: Quality) -> Request {
+    let setpoint = Setpoint::Targets(design.poses[pose].targets.clone());
+    Request { id: 0, design: design.clone(), setpoint, quality, show_idealized: false, show_realizable: true }
 }

@@ -87,7 +87,10 @@ fn list(ui: &mut Ui, session: &Session, actions: &mut Actions) {
         };
         let error = session.judging().error(index);
         let (color, detail) = match error {
-            Some(error) => (error_color(ui, error), format!("{targets}  {:.2} %", 100.0 * error.error)),
+            Some(error) => (
+                error_color(ui, error),
+                format!("{targets}  {}{:.2} %", if error.thorough { "" } else { "~" }, 100.0 * error.error),
+            ),
             None => (ui.visuals().weak_text_color(), targets),
         };
         let response = row(ui, &pose.name, (&detail, color), in_pose && session.picked.pose == Some(index));

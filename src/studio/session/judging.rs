@@ -194,3 +194,51 @@ fn strung_alike(a: &Design, b: &Design) -> bool {
     };
     holes(a) == holes(b)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::testing;
+    use crate::studio::jobs::{Jobs, Outcome};
+
+    #[test]
+    fn figures_are_old_as_soon_as_what_they_are_about_changes() {
+        let mut jobs = Jobs::new(Arc::new(|| ()));
+        let mut judging = Judging::default();
+        let first = Arc::new(testing::sample());
+        judging.follow(&first);
+        assert!(!judging.is_settled(&first) && judging.take_due().is_some() && judging.take_due().is_none());
+        let mut found = |judging: &mut Judging, design: &Arc<Design>, error: f64| {
+            let running = jobs.start("Judging", |_| Outcome::Broken { job: "Judging", why: String::new() });
+            let serial = running.serial;
+            judging.begin(running, Some((design.clone(), 0)));
+            (serial, Judgement::Thorough { design: design.clone(), pose: 0, error: Some(error) })
+        };
+        let (serial, told) = found(&mut judging, &first, 0.1);
+        judging.take(serial, told);
+        let error = |judging: &Judging| judging.error(0).map(|error| (error.error, error.fresh, error.thorough));
+        assert_eq!(error(&judging), Some((0.1, true, true)));
+        // The second pose has no targets.
+        assert!(judging.next_pose(None).is_none() && judging.is_settled(&first));
+        let changed = |change: fn(&mut Design)| {
+            let mut design = testing::sample();
+            change(&mut design);
+            Arc::new(design)
+        };
+        judging.follow(&changed(|d| d.name.push('x')));
+        assert_eq!(error(&judging), Some((0.1, true, true)));
+        let moved = changed(|d| d.poses[0].targets[0].to[0] += 1.0);
+        judging.follow(&moved);
+        assert_eq!(
+            (error(&judging), judging.next_pose(None).map(|(_, pose)| pose)),
+            (Some((0.1, false, true)), Some(0))
+        );
+        // What is found for a design that is there no more is given up.
+        let (serial, told) = found(&mut judging, &moved, 0.2);
+        let strung = changed(|d| drop(d.networks[0].tendons.pop()));
+        judging.follow(&strung);
+        judging.take(serial, told);
+        assert_eq!((error(&judging), judging.is_running()), (Some((0.1, false, true)), false));
+        assert!(judging.take_due().is_some());
+    }
+}
