@@ -156,7 +156,8 @@ fn a_search_that_is_told_to_stop_ends_with_the_best_so_far_where_that_is_asked_f
 fn targets_that_move_by_less_than_anybody_sees_change_no_bit_of_a_rig() {
     let design = bar(80);
     let go = AtomicBool::new(false);
-    let options = RigOptions { max_winches: 1, rounds: 1, ..RigOptions::default() };
+    let options =
+        RigOptions { max_winches: 1, tendons: TendonChoice::PerWinch(vec![1]), rounds: 1, ..RigOptions::default() };
     let mut moved = design.clone();
     for target in moved.poses.iter_mut().flat_map(|pose| &mut pose.targets) {
         target.to = target.to.map(|v| v + 240.0 * 1e-9);
@@ -174,13 +175,15 @@ fn the_body_around_a_fit_tells_what_small_changes_do() {
     let fit = task.improve(fit, 30, true, GO);
     let around = Linear::at(&task, &fit).unwrap();
     let squares = |fit: &Fit| fit.misses.iter().map(|f| f * f).sum::<f64>();
-    assert!((around.left(&fit.layout) - squares(&fit)).abs() < 0.05 * squares(&fit) + 1e-4);
+    // The windings of the fit are among those that the model may choose.
+    assert!(around.left(&fit.layout) < 1.05 * squares(&fit) + 1e-6, "{} {}", around.left(&fit.layout), squares(&fit));
     let (mut told, mut found) = (Vec::new(), Vec::new());
     for spot in fit.layout.spots() {
         for by in [-3.0, 3.0] {
             let mut layout = fit.layout.clone();
             layout.point_mut(spot)[1] += by;
-            let there = task.improve(task.resume(layout.clone(), &fit, GO).unwrap(), 30, true, GO);
+            let Some(there) = task.resume(layout.clone(), &fit, GO) else { continue };
+            let there = task.improve(there, 30, true, GO);
             told.push(around.left(&layout) - around.left(&fit.layout));
             found.push(squares(&there) - squares(&fit));
         }

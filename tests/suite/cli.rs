@@ -397,6 +397,14 @@ fn studies_print_tables_and_leave_csv_and_plots() {
     assert_eq!(first.as_array().unwrap().len(), 2);
     assert_eq!(first[0]["not showable"], 0);
 
+    let networks =
+        ["bench", "networks", "--shapes", "cactus", "--winches", "1", "--tendons", "1", "--rounds", "0", "--json"];
+    let value: serde_json::Value = serde_json::from_str(&succeed(here, &networks)).unwrap();
+    let rows = value["tables"]["networks"]["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 4);
+    assert!(rows.iter().all(|row| row["error"].as_f64().is_some_and(|error| error < 1.0)), "{rows:?}");
+    assert_eq!(rows[3]["rules broken"], 0);
+
     let line = fail(here, 2, &["bench", "cold", "--shapes", "cow", "--out", "cold"]);
     assert!(line.contains("cow") && line.contains("pig"), "{line}");
     assert_eq!(names(here), ["linear"]);

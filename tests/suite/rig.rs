@@ -2,7 +2,9 @@
 
 use crate::files::{place, run};
 use serde_json::Value;
+use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
+use std::process::{Command, Stdio};
 
 fn succeed(folder: &Path, args: &[&str]) -> String {
     let output = run(folder, args);
@@ -51,6 +53,35 @@ fn what_sewing_by_hand_costs_is_told_as_a_check_tells_it() {
     let table = succeed(f, &["check", "new.plush", "--sewn"]);
     assert!(table.contains("realizable sewn by hand, 5 times, holes 2 mm off"), "{table}");
     assert!(!succeed(f, &["check", "new.plush"]).contains("sewn by hand"));
+}
+
+#[cfg(unix)]
+#[test]
+fn what_was_found_before_an_interrupt_is_written() {
+    let folder = place();
+    let f = folder.path();
+    let args = ["rig", "bar.plush", "-o", "new.plush", "--fresh", "--max-winches", "2", "--rounds", "10000"];
+    let mut rig = Command::new(env!("CARGO_BIN_EXE_plushwright"))
+        .args(args)
+        .current_dir(f)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // The first layouts are there once a round is told; the pipe stays open for what follows.
+    let mut told = BufReader::new(rig.stdout.take().unwrap());
+    let mut line = String::new();
+    told.read_line(&mut line).unwrap();
+    // The shell has `kill` built in; a bare machine has no program of that name.
+    let kill = format!("kill -INT {}", rig.id());
+    assert!(Command::new("sh").args(["-c", &kill]).status().unwrap().success());
+    let mut rest = String::new();
+    told.read_to_string(&mut rest).unwrap();
+    let ended = rig.wait_with_output().unwrap();
+    assert_eq!(ended.status.code(), Some(130), "{line}{rest}{}", String::from_utf8_lossy(&ended.stderr));
+    assert!(rest.contains("the best so far"), "{line}{rest}");
+    let (poses, _) = checked(f, "new.plush");
+    assert!(poses.iter().all(|(_, error, rest)| error < rest), "{poses:?}");
 }
 
 #[test]

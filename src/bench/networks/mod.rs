@@ -124,7 +124,10 @@ impl Networks {
             let tendons = TendonChoice::PerWinch(vec![self.tendons]);
             return Ok(Case { name: name.into(), design, winches: self.winches, tendons, shipped: false });
         }
-        let mut design = shapes::original(name)?;
+        let mut design = shapes::original(name).map_err(|error| match error {
+            BenchError::NoSuchShape { name, made, .. } => BenchError::NoSuchShape { name, known: names(), made },
+            other => other,
+        })?;
         design.tendons.friction = 0.0;
         let tendons = design.networks.iter().map(|network| network.tendons.len()).collect();
         let winches = design.networks.len();

@@ -89,10 +89,12 @@ impl<'a> Task<'a> {
             targets.iter().map(square).sum()
         };
         let with_miss = |targets: Vec<Target>| {
+            // Within a grain of rest is at rest.
+            let grain = GRAIN_MM.powi(2) * targets.iter().map(|t| t.weight).sum::<f64>();
             let miss = miss(&targets);
-            (targets, miss)
+            (miss > grain).then_some((targets, miss))
         };
-        let poses = poses.map(with_miss).filter(|(_, miss)| *miss > 0.0).collect();
+        let poses = poses.filter_map(with_miss).collect();
         Self { design, poses, sewable, fixed, rings: design.mesh.boundary(), power: POWER, whole: 1.0 }
     }
 
