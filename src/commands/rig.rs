@@ -2,7 +2,7 @@
 
 use super::error::CommandError;
 use super::explore::Explore;
-use super::output::say;
+use super::output::{say, say_lines};
 use super::{document, words};
 use crate::defaults;
 use crate::design::Design;
@@ -129,7 +129,7 @@ impl Rig {
             let news = gain.is_none() || gain != told;
             told = gain;
             if printed.is_ok() && news {
-                printed = say(out, &words::progress(step));
+                printed = say_lines(out, &words::progress(step));
             }
         };
         let mut context = Context::telling(cancel, &mut progress);
@@ -177,7 +177,7 @@ impl Rig {
         printed?;
         if let (Err(Error::Cancelled(_)), false) = (&found, points.is_empty()) {
             // Files are written by a run that ends by itself.
-            say(out, &super::explore::table(&points).text())?;
+            say_lines(out, &super::explore::table(&points).text())?;
         }
         let points = found.map_err(|error| failed(&self.design, error))?;
         files.tell(&points, out, cancel)?;

@@ -52,7 +52,7 @@ pub fn for_targets(
     }
     let cancel = context.cancel();
     let mut found = |list: &[Arc<Proposal>]| context.tell(&Progress::Proposals(list.to_vec()));
-    let proposals = rigging::propose(&design.acting(), targets, options, &mut found, cancel);
+    let proposals = rigging::propose(design, targets, options, &mut found, cancel);
     context.check()?;
     if proposals.is_empty() { Err(Error::NothingFound) } else { Ok(proposals) }
 }

@@ -328,6 +328,8 @@ fn a_rig_with_fixed_options_is_the_same_both_ways() {
     enter(&mut window, Role::SpinButton, "Most winches", "1");
     enter(&mut window, Role::TextInput, "Tendons of each winch", "1");
     click(&mut window, "Hold the parameters");
+    window.get_by_label("Rig all poses").scroll_to_me();
+    settle(&mut window);
     click(&mut window, "Rig all poses");
     assert_eq!(session(&window).design().keyframes.len(), 3);
     same(&window, &folder.path().join("rigged.plush"));

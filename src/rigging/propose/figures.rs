@@ -4,7 +4,6 @@ use super::pool::Origin;
 use super::proposal::{PoseServed, Proposal};
 use crate::design::{Design, Network, Target};
 use crate::outline::{Point, polygon};
-use crate::rigging::candidate::unused_name;
 use crate::rigging::checked::Checked;
 use crate::rigging::layout::rigs_of;
 use crate::rigging::robust::{self, Sewn};
@@ -16,9 +15,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// Bodies of more fibres are not sewn in thought: five more poses of each proposal would take most of the time.
 const SEWN_UP_TO: usize = 1500;
 
-/// A design and its poses as they are before anything is proposed.
+/// A design of networks that act, and its poses as they are before anything is proposed.
 pub(super) struct Subject<'a> {
     design: &'a Design,
+    /// Of a network that comes.
+    name: String,
     poses: Vec<(Option<String>, &'a [Target], Checked)>,
     current: usize,
     friction: f64,
@@ -26,7 +27,7 @@ pub(super) struct Subject<'a> {
 
 impl<'a> Subject<'a> {
     /// `None` where the body has no model, and when cancelled.
-    pub fn new(design: &'a Design, targets: &'a [Target], cancel: &AtomicBool) -> Option<Self> {
+    pub fn new(design: &'a Design, name: String, targets: &'a [Target], cancel: &AtomicBool) -> Option<Self> {
         let posed = design.poses.iter().filter(|pose| !pose.targets.is_empty());
         let mut poses: Vec<(Option<String>, &[Target])> =
             posed.map(|pose| (Some(pose.name.clone()), pose.targets.as_slice())).collect();
@@ -40,13 +41,13 @@ impl<'a> Subject<'a> {
             return None;
         }
         let poses = poses.into_iter().zip(before).map(|((name, targets), checked)| (name, targets, checked)).collect();
-        Some(Self { design, poses, current, friction })
+        Some(Self { design, name, poses, current, friction })
     }
 
     /// The network tried out; `None` when cancelled.
     pub fn proposal(&self, network: Network, origin: Origin, cancel: &AtomicBool) -> Option<Proposal> {
         let mut with = self.design.clone();
-        let network = Network { name: unused_name(&with), ..network };
+        let network = Network { name: self.name.clone(), ..network };
         with.networks.push(network.clone());
         with.keyframes.clear();
         let own = with.networks.len() - 1;
@@ -71,7 +72,7 @@ impl<'a> Subject<'a> {
                 preview = Some(Arc::new(after.shape));
             }
         }
-        let cables = rigs_of(&[network.clone()], &with.mesh).pop()?.cables;
+        let cables = rigs_of(std::slice::from_ref(&network), &with.mesh).pop()?.cables;
         let turns = cables.iter().flat_map(|cable| cable.windows(3)).map(|p| sewing::turn(p[0], p[1], p[2]));
         Some(Proposal {
             network,

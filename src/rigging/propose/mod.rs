@@ -23,6 +23,7 @@ mod proposal;
 
 pub use proposal::{PoseServed, Proposal, ProposeOptions};
 
+use super::candidate::unused_name;
 use super::moves::{Sampler, Topology};
 use super::refine::Task;
 use super::search::{FREE_HOLES, coarser, rim, sewable};
@@ -43,7 +44,7 @@ const ROUNDS: usize = 3;
 /// Layouts of which what costs little is left out in the end; the others that are alive are shown as they are.
 const THINNED: usize = 4;
 
-/// Networks of one winch for a pose of `targets`, in addition to those that the design has; the best first, by the error that is left when
+/// Networks of one winch for a pose of `targets`, in addition to those that act in the design; the best first, by the error that is left when
 /// a hand has sewn them. `found` hears of the list whenever it has changed. Empty where nothing helps, and without what was not found yet when
 /// cancelled. The same options give the same list, for any number of threads.
 pub fn propose(
@@ -53,8 +54,9 @@ pub fn propose(
     found: &mut dyn FnMut(&[Arc<Proposal>]),
     cancel: &AtomicBool,
 ) -> Vec<Arc<Proposal>> {
-    let Some(subject) = Subject::new(design, targets, cancel) else { return Vec::new() };
-    let mut posed = design.clone();
+    let acting = design.acting();
+    let Some(subject) = Subject::new(&acting, unused_name(design), targets, cancel) else { return Vec::new() };
+    let mut posed = Design::clone(&acting);
     posed.keyframes.clear();
     posed.poses = vec![Pose { name: String::new(), targets: targets.to_vec() }];
     let coarse = coarser(&posed);

@@ -4,7 +4,7 @@ use super::command::{Command, Keys, Scope};
 use crate::studio::acts;
 use crate::studio::jobs;
 use crate::studio::session::Session;
-use eframe::egui::Key;
+use eframe::egui::{Key, Modifiers};
 
 pub static ALL: [&Command; 9] =
     [&PROPOSE, &PROPOSE_AGAIN, &CANCEL, &ACCEPT, &REJECT, &RIG, &CANCEL_RIG, &CURVE, &CANCEL_CURVE];
@@ -43,7 +43,7 @@ pub static ACCEPT: Command = Command {
 };
 
 pub static REJECT: Command = Command {
-    keys: &[Keys::plain(Key::Backspace)],
+    keys: &[Keys { modifiers: Modifiers::SHIFT, key: Key::Backspace }],
     scope: Scope::Views,
     why_not: &|session, _| none_shown(session),
     run: &|session, _| session.discovery.reject(),
