@@ -9,7 +9,7 @@
 use super::layout::Layout;
 use super::linear_score::Linear;
 use super::moves::{Sampler, Topology};
-use super::refine::{Fit, Task};
+use super::refine::{Fit, Start, Task};
 use crate::random::Random;
 use crate::threads::in_order;
 use std::sync::{Arc, OnceLock};
@@ -161,7 +161,7 @@ impl<'a> Joint<'a> {
         let random = &mut Random::of(self.seed, "child", number);
         let parent = &living[(k / 2) % living.len()];
         let around = || parent.around.get_or_init(|| Linear::at(task, &parent.fit)).as_ref();
-        let layout = match around().filter(|_| k % 2 == 0) {
+        let layout = match around().filter(|_| k.is_multiple_of(2)) {
             None => self.varied(&parent.fit.layout, living, random),
             Some(around) => self.promising(around, &parent.fit.layout, living, random),
         };
@@ -216,7 +216,7 @@ impl<'a> Joint<'a> {
     }
 
     /// One more layout lives on the first island: one from elsewhere, with activations and positions of every pose.
-    pub fn take(&mut self, layout: Layout, from: &[(Vec<f64>, Vec<f64>)], stop: &dyn Fn() -> bool) {
+    pub fn take(&mut self, layout: Layout, from: &[Start], stop: &dyn Fn() -> bool) {
         let taken = self.task.taken(layout, from, stop);
         let improved = taken.and_then(|fit| self.task.wound(self.task.improve(fit, STEPS, false, stop), STEPS, stop));
         if let (Some(fit), Some(island)) = (improved, self.islands.first_mut()) {

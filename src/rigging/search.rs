@@ -8,7 +8,7 @@ use super::layout::{Layout, rigs_of};
 use super::moves::{Sampler, Topology};
 use super::options::{Method, Progress, RigError, RigOptions, TendonChoice};
 use super::prune::{SERVED, pruned};
-use super::refine::{Fit, Task};
+use super::refine::{Fit, Start, Task};
 use super::robust::{self, Sewn};
 use super::sewable::Sewable;
 use crate::design::{Design, Network, Pose, Target, remesh};
@@ -198,11 +198,7 @@ fn layouts(
 
 /// What Algorithm 2 builds, its parameters varied, with activations and positions of every pose: a start where no rule forbids it, so that
 /// the search never ends above it.
-fn of_algorithm2(
-    task: &Task,
-    options: &RigOptions,
-    cancel: &AtomicBool,
-) -> Option<(Layout, Vec<(Vec<f64>, Vec<f64>)>)> {
+fn of_algorithm2(task: &Task, options: &RigOptions, cancel: &AtomicBool) -> Option<(Layout, Vec<Start>)> {
     let swept = RigOptions { method: Method::Algorithm2, ..options.clone() };
     let rigged = greedy::rig(task.design, &swept, &mut |_| (), cancel).ok()?;
     let layout = Layout::of(&rigged.networks[task.fixed.len()..], &task.design.mesh);

@@ -16,4 +16,4 @@ mod local;
 mod task;
 
 pub(super) use improve::KEPT;
-pub use task::{Fit, Task};
+pub use task::{Fit, Start, Task};

@@ -22,6 +22,9 @@ const FIRST_ACTIVATION: f64 = 0.25;
 /// nobody can see, or type.
 const GRAIN_MM: f64 = 1e-3;
 
+/// Activations and positions that a pose is begun from.
+pub type Start = (Vec<f64>, Vec<f64>);
+
 /// Poses that a rig should serve, and what it is made in.
 pub struct Task<'a> {
     pub design: &'a Design,
@@ -117,7 +120,7 @@ impl<'a> Task<'a> {
         &self,
         layout: Layout,
         built: &mut Built,
-        from: &[(Vec<f64>, Vec<f64>)],
+        from: &[Start],
         stop: &dyn Fn() -> bool,
     ) -> Option<Fit> {
         let mut poses = Vec::with_capacity(from.len());
@@ -180,7 +183,7 @@ impl<'a> Task<'a> {
     }
 
     /// A layout from elsewhere, with activations and positions of every pose.
-    pub fn taken(&self, layout: Layout, from: &[(Vec<f64>, Vec<f64>)], stop: &dyn Fn() -> bool) -> Option<Fit> {
+    pub fn taken(&self, layout: Layout, from: &[Start], stop: &dyn Fn() -> bool) -> Option<Fit> {
         let mut built = self.build(&layout)?;
         self.fit(layout, &mut built, from, stop)
     }
@@ -194,7 +197,7 @@ impl<'a> Task<'a> {
             let beta = (0..winches.len()).map(|k| p.beta.get(k).copied().unwrap_or_else(|| first(k))).collect();
             (beta, p.x.clone())
         };
-        let from: Vec<(Vec<f64>, Vec<f64>)> = from.poses.iter().map(pose).collect();
+        let from: Vec<Start> = from.poses.iter().map(pose).collect();
         self.fit(layout, &mut built, &from, stop)
     }
 }
