@@ -1,7 +1,7 @@
 //! `rig --explore`: the error against the number of winches and of tendons.
 
 use super::error::CommandError;
-use super::output::{Kind, Output, Replace, say_lines};
+use super::output::{CURVE_HEADING, CURVE_MARK, Kind, Output, Replace, say_lines};
 use crate::bench::plot::{Plot, Series};
 use crate::bench::{Cell, Table};
 use crate::operations::explore::Point;
@@ -10,10 +10,6 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
-
-/// First heading of the table, by which a file that was written before is known; and the first line of a plot.
-pub const HEADING: &str = "up to winches";
-pub const MARK: &str = "<!-- plushwright: error against winches and tendons -->";
 
 /// Whether and where the curve is told.
 #[derive(Debug, Args)]
@@ -67,15 +63,22 @@ impl Files<'_> {
         }
         if let Some(file) = &self.plot {
             let svg = plot(points).svg().map_err(|error| CommandError::Failed(error.to_string()))?;
-            file.write(format!("{MARK}\n{svg}").as_bytes(), cancel)?;
+            file.write(format!("{CURVE_MARK}\n{svg}").as_bytes(), cancel)?;
         }
         Ok(())
     }
 }
 
 pub(super) fn table(points: &[Arc<Point>]) -> Table {
-    let fixed =
-        [HEADING, "tendons each", "takes winches", "takes tendons", "holes", "cable (mm)", "worst pose (% of rest)"];
+    let fixed = [
+        CURVE_HEADING,
+        "tendons each",
+        "takes winches",
+        "takes tendons",
+        "holes",
+        "cable (mm)",
+        "worst pose (% of rest)",
+    ];
     let caption = "Errors as check says them: the worst pose as a part of its error at rest, each in % of body length";
     let mut table = Table::new("winches", caption, &fixed);
     let poses = points.first().map_or(&[][..], |point| &point.poses);

@@ -1,7 +1,6 @@
 //! Outputs: files and folders that appear whole or not at all, and lines on the given writer.
 
 use super::error::{CommandError, check_cancel};
-use super::explore;
 use crate::design::file::is_design;
 use crate::files::folder::{self, FolderError, MANIFEST, Manifest};
 use crate::files::{self, printable, shown};
@@ -121,13 +120,17 @@ impl Kind {
                 let text = String::from_utf8_lossy(&head);
                 (text.trim_start().starts_with('(') && text.contains("parts:")).then_some(true)
             }
-            Self::Table => Some(head.starts_with(explore::HEADING.as_bytes())),
-            Self::Plot => Some(head.starts_with(explore::MARK.as_bytes())),
+            Self::Table => Some(head.starts_with(CURVE_HEADING.as_bytes())),
+            Self::Plot => Some(head.starts_with(CURVE_MARK.as_bytes())),
         };
         let named = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(self.ending()));
         !known.unwrap_or(named)
     }
 }
+
+/// First heading of the table of a curve, by which a file that was written before is known; and the first line of its plot.
+pub const CURVE_HEADING: &str = "up to winches";
+pub const CURVE_MARK: &str = "<!-- plushwright: error against winches and tendons -->";
 
 /// What a JSON file says that it is.
 fn json_format(path: &Path) -> Option<String> {

@@ -16,6 +16,7 @@ use crate::rigging::RigError;
 use clap::Args;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 /// Find winches and tendons for all poses
@@ -124,7 +125,7 @@ impl Rig {
                 Progress::Rig(rigging::Progress::Round { worst, holes, .. }) => {
                     Some((format!("{:.1}", 100.0 * worst), *holes))
                 }
-                Progress::Rig(_) | Progress::Proposals(_) | Progress::Explored(_) => None,
+                Progress::Rig(_) | Progress::Proposals(_) => None,
             };
             let news = gain.is_none() || gain != told;
             told = gain;
@@ -165,15 +166,13 @@ impl Rig {
     ) -> Result<(), CommandError> {
         let files = self.explore.files(&self.design, self.target.force)?;
         let (mut points, mut printed) = (Vec::new(), Ok(()));
-        let mut progress = |step: &Progress| {
-            if let Progress::Explored(list) = step {
-                points.clone_from(list);
-                if printed.is_ok() {
-                    printed = say(out, &words::progress(step));
-                }
+        let mut hear = |list: &[Arc<explore::Point>]| {
+            points = list.to_vec();
+            if let (Some(last), Ok(())) = (list.last(), &printed) {
+                printed = say(out, &words::explored(last));
             }
         };
-        let found = explore::run(&design, options, &mut Context::telling(cancel, &mut progress));
+        let found = explore::run(&design, options, &mut hear, &mut Context::new(cancel));
         printed?;
         if let (Err(Error::Cancelled(_)), false) = (&found, points.is_empty()) {
             // Files are written by a run that ends by itself.

@@ -84,12 +84,11 @@ pub fn progress(step: &Progress) -> String {
             format!("{found}\nsewn by hand, holes {} mm off: {}", defaults::SEWN_HOLE_MM, by_hand.join(", "))
         }
         Progress::Proposals(list) => format!("{} networks so far", list.len()),
-        Progress::Explored(list) => list.last().map(|point| explored(point)).unwrap_or_default(),
     }
 }
 
 /// One line about a point of the curve.
-fn explored(point: &Point) -> String {
+pub fn explored(point: &Point) -> String {
     let Point { winches, tendons, takes, worst, .. } = point;
     let [taken, in_all] = takes;
     format!(

@@ -1,6 +1,5 @@
 //! What an operation runs under.
 
-use super::explore;
 use crate::rigging;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -17,8 +16,6 @@ pub enum Progress {
     Rig(rigging::Progress),
     /// Networks that were found so far, the best first.
     Proposals(Vec<Arc<rigging::Proposal>>),
-    /// Rigs that were found so far, with more and more winches and tendons.
-    Explored(Vec<Arc<explore::Point>>),
 }
 
 /// The operation was told to stop; nothing has changed.

@@ -1,7 +1,7 @@
 //! What more winches and more tendons bring: the error against their numbers.
 
+use super::Context;
 use super::rig::{self, Error, Options, Rigged};
-use super::{Context, Progress};
 use crate::design::{Design, Pose};
 use crate::engine::target_error;
 use crate::outline::polygon;
@@ -39,12 +39,17 @@ pub struct PoseError {
 }
 
 /// Looks for a rig with each number of winches up to the most of `options`, and each number of tendons that they allow for every winch. The
-/// list is told as it grows ([`Progress::Explored`]); it is in that order. A point is never worse than those with fewer: where a search ends
+/// list is told as it grows; it is in that order. A point is never worse than those with fewer: where a search ends
 /// worse, the smaller rig stands in its place.
 ///
 /// # Errors
 /// As [`rig::prepare`]; [`Error::Cancelled`], what was found until then having been told.
-pub fn run(design: &Design, options: &Options, context: &mut Context) -> Result<Vec<Arc<Point>>, Error> {
+pub fn run(
+    design: &Design,
+    options: &Options,
+    found: &mut dyn FnMut(&[Arc<Point>]),
+    context: &mut Context,
+) -> Result<Vec<Arc<Point>>, Error> {
     let numbers = tendons(&options.tendons);
     let mut points: Vec<Arc<Point>> = Vec::new();
     for winches in 1..=options.max_winches {
@@ -55,7 +60,7 @@ pub fn run(design: &Design, options: &Options, context: &mut Context) -> Result<
                 _ => TendonChoice::PerWinch(vec![tendons]),
             };
             let bounds = Options { max_winches: winches, tendons: choice, ..options.clone() };
-            let found = match rig::prepare(design, &bounds, context) {
+            let searched = match rig::prepare(design, &bounds, context) {
                 Ok(rigged) => Some(point(design, winches, tendons, rigged, context)?),
                 Err(Error::Rig(RigError::NothingFound)) => None,
                 Err(error) => return Err(error),
@@ -69,10 +74,10 @@ pub fn run(design: &Design, options: &Options, context: &mut Context) -> Result<
             ];
             let inherited =
                 smaller.into_iter().flatten().map(|point| Point { winches, tendons, ..Point::clone(point) });
-            let best = inherited.chain(found).min_by(|a, b| a.worst.total_cmp(&b.worst));
+            let best = inherited.chain(searched).min_by(|a, b| a.worst.total_cmp(&b.worst));
             if let Some(best) = best {
                 points.push(Arc::new(best));
-                context.tell(&Progress::Explored(points.clone()));
+                found(&points);
             }
         }
     }
@@ -145,12 +150,8 @@ mod tests {
             ..Options::default()
         };
         let (go, mut told) = (AtomicBool::new(false), Vec::new());
-        let mut hear = |step: &Progress| {
-            if let Progress::Explored(list) = step {
-                told.push(list.len());
-            }
-        };
-        let points = run(&design, &options, &mut Context::telling(&go, &mut hear)).unwrap();
+        let mut hear = |list: &[Arc<Point>]| told.push(list.len());
+        let points = run(&design, &options, &mut hear, &mut Context::new(&go)).unwrap();
         assert_eq!(told, [1, 2, 3, 4]);
         let numbers: Vec<[usize; 2]> = points.iter().map(|p| [p.winches, p.tendons]).collect();
         assert_eq!(numbers, [[1, 1], [1, 2], [2, 1], [2, 2]]);
@@ -167,6 +168,6 @@ mod tests {
             }
         }
         go.store(true, Ordering::Relaxed);
-        assert!(matches!(run(&design, &options, &mut Context::new(&go)), Err(Error::Cancelled(_))));
+        assert!(matches!(run(&design, &options, &mut |_| (), &mut Context::new(&go)), Err(Error::Cancelled(_))));
     }
 }

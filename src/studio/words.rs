@@ -95,7 +95,6 @@ pub fn progress(step: &Progress) -> String {
             format!("{winches} winches with {tendons} tendons")
         }
         Progress::Proposals(list) => format!("{} networks so far", list.len()),
-        Progress::Explored(list) => format!("{} rigs so far", list.len()),
     }
 }
 

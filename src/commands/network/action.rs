@@ -1,12 +1,22 @@
 //! The changes of networks, as they are asked for on the command line.
 
-use super::Files;
+use crate::commands::document;
 use crate::commands::error::CommandError;
 use crate::commands::place::parse_point;
 use crate::design::Design;
 use crate::operations::network::{Edit, Part};
 use crate::outline::Point;
-use clap::Subcommand;
+use clap::{Args, Subcommand};
+use std::path::PathBuf;
+
+/// The design that is changed, and where it goes.
+#[derive(Debug, Args)]
+pub struct Files {
+    /// Design file to read
+    pub design: PathBuf,
+    #[command(flatten)]
+    pub target: document::Target,
+}
 
 #[derive(Debug, Subcommand)]
 pub enum Action {

@@ -3,7 +3,6 @@
 mod action;
 mod list;
 
-use super::document;
 use super::error::CommandError;
 use super::output::say;
 use crate::fabrication::judge_design;
@@ -11,10 +10,9 @@ use crate::files::shown;
 use crate::motion::winch_labels;
 use crate::operations::Context;
 use crate::operations::network::{self, Error};
-use action::Action;
+use action::{Action, Files};
 use clap::{Args, Subcommand};
 use std::io::Write;
-use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
 /// Change winches and tendons: move and add holes, hand tendons over, make and split winches
@@ -36,15 +34,6 @@ enum What {
     List(list::List),
     #[command(flatten)]
     Change(Action),
-}
-
-/// The design that is changed, and where it goes.
-#[derive(Debug, Args)]
-pub struct Files {
-    /// Design file to read
-    pub design: PathBuf,
-    #[command(flatten)]
-    pub target: document::Target,
 }
 
 impl NetworkCommand {

@@ -28,7 +28,6 @@ use super::moves::{Sampler, Topology};
 use super::refine::Task;
 use super::search::{FREE_HOLES, coarser, rim, sewable};
 use crate::design::{Design, Pose, Target};
-use crate::discovery::Stages;
 use figures::Subject;
 use list::List;
 use pool::{ALIVE, Pool};
@@ -110,9 +109,6 @@ pub fn propose(
     list.show(&pool.some(THINNED..ALIVE), found);
     list.best()
 }
-
-/// What a network of Algorithm 2 was found with.
-type Paper = Option<(crate::discovery::Parameters, Arc<Stages>)>;
 
 #[cfg(test)]
 mod tests;

@@ -1,6 +1,6 @@
 //! Networks of Algorithm 2 as layouts, with the stages that found them.
 
-use super::{Paper, ProposeOptions};
+use super::proposal::{Paper, ProposeOptions};
 use crate::design::Design;
 use crate::discovery;
 use crate::outline::{Point, polygon};

@@ -1,6 +1,7 @@
 //! The layouts that are alive: how they begin, what becomes of them.
 
-use super::{Paper, kinds};
+use super::kinds;
+use super::proposal::Paper;
 use crate::random::Random;
 use crate::rigging::joint::bettered;
 use crate::rigging::layout::Layout;

@@ -8,6 +8,9 @@ use crate::sewing::Breach;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
+/// What a network of Algorithm 2 was found with.
+pub(super) type Paper = Option<(Parameters, Arc<Stages>)>;
+
 /// A pose counts as served where a network takes this part of its error or more.
 const SERVED: f64 = 0.2;
 

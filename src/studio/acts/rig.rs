@@ -45,13 +45,13 @@ pub fn start_curve(session: &mut Session) {
     session.rigging.curve.begin(&design);
     let (coming, wake) = (session.rigging.curve.coming.clone(), session.jobs.wake());
     session.rigging.curve.running = Some(session.jobs.start("The curve of winches", move |cancel| {
-        let mut progress = |done: &Progress| {
-            if let (Progress::Explored(list), Ok(mut coming)) = (done, coming.lock()) {
-                *coming = Some(list.clone());
+        let mut found = |list: &[Arc<Point>]| {
+            if let Ok(mut coming) = coming.lock() {
+                *coming = Some(list.to_vec());
             }
             wake();
         };
-        Outcome::Explored(explore::run(&design, &options, &mut Context::telling(cancel, &mut progress)))
+        Outcome::Explored(explore::run(&design, &options, &mut found, &mut Context::new(cancel)))
     }));
 }
 

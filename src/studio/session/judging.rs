@@ -1,5 +1,6 @@
 //! How near the realizable plushie comes to each pose, and which rules of sewing the design breaks: worked out by jobs, one after the other.
 
+use super::judgement::Judgement;
 use crate::design::{Design, Pose};
 use crate::engine::{BodySpec, Solver};
 use crate::sewing::Breach;
@@ -16,14 +17,6 @@ pub struct PoseError {
     pub fresh: bool,
     /// Whether it was found from rest with all effort, as [`check`](crate::operations::check) does.
     pub thorough: bool,
-}
-
-/// What a job found out about a design.
-pub enum Judgement {
-    /// The rules that it breaks, and how near the poses (by their numbers) come at once from where they were.
-    Quick { design: Arc<Design>, breaches: Vec<Breach>, errors: Vec<(usize, f64)> },
-    /// How near a pose comes from rest; nothing where that was cancelled.
-    Thorough { design: Arc<Design>, pose: usize, error: Option<f64> },
 }
 
 /// Solvers that go on from one design to the next, by the name of their pose.
