@@ -3,7 +3,8 @@
 //! Random layouts, each bettered for the body linearised at rest ([`Linear`]), are tried first. The best found islands: on each, the
 //! best few live, and in every round have children, by a random change of points or by winches of one another. The children are improved
 //! ([`Task::improve`]), wound from rest ([`Task::wound`]), and the best that differ live on. Islands do not see each other, so that the
-//! first good valley is not everybody's; from time to time the worst one is given up, and peopled anew by the best. The work is counted in
+//! first good valley is not everybody's; from time to time the worst one is given up, and peopled anew by the best. Half of the children are
+//! chosen from many by the body linearised around their parent. Islands that gain nothing any more are left for new ones. The work is counted in
 //! rounds, and the same seed gives the same bits for any number of threads.
 
 use super::layout::Layout;
