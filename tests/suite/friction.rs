@@ -1,9 +1,9 @@
 //! Friction of cables at their holes, against closed forms.
 
 use crate::support::bodies::{Mesh, bar, dot, largest, largest_difference, neo_hookean, plus};
-use crate::support::{Random, rectangle, rigged};
+use crate::support::{Random, rectangle, rigged, scenes};
 use plushwright::defaults;
-use plushwright::design::{Design, Network, Pin, Tendon, bundled, file};
+use plushwright::design::{Design, Network, Pin, Tendon, file};
 use plushwright::engine::compile::{View, compile, objective};
 use plushwright::engine::{FrictionPoseError, pose_with_friction};
 use plushwright::operations::{Context, FiberCount, check, new_design};
@@ -276,8 +276,7 @@ fn friction_is_a_setting_that_old_files_lack_and_new_designs_guess() {
 /// One winch: what is found is as good as the best of many states on the way of its whole range.
 #[test]
 fn a_winch_is_wound_as_well_as_in_a_dense_scan() {
-    for name in ["Pig", "E"] {
-        let design = bundled::ALL.iter().find(|b| b.name == name).unwrap().design().unwrap();
+    for (name, design) in [("Pig", scenes::design("Pig")), ("E", scenes::steady_e())] {
         let mut plushie = compile(&design, View::Realizable).unwrap();
         let rubbing = plushie.friction(0.2);
         let objective = objective(&design, &plushie, &design.poses[0].targets);

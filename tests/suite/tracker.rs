@@ -1,7 +1,7 @@
 //! The tracker on bundled designs: what it shows can always be shown, far-away targets leave no trace, and the same drag gives
 //! the same bits.
 
-use crate::support::scenes::{Parts, Scene};
+use crate::support::scenes::{Parts, Scene, steady_e};
 use plushwright::bench::{Session, wander};
 use plushwright::soft_ik::{Frame, Quality, Tracker};
 
@@ -72,7 +72,7 @@ fn nor_do_they_beside_winches() {
 #[test]
 fn a_mixed_scene_settles_where_a_fresh_one_does() {
     let parts = Parts { tendons: true, ..Parts::default() };
-    let mut scene = Scene::new("E", parts);
+    let mut scene = Scene::of(steady_e(), parts);
     let mut tracker = scene.tracker();
     for k in 0..8 {
         let t = k as f64;

@@ -1,6 +1,6 @@
 //! Designs under the hand: what the tests of the tracker drag about.
 
-use plushwright::design::{Design, Gravity, Target, bundled};
+use plushwright::design::{Design, Gravity, Target, bundled, file};
 use plushwright::engine::compile::{Plushie, View, compile, objective};
 use plushwright::soft_ik::{Actuation, Frame, Objective, Quality, Question, Tracker};
 
@@ -29,6 +29,11 @@ pub struct Parts {
 pub fn design(name: &str) -> Design {
     let example = bundled::ALL.iter().find(|b| b.name == name).expect("the example exists");
     example.design().expect("the example is sound")
+}
+
+/// The E with an earlier routing of three tendons, which stays as it is when the bundled designs are made anew.
+pub fn steady_e() -> Design {
+    file::parse(include_str!("../../data/designs/e.plush")).expect("the design is sound")
 }
 
 impl Scene {
