@@ -64,10 +64,10 @@ pub struct Joint<'a> {
     round: u64,
     linear: Option<Linear<'a>>,
     islands: Vec<Vec<Living<'a>>>,
-    /// Islands were settled so often before.
-    settlements: u64,
-    /// The best few of earlier settlements.
-    left: Vec<Fit>,
+    /// Islands were peopled so often before.
+    peopled: u64,
+    /// The best of islands that were left.
+    remembered: Vec<Fit>,
 }
 
 impl<'a> Joint<'a> {
@@ -88,17 +88,17 @@ impl<'a> Joint<'a> {
             round: 0,
             linear,
             islands: Vec::new(),
-            settlements: 0,
-            left: Vec::new(),
+            peopled: 0,
+            remembered: Vec::new(),
         };
-        joint.settle(stop);
+        joint.people(stop);
         joint
     }
 
     /// Peoples the islands.
-    fn settle(&mut self, stop: &(dyn Fn() -> bool + Sync)) {
+    fn people(&mut self, stop: &(dyn Fn() -> bool + Sync)) {
         let (task, sampler, topology) = (self.task, self.sampler, &self.topology);
-        let numbers: Vec<u64> = (0..FIRST as u64).map(|k| self.settlements * FIRST as u64 + k).collect();
+        let numbers: Vec<u64> = (0..FIRST as u64).map(|k| self.peopled * FIRST as u64 + k).collect();
         let layouts = in_order(&numbers, |&number| {
             let random = &mut Random::of(self.seed, "layout", number);
             let layout = sampler.layout(topology, random);
@@ -121,7 +121,7 @@ impl<'a> Joint<'a> {
             self.islands[k % count].push(Living::new(fit));
         }
         self.islands.iter_mut().for_each(keep);
-        self.settlements += 1;
+        self.peopled += 1;
     }
 
     /// Leaves the islands for new ones, with another task and sampler where the rules are others there. The best are remembered.
@@ -132,9 +132,9 @@ impl<'a> Joint<'a> {
         topology: Topology,
         stop: &(dyn Fn() -> bool + Sync),
     ) {
-        self.left.extend(self.islands.iter().filter_map(|island| Some(island.first()?.fit.clone())));
+        self.remembered.extend(self.islands.iter().filter_map(|island| Some(island.first()?.fit.clone())));
         (self.task, self.sampler, self.topology) = (task, sampler, topology);
-        self.settle(stop);
+        self.people(stop);
     }
 
     /// One more round. Does nothing where no layout was found.
@@ -162,7 +162,7 @@ impl<'a> Joint<'a> {
         let random = &mut Random::of(self.seed, "child", number);
         let parent = &living[(k / 2) % living.len()];
         let around = || parent.around.get_or_init(|| Linear::at(task, &parent.fit)).as_ref();
-        let layout = match around().filter(|_| k.is_multiple_of(2)) {
+        let layout = match k.is_multiple_of(2).then(around).flatten() {
             None => self.varied(&parent.fit.layout, living, random),
             Some(around) => self.promising(around, &parent.fit.layout, living, random),
         };
@@ -242,7 +242,7 @@ impl<'a> Joint<'a> {
 
     /// The best so far; its poses are wound from rest.
     pub fn best(&self) -> Option<&Fit> {
-        self.living().chain(&self.left).min_by(|a, b| a.cost.total_cmp(&b.cost))
+        self.living().chain(&self.remembered).min_by(|a, b| a.cost.total_cmp(&b.cost))
     }
 
     /// The best of the present islands.
@@ -252,7 +252,7 @@ impl<'a> Joint<'a> {
 
     /// The best few, by their worst pose.
     pub fn finalists(&self, count: usize) -> Vec<Fit> {
-        let mut all: Vec<Fit> = self.living().chain(&self.left).cloned().collect();
+        let mut all: Vec<Fit> = self.living().chain(&self.remembered).cloned().collect();
         all.sort_by(|a, b| a.worst().total_cmp(&b.worst()));
         all.dedup_by(|a, b| (a.cost - b.cost).abs() <= SAME * b.cost);
         all.truncate(count);

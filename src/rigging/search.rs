@@ -76,7 +76,7 @@ fn together(
     let searched = coarse.as_ref().unwrap_or(design);
     let found = layouts(searched, options, &topology, progress, cancel)?;
     // What was found before the end is judged all the same, in a moment.
-    let (ended, go) = (cancel.load(atomic::Ordering::Relaxed), AtomicBool::new(false));
+    let (ended, go) = (options.keep && cancel.load(atomic::Ordering::Relaxed), AtomicBool::new(false));
     let cancel = if ended { &go } else { cancel };
     let found: Vec<Fit> = match coarse {
         None => found,
@@ -153,19 +153,21 @@ fn layouts(
     let samplers = [Some(&sewable), None].map(|sewable| Sampler::new(&design.mesh, sewable));
     let school = Topology { most_holes: design.sewing.most_holes, ..topology.clone() };
     let mut joint = Joint::new(&lawful, &samplers[0], school.clone(), options.seed, &stop);
-    let mut algorithm2 = if options.rules { None } else { of_algorithm2(&free, options, cancel) };
-    let (mut best, mut since, mut lawfully, mut settled) = (f64::INFINITY, 0, true, 0);
+    let (mut best, mut since, mut lawfully, mut begun) = (f64::INFINITY, 0, true, 0);
     for round in 0..options.rounds {
-        let schooled = round - settled >= (options.rounds - settled) / 2;
+        let schooled = round - begun >= (options.rounds - begun) / 2;
         if lawfully && !options.rules && (schooled || since > PATIENCE) {
             joint.turn_to(&free, &samplers[1], topology.clone(), &stop);
-            if let Some((layout, poses)) = algorithm2.take() {
+            // Once: it is the same on all islands that follow.
+            if begun == 0
+                && let Some((layout, poses)) = of_algorithm2(&free, options, cancel)
+            {
                 joint.take(layout, &poses, &stop);
             }
             (best, since, lawfully) = (f64::INFINITY, 0, false);
         } else if since > PATIENCE {
             joint.leave(&lawful, &samplers[0], school.clone(), &stop);
-            (best, since, lawfully, settled) = (f64::INFINITY, 0, true, round);
+            (best, since, lawfully, begun) = (f64::INFINITY, 0, true, round);
         }
         let (Some(fit), Some(here)) = (joint.best(), joint.best_here()) else { break };
         let (worst, holes) = (fit.worst(), fit.layout.holes());
@@ -196,8 +198,8 @@ fn layouts(
     Ok(finished)
 }
 
-/// What Algorithm 2 builds, its parameters varied, with activations and positions of every pose: a start where no rule forbids it, so that
-/// the search never ends above it.
+/// What Algorithm 2 builds, its parameters varied, with activations and positions of every pose: a start where no rule forbids it. It is
+/// remembered while its cost, all poses together, is among the best.
 fn of_algorithm2(task: &Task, options: &RigOptions, cancel: &AtomicBool) -> Option<(Layout, Vec<Start>)> {
     let swept = RigOptions { method: Method::Algorithm2, ..options.clone() };
     let rigged = greedy::rig(task.design, &swept, &mut |_| (), cancel).ok()?;

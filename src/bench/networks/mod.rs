@@ -141,13 +141,7 @@ impl Networks {
             session.next(&format!("{}: {SHIPPED}", case.name))?;
             out.push((SHIPPED, Rigged::of(case.design.clone(), 0.0, session)?));
         }
-        let joint = RigOptions {
-            rounds: self.rounds,
-            seed: session.seed,
-            max_winches: case.winches,
-            tendons: case.tendons.clone(),
-            ..RigOptions::default()
-        };
+        let joint = self.sewn(case, session, case.winches);
         let swept = RigOptions { method: Method::Algorithm2, ..joint.clone() };
         let paper = RigOptions {
             seed_num: Some(defaults::SEED_NUM),
