@@ -1,18 +1,20 @@
 //! `render`: a picture of both plushies.
 
 use super::error::CommandError;
-use super::output::{Kind, Output, Replace, say};
+use super::output::{Kind, Output, Replace, say, say_json};
+use super::picture::PictureFormat;
 use super::{document, words};
 use crate::design::file;
 use crate::files::shown;
 use crate::operations::Context;
 use crate::operations::render::{self, Error, Note, Options, Rendered, What};
 use clap::Args;
+use serde::Serialize;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
-/// Draw both plushies, idealized left and realizable right, as PNG
+/// Draw both plushies, idealized left and realizable right, as a picture
 ///
 /// A plushie that does not come to equilibrium is drawn in the nearest state found, and the exit code is 3.
 #[derive(Debug, Args)]
@@ -20,7 +22,7 @@ use std::sync::atomic::AtomicBool;
 pub struct Render {
     /// Design file to read
     pub design: PathBuf,
-    /// Picture to write (PNG)
+    /// Picture to write: PNG, or JPEG where it is called *.jpg
     #[arg(short, long, value_name = "OUT.png")]
     pub output: PathBuf,
     #[command(flatten)]
@@ -37,6 +39,25 @@ pub struct Render {
     /// Leave the design's texture out
     #[arg(long)]
     pub no_texture: bool,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Format of what `render --json` prints.
+const FORMAT: &str = "plushwright-render/1";
+
+/// What `render --json` prints.
+#[derive(Serialize)]
+struct Summary {
+    picture: String,
+    width: u32,
+    height: u32,
+    /// Of a pose: rms distance of the targets in body lengths.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error_idealized: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error_realizable: Option<f64>,
 }
 
 impl Render {
@@ -44,19 +65,31 @@ impl Render {
         let design = document::load(&self.design)?;
         let inputs = [Some(self.design.clone()), file::texture_path(&design, &self.design)];
         let output = Output::new(&self.output, Kind::Picture, self.replace, inputs.into_iter().flatten())?;
+        let format = PictureFormat::of(&self.output)?;
         let what = match (&self.pose, self.time) {
             (Some(pose), _) => What::Pose(pose.clone()),
             (None, Some(time)) => What::Time(time),
             (None, None) => What::Rest,
         };
         let options = Options { what, size: self.size, texture: !self.no_texture };
-        let Rendered { png, notes, .. } = render::run(&design, &self.design, &options, &Context::new(cancel))
+        let Rendered { png, notes, shapes } = render::run(&design, &self.design, &options, &Context::new(cancel))
             .map_err(|error| failed(&self.design, error))?;
         for note in notes.iter().filter(|note| matches!(note, Note::NoTexture { .. })) {
-            say(out, &format!("note: {note}"))?;
+            if !self.json {
+                say(out, &format!("note: {note}"))?;
+            }
         }
-        output.write(&png, cancel)?;
-        say(out, &format!("{}: {} x {} pixels", shown(&self.output), self.size.0, self.size.1))?;
+        output.write(&format.encoded(png)?, cancel)?;
+        if self.json {
+            let (picture, [width, height]) = (shown(&self.output), [self.size.0, self.size.1]);
+            let [idealized, realizable] = shapes.map(|shape| shape.target_error);
+            let posed = self.pose.as_ref().map(|_| [idealized, realizable]);
+            let (error_idealized, error_realizable) = (posed.map(|p| p[0]), posed.map(|p| p[1]));
+            let summary = Summary { picture, width, height, error_idealized, error_realizable };
+            say_json(out, FORMAT, &summary)?;
+        } else {
+            say(out, &format!("{}: {} x {} pixels", shown(&self.output), self.size.0, self.size.1))?;
+        }
         words::balanced(notes.iter().filter_map(|note| match note {
             Note::Unbalanced(unbalanced) => Some(unbalanced),
             Note::NoTexture { .. } => None,
@@ -67,8 +100,12 @@ impl Render {
 /// Why there is no picture of a design that was read from `path`.
 pub fn failed(path: &Path, error: Error) -> CommandError {
     match error {
-        Error::NoSuchPose(_) => CommandError::Usage(error.to_string()),
-        Error::NoKeyframes => CommandError::input(path, error),
+        Error::NoSuchPose(error) => words::no_such_pose(&error),
+        Error::NoKeyframes => CommandError::input(
+            path,
+            format!("{error}; `plushwright rig` lays poses on the timeline, `plushwright key` adds one"),
+        ),
+        Error::OutsideTimeline { .. } => CommandError::input(path, error),
         Error::Picture(_) => CommandError::Failed(error.to_string()),
         Error::Cancelled(_) => CommandError::Cancelled,
     }

@@ -18,6 +18,7 @@ mod import;
 mod layers;
 mod mesh;
 mod minimum;
+mod mistakes;
 mod muted;
 mod networks;
 mod networks_reference;
