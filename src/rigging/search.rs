@@ -130,8 +130,8 @@ pub(super) fn coarser(design: &Design) -> Option<Design> {
 
 /// The rules for new networks beside those that are there.
 pub(super) fn sewable<'a>(design: &'a Design, rim: &'a Outline) -> Sewable<'a> {
-    let gap_mm = design.fabrication.turning_gap_mm;
-    Sewable::new(design.sewing, &design.outline, rim, gap_mm, rigs_of(&design.networks, &design.mesh))
+    let gap_mm = design.turning_gap_mm();
+    Sewable::new(design.sewing, &design.outline, rim, gap_mm, rigs_of(&design.networks, &design.mesh.nodes))
 }
 
 /// The best few layouts that a search finds on the design's own mesh; those that keep the rules, where any do.
