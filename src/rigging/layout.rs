@@ -32,7 +32,7 @@ impl Layout {
             at: rig.winch,
             cables: rig.cables.into_iter().map(|cable| cable.into_iter().skip(1).collect()).collect(),
         };
-        Self { winches: rigs_of(networks, mesh).into_iter().map(placed).collect() }
+        Self { winches: rigs_of(networks, &mesh.nodes).into_iter().map(placed).collect() }
     }
 
     /// All points that can be moved: each winch, then the points of its cables.
@@ -96,11 +96,6 @@ impl Layout {
 }
 
 /// Networks that are there, as the rules of sewing see them.
-pub fn rigs_of(networks: &[Network], mesh: &Mesh) -> Vec<sewing::Rig> {
-    let place = |point: &MaterialPoint| point.place(&mesh.nodes);
-    let rigs = networks.iter().filter_map(|network| {
-        let cables = network.tendons.iter().map(|t| t.routing.iter().map(place).collect());
-        Some(sewing::Rig { winch: place(network.winch()?), cables: cables.collect() })
-    });
-    rigs.collect()
+pub fn rigs_of(networks: &[Network], nodes: &[Point]) -> Vec<sewing::Rig> {
+    networks.iter().filter_map(|network| network.rig(nodes)).collect()
 }

@@ -115,7 +115,7 @@ impl<'a> Linear<'a> {
             }
             poses.push(Pose { state, back, rows, way, whole: *whole });
         }
-        let fixed = rigs_of(task.fixed, mesh).into_iter().map(|rig| {
+        let fixed = rigs_of(task.fixed, &mesh.nodes).into_iter().map(|rig| {
             let cables = rig.cables.into_iter().map(|cable| cable[1.min(cable.len())..].to_vec()).collect();
             (rig.winch, cables)
         });

@@ -5,7 +5,6 @@ mod list;
 
 use super::error::CommandError;
 use super::output::{say, say_json};
-use crate::fabrication::judge_design;
 use crate::files::shown;
 use crate::motion::winch_labels;
 use crate::operations::Context;
@@ -62,7 +61,7 @@ impl NetworkCommand {
         edit.save(&design, cancel)?;
         let (winches, tendons) =
             (design.networks.len(), design.networks.iter().map(|n| n.tendons.len()).sum::<usize>());
-        let breaches = judge_design(&design);
+        let breaches = design.breaches();
         if *json {
             let changed = Changed { design: shown(target.path(from)), winches, tendons, sewing: &breaches };
             return say_json(out, FORMAT, &changed);
