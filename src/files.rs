@@ -10,7 +10,7 @@
 //! | [`same`], [`is_taken`] | whether two paths are one file; whether something is there |
 //! | [`state_folder`] | where the platform keeps what the program remembers |
 //! | [`on_interrupt`], [`before_exit`] | an interrupt asks before it ends, and no file is half written |
-//! | [`marked_png`], [`is_marked_png`], [`marked_jpeg`], [`is_marked_jpeg`] | tells our pictures from those of others |
+//! | [`marked_png`], [`is_marked_png`], and so on | tells our pictures from those of others |
 //!
 //! A file is written in full beside its place, flushed, and then takes the name. On Linux it has no name until then, so that even a
 //! process that is killed leaves nothing behind. A symbolic link is followed; mode, owner, group and access lists of what is replaced
@@ -27,7 +27,7 @@ mod stamp;
 mod sweep;
 
 pub use hold::Hold;
-pub use mark::{is_marked_jpeg, is_marked_png, marked_jpeg, marked_png};
+pub use mark::{is_marked_gif, is_marked_jpeg, is_marked_png, marked_gif, marked_jpeg, marked_png};
 pub use paths::{parent, state_folder};
 pub use place::{is_taken, same};
 pub use signals::{before_exit, on_interrupt, survive_size_limits};

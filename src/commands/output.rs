@@ -114,8 +114,9 @@ impl Kind {
         }
         let known = match self {
             Self::Picture => {
-                let picture = head.starts_with(b"\x89PNG") || head.starts_with(b"\xff\xd8");
-                picture.then(|| files::is_marked_png(&head) || files::is_marked_jpeg(&head))
+                let picture = [&b"\x89PNG"[..], b"\xff\xd8", b"GIF8"].iter().any(|magic| head.starts_with(magic));
+                let ours = [files::is_marked_png, files::is_marked_jpeg, files::is_marked_gif];
+                picture.then(|| ours.iter().any(|is_ours| is_ours(&head)))
             }
             Self::Answer => json_format(path).map(|format| format.starts_with("plushwright-answer/")),
             Self::Drawing => {

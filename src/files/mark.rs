@@ -9,6 +9,11 @@ const JPEG_MARK: &[u8] = b"\xff\xfe\x00\x0dplushwright";
 /// Where it stands: after the marker of the start (2 bytes) and the header (18).
 const JPEG_MARK_AT: usize = 20;
 
+/// The comment of a GIF file that says it: introducer, label, length, text, end.
+const GIF_MARK: &[u8] = b"\x21\xfe\x0bplushwright\0";
+/// Where it stands: after the header, where no table of colours for all pictures follows.
+const GIF_MARK_AT: usize = 13;
+
 /// The bytes of a PNG file with the mark.
 pub fn marked_png(png: &[u8]) -> Vec<u8> {
     with(png, PNG_MARK, PNG_MARK_AT)
@@ -17,6 +22,16 @@ pub fn marked_png(png: &[u8]) -> Vec<u8> {
 /// The bytes of a JPEG file with the mark.
 pub fn marked_jpeg(jpeg: &[u8]) -> Vec<u8> {
     with(jpeg, JPEG_MARK, JPEG_MARK_AT)
+}
+
+/// The bytes of a GIF file without a table of colours for all its pictures, with the mark.
+pub fn marked_gif(gif: &[u8]) -> Vec<u8> {
+    with(gif, GIF_MARK, GIF_MARK_AT)
+}
+
+/// Whether a file that begins like this is a GIF of ours.
+pub fn is_marked_gif(head: &[u8]) -> bool {
+    head.starts_with(b"GIF8") && head.get(GIF_MARK_AT..).is_some_and(|rest| rest.starts_with(GIF_MARK))
 }
 
 /// Whether a file that begins like this is a PNG of ours.

@@ -35,7 +35,7 @@ const MISTAKES: [(&str, &[&str], &str); 24] = [
     ("the command behind the design", &["bare.plush", "check"], "`plushwright check bare.plush`"),
     ("the drawing as output", &["new", "bar.svg", "-o", "bar.svg"], "choose another name"),
     ("the design as output", &["render", "bare.plush", "-o", "bare.plush"], "choose another name"),
-    ("a picture of another kind", &["render", "bare.plush", "-o", "bar.gif"], "call it bar.png or *.jpg"),
+    ("a picture of another kind", &["render", "bare.plush", "-o", "bar.bmp"], "call it bar.png, *.jpg"),
     (
         "a pose without targets",
         &["pose", "bare.plush", "--name", "up"],
