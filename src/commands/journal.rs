@@ -2,16 +2,14 @@
 
 use super::error::CommandError;
 use super::report;
-use crate::files::{printable, state_folder};
+use crate::files::{self, printable, state_folder};
 use log::{Level, LevelFilter, Log, Metadata, Record};
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::Write;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Instant, SystemTime};
 
-/// Largest log of the window that is gone on with, bytes; a larger one begins anew and the old one is kept as `.old`.
-const MOST_BYTES: u64 = 1 << 20;
 /// The log of the window in its folder.
 const WINDOW_LOG: &str = "plushwright.log";
 
@@ -29,9 +27,9 @@ struct Journal {
 /// The file cannot be written to.
 pub fn begin(path: Option<&Path>, aloud: bool, window: bool) -> Result<(), CommandError> {
     let file = match path {
-        Some(path) => Some(File::create(path).map_err(|error| CommandError::write(path, error))?),
+        Some(path) => Some(files::begin_log(path).map_err(|error| CommandError::write(path, error))?),
         // A help, and no work: without a place for it there is none.
-        None if window => window_log(),
+        None if window => state_folder().and_then(|folder| files::continue_log(&folder.join(WINDOW_LOG)).ok()),
         None => None,
     };
     let most = if file.is_some() { LevelFilter::Debug } else { LevelFilter::Info };
@@ -47,16 +45,6 @@ pub fn begin(path: Option<&Path>, aloud: bool, window: bool) -> Result<(), Comma
     let args: Vec<String> = std::env::args_os().map(|arg| printable(&arg.to_string_lossy())).collect();
     log::debug!("{}", args.join(" "));
     Ok(())
-}
-
-fn window_log() -> Option<File> {
-    let folder = state_folder()?;
-    fs::create_dir_all(&folder).ok()?;
-    let path = folder.join(WINDOW_LOG);
-    if fs::metadata(&path).is_ok_and(|found| found.len() > MOST_BYTES) {
-        fs::rename(&path, path.with_extension("log.old")).ok()?;
-    }
-    File::options().create(true).append(true).open(path).ok()
 }
 
 impl Journal {

@@ -94,7 +94,7 @@ fn write(text: &str) -> io::Result<PathBuf> {
 }
 
 fn write_in(folder: &Path, text: &str) -> io::Result<PathBuf> {
-    fs::create_dir_all(folder)?;
+    files::make_private(folder)?;
     if fs::read_dir(folder)?.count() >= MOST {
         return Err(io::Error::other("there are enough"));
     }

@@ -1,7 +1,6 @@
 //! Folders, absolute paths, temporary names.
 
 use super::sweep;
-use etcetera::BaseStrategy;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -12,13 +11,6 @@ pub fn parent(path: &Path) -> &Path {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     }
-}
-
-/// Where this platform keeps what the program remembers (settings, work that was not saved, logs, reports): `~/.local/state/plushwright` on
-/// Linux, the application data on others. None where there is no home. It need not be there yet.
-pub fn state_folder() -> Option<PathBuf> {
-    let strategy = etcetera::choose_base_strategy().ok()?;
-    Some(strategy.state_dir().unwrap_or_else(|| strategy.data_dir()).join("plushwright"))
 }
 
 /// The name itself is on the disk once its folder is. Not every system can flush a folder; the content is safe anyway.

@@ -101,11 +101,7 @@ impl Store {
     /// A folder below, made where it is missing, for this user alone.
     pub(super) fn folder(&self, name: &str) -> io::Result<PathBuf> {
         let folder = self.root.join(name);
-        let mut builder = fs::DirBuilder::new();
-        builder.recursive(true);
-        #[cfg(unix)]
-        std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
-        builder.create(&folder)?;
+        files::make_private(&folder)?;
         Ok(folder)
     }
 

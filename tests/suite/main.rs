@@ -23,6 +23,7 @@ mod muted;
 mod networks;
 mod networks_reference;
 mod outlines;
+mod pages;
 #[cfg(feature = "studio")]
 mod palette;
 #[cfg(feature = "studio")]
