@@ -55,7 +55,7 @@ fn proposals_come_one_by_one_differ_in_kind_and_tell_what_a_check_says() {
 fn what_is_there_stays_and_tendons_are_as_many_as_asked_for() {
     let design = bar(60);
     let options = ProposeOptions { fewer: false, ..ProposeOptions::default() };
-    let cables = vec![vec![[120.0, 48.0], [210.0, 44.0]]];
+    let cables = vec![vec![[120.0, 48.0], [210.0, 44.0]].into()];
     let up = Layout { winches: vec![Placed { at: [40.0, 30.0], cables }] };
     let points = up.located(&design.mesh).unwrap();
     let mut with = design.clone();
