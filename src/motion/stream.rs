@@ -60,9 +60,24 @@ pub trait Stream: Send + Sync {
     /// Motors off, at rest.
     fn off(&self) -> Vec<String>;
 
-    /// Motors off at once, whatever they do. Nobody awaits replies.
+    /// Brings the controllers to listen when a line was just opened. Nobody awaits replies.
+    fn wake(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// Stops all motors at once, before they are switched off one by one. Nobody awaits replies.
     fn halt(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// Motors off, whatever they do.
+    fn confirm_halt(&self) -> Vec<String> {
         self.off()
+    }
+
+    /// Time beyond [`Machine::stopping_s`] that the way to zero may take, s.
+    fn home_s(&self) -> f64 {
+        0.0
     }
 
     /// Asks where a winch is.
@@ -80,6 +95,11 @@ pub trait Stream: Send + Sync {
     /// Whether a reply belongs to no command: a greeting, a note that a position was reached.
     fn is_aside(&self, _reply: &str) -> bool {
         false
+    }
+
+    /// The winch that a command is for; none where one controller has all of them.
+    fn addressed(&self, _command: &str) -> Option<usize> {
+        None
     }
 
     /// What a controller is called on the line, for people.

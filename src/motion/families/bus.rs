@@ -208,6 +208,15 @@ impl Stream for Bus {
         }
     }
 
+    fn addressed(&self, command: &str) -> Option<usize> {
+        usize::from(Packet::parse(command)?.id).checked_sub(1)
+    }
+
+    fn home_s(&self) -> f64 {
+        let farthest = self.machine.travel_mm.iter().copied().fold(0.0, f64::max);
+        self.steps_per_mm * farthest / GENTLE as f64
+    }
+
     fn address(&self, winch: usize) -> String {
         format!("servo {}", winch + 1)
     }

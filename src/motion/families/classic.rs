@@ -124,6 +124,11 @@ impl Stream for Classic {
         if reply.eq_ignore_ascii_case(TAKEN) { Ok(()) } else { Err(format!("{reply:?}")) }
     }
 
+    fn addressed(&self, command: &str) -> Option<usize> {
+        let digits = command.split(|c: char| !c.is_ascii_digit()).next()?;
+        digits.parse::<usize>().ok()?.checked_sub(1)
+    }
+
     /// `ANSW2` also tells on its own that a position (`p`) or a speed (`v`) was reached.
     fn is_aside(&self, reply: &str) -> bool {
         matches!(reply, "p" | "v")

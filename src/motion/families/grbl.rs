@@ -122,8 +122,17 @@ impl Stream for Grbl {
         vec!["G4 P0.1".into(), "$SLP".into()]
     }
 
+    /// A reset ends the sleep; zero stays.
+    fn wake(&self) -> Vec<String> {
+        vec!["\u{18}".into()]
+    }
+
     fn halt(&self) -> Vec<String> {
-        vec!["!".into(), "\u{18}".into(), "$SLP".into()]
+        vec!["!".into(), "\u{18}".into()]
+    }
+
+    fn confirm_halt(&self) -> Vec<String> {
+        vec!["$SLP".into()]
     }
 
     fn locate(&self, _winch: usize) -> String {

@@ -218,7 +218,7 @@ impl Stream for Sdo {
         self.nodes().map(|node| write(node, CONTROL, SHUTDOWN)).collect()
     }
 
-    fn halt(&self) -> Vec<String> {
+    fn confirm_halt(&self) -> Vec<String> {
         self.nodes().map(|node| write(node, CONTROL, OFF)).collect()
     }
 
@@ -245,6 +245,10 @@ impl Stream for Sdo {
             }
             _ => Err(format!("frame {reply}")),
         }
+    }
+
+    fn addressed(&self, command: &str) -> Option<usize> {
+        usize::from(Frame::parse(command)?.node).checked_sub(1)
     }
 
     fn is_aside(&self, reply: &str) -> bool {

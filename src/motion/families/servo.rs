@@ -145,6 +145,10 @@ impl Stream for Servos {
         reply.starts_with("plushwright ")
     }
 
+    fn home_s(&self) -> f64 {
+        self.home_ms() as f64 / 1e3
+    }
+
     fn address(&self, winch: usize) -> String {
         format!("channel {winch}")
     }
