@@ -99,7 +99,13 @@ impl<'a> Player<'a> {
     /// # Errors
     /// [`LiveError`]; motors are switched off.
     pub fn set_zero(&mut self) -> Result<(), LiveError> {
-        self.guard(|player| player.tell_all(player.stream.setup()))
+        self.guard(|player| {
+            // Some families find zero with their motors on.
+            player.on = true;
+            player.tell_all(player.stream.setup())?;
+            player.on = false;
+            Ok(())
+        })
     }
 
     /// Winds back to zero, slowly, and leaves the motors on.
@@ -337,13 +343,13 @@ impl<'a> Player<'a> {
                 self.tell_all(self.stream.load(step))?;
             }
             // The clock starts when the first move is loaded.
-            let due_s = *began_s.get_or_insert(self.link.now_s()) + (due_s - early_s).max(0.0);
-            self.wait_until(due_s)?;
-            let late_s = self.link.now_s() - due_s;
+            let due_s = *began_s.get_or_insert(self.link.now_s()) + due_s;
+            // Moves that wait in a queue are sent before their time, and are late only after it.
+            self.wait_until(due_s - early_s)?;
+            let late_s = (self.link.now_s() - due_s).max(0.0);
             if late_s > TOO_LATE_S {
                 return Err(Cause::TooSlow { step_s, late_s });
             }
-            // Moves that fill the queue have no time of their own.
             played.late.push(late_s);
             played.lasted_s = due_s - began_s.unwrap_or(due_s);
             moves.iter().for_each(|step| lengths_mm[step.winch] = step.to_mm);

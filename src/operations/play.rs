@@ -2,8 +2,8 @@
 
 use super::{Cancelled, Context};
 use crate::design::Design;
-use crate::live::{Cause, End, Fault, Link, LiveError, Played, Player, SerialLink, SimulatedLink, Simulation, Stage};
-use crate::motion::{Family, Machine, MotionError, Plan, Stream, TooFast, Trajectory, families};
+use crate::live::{Cause, End, Fault, Link, LiveError, Open, Played, Player, Remote, SerialLink, SimulatedLink, Simulation, Stage};
+use crate::motion::{Family, Forecast, Machine, MotionError, Plan, Stream, TooFast, Trajectory, families};
 use serde::{Deserialize, Serialize};
 
 /// The name that stands for simulated controllers in the place of a port.
@@ -55,6 +55,16 @@ pub enum Error {
     Live(LiveError),
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
+}
+
+/// What simulated drives make of the motion.
+///
+/// # Errors
+/// As [`prepare`].
+pub fn forecast(design: &Design, options: &Options) -> Result<Forecast, Error> {
+    let prepared = prepare(design, options)?;
+    let trajectory = Trajectory::of(&design.acting(), options.too_fast)?;
+    Ok(Forecast::of(&*prepared.stream, &prepared.plan, &trajectory))
 }
 
 /// Everything that a live drive of a design needs besides its port.
@@ -144,7 +154,8 @@ fn act(
     tell: &mut dyn FnMut(Stage),
 ) -> Result<Vec<Played>, LiveError> {
     let (stream, cancel) = (&*prepared.stream, context.cancel());
-    let mut player = if options.set_zero {
+    // Simulated controllers are as from the factory, with cables just slack.
+    let mut player = if options.set_zero || options.port == SIMULATED {
         let mut player = Player::found(stream, link, cancel)?;
         player.set_zero()?;
         player
@@ -170,12 +181,31 @@ fn open(prepared: &Prepared, options: &Options) -> Result<Box<dyn Link>, Error> 
     let faults: Result<Vec<Fault>, String> = options.faults.iter().map(|fault| fault.parse()).collect();
     let faults = faults.map_err(Error::NoSuchFault)?;
     if options.port == SIMULATED {
-        let winches = prepared.stream.machine().winches.len();
-        let simulation = Simulation::of(prepared.family, winches).on_line(SIMULATED_LATENCY_S, f64::from(prepared.baud));
-        return Ok(Box::new(SimulatedLink::new(simulation.with_faults(faults))));
+        return Ok(Box::new(SimulatedLink::new(simulation(prepared).with_faults(faults))));
     }
     let opened = SerialLink::open(&options.port, prepared.baud);
     opened.map(|link| Box::new(link) as Box<dyn Link>).map_err(|e| Error::Live(LiveError { cause: Cause::Port(e), end: End::Off }))
+}
+
+/// Controllers as a design's family has them.
+fn simulation(prepared: &Prepared) -> Simulation {
+    let winches = prepared.stream.machine().winches.len();
+    Simulation::of(prepared.family, winches).on_line(SIMULATED_LATENCY_S, f64::from(prepared.baud))
+}
+
+/// A player on a thread of its own. `wake` is called when its status has changed. Simulated controllers take the time that real ones would.
+///
+/// # Errors
+/// As [`prepare`]; what comes later is told by its status.
+pub fn remote(design: &Design, options: &Options, wake: impl Fn() + Send + Sync + 'static) -> Result<Remote, Error> {
+    let prepared = prepare(design, options)?;
+    let (port, baud) = (options.port.clone(), prepared.baud);
+    let simulation = (port == SIMULATED).then(|| simulation(&prepared));
+    let open: Open = Box::new(move || match simulation {
+        Some(simulation) => Ok(Box::new(SimulatedLink::paced(simulation)) as Box<dyn Link>),
+        None => Ok(Box::new(SerialLink::open(&port, baud)?)),
+    });
+    Ok(Remote::start(open, prepared.stream, prepared.plan, prepared.least_step_s, wake))
 }
 
 /// Time until a simulated reply, s: that of a USB adapter.

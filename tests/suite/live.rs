@@ -60,7 +60,9 @@ fn ten_minutes_on_three_winches_keep_the_time_with_every_family() {
         for (axis, most) in link.simulation().axes().iter().zip([8.0, 5.0, 3.0]) {
             assert!(!axis.on && axis.position.abs() < 0.3 * scale, "{}: {axis:?}", family.name);
             let farthest = axis.farthest / scale;
-            assert!((farthest - most).abs() < 0.3, "{}: {farthest} of {most} mm", family.name);
+            // The largest acceleration is 6 times the way over the square of a second; between two steps a chord cuts a s^2 / 8 off.
+            let cut = 6.0 * most * played.step_s * played.step_s / 8.0;
+            assert!((farthest - most).abs() < 0.3 + cut, "{}: {farthest} of {most} mm", family.name);
         }
     }
 }
@@ -232,7 +234,7 @@ mod ports {
         let axes = controllers.join().expect("it ends");
         assert!(axes.iter().all(|axis| !axis.on && !axis.moving && axis.farthest > 1000.0), "{axes:?}");
         // The time of a start is asserted by hand with a longer motion: a loaded machine may be late.
-        assert!(played.late.len() > 40 && played.late_s(0.5) < 0.02, "{}", played.late_s(0.5));
+        assert!(played.late.len() > 20 && played.late_s(0.5) < 0.02, "{}", played.late_s(0.5));
     }
 
     /// A child that is ended with the test.
@@ -249,7 +251,7 @@ mod ports {
     fn killed_in_the_middle_the_controllers_own_limits_hold() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("waving.plush");
-        plushwright::design::file::save(&waving(20, 2.0), &path).expect("written");
+        plushwright::design::file::write(&path, &waving(20, 2.0)).expect("written");
         let program = env!("CARGO_BIN_EXE_plushwright");
         let simulate = ["simulate-controller", "--winches", "3", "--seconds", "4"];
         let mut controllers =

@@ -4,7 +4,7 @@ use crate::fabrication::error::ExportError;
 use crate::fabrication::product::{Content, Part, Product, Source};
 use crate::motion::families::{self, classic};
 use crate::motion::{
-    Family, Following, Machine, MotionError, Note, Plan, Schedule, Sketch, Stream, Trajectory, commands_a_step, line, programs, step_s,
+    Family, Forecast, Machine, MotionError, Note, Plan, Sketch, Stream, Trajectory, commands_a_step, line, programs,
 };
 
 /// Programs of every family that was asked for, or of all that can play this motion: `controller-<family>-setup`, `-motion`, `-stop`.
@@ -82,24 +82,21 @@ fn how() -> String {
 
 /// The simulated drives, told from the file and live.
 fn followed(source: &Source<'_>, machine: &Machine) -> Result<String, MotionError> {
-    let words = |following: &Following| {
-        let [lag_mm, ripple] = following.worst();
+    let words = |[lag_mm, ripple]: [f64; 2]| {
         format!("at most {lag_mm:.2} mm behind or ahead, speed uneven by {:.1} % (rms)", 100.0 * ripple)
     };
-    let file = Following::of_file(machine, source.trajectory);
     let classic = classic::Classic::new(machine)?;
     let plan = Plan::of(source.design, source.options.too_fast)?;
-    let step = step_s(&classic, line::round_trip_s(machine, &classic), 1.0 / machine.controller.track_rate_hz);
-    let beats: Vec<_> = Schedule::new(&plan, &classic, step).beats().collect();
-    let live = Following::of_beats(machine, &plan, &beats, 0.0);
+    let forecast = Forecast::of(&classic, &plan, source.trajectory);
     Ok(format!(
         "  Simulated drives (trapezoids of speed) that get each step of the file at its time: {}.
-  Played live at {} baud with replies after {:.0} ms: steps of {step:.3} s; {}.
+  Played live at {} baud with replies after {:.0} ms: steps of {:.3} s; {}.
 ",
-        words(&file),
+        words(forecast.file),
         machine.controller.drives.baud,
         1e3 * line::LATENCY_S,
-        words(&live),
+        forecast.step_s,
+        words(forecast.live),
     ))
 }
 
