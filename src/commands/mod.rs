@@ -19,11 +19,13 @@ mod network;
 mod new;
 mod output;
 mod place;
+mod play;
 mod pose;
 mod remesh;
 mod render;
 mod reshape;
 mod rig;
+mod simulate_controller;
 mod solve;
 mod table;
 mod words;
@@ -72,6 +74,8 @@ pub enum Command {
     Key(key::Key),
     Check(check::Check),
     Export(export::Export),
+    Play(play::Play),
+    SimulateController(simulate_controller::SimulateController),
     Render(render::Render),
     Solve(solve::Solve),
     Discover(discover::Discover),
@@ -104,6 +108,8 @@ pub fn run(command: &Command, out: &mut dyn Write, cancel: &AtomicBool) -> Resul
         Command::Key(command) => command.run(out, cancel),
         Command::Check(command) => command.run(out, cancel),
         Command::Export(command) => command.run(out, cancel),
+        Command::Play(command) => command.run(out, cancel),
+        Command::SimulateController(command) => command.run(out, cancel),
         Command::Render(command) => command.run(out, cancel),
         Command::Solve(command) => command.run(out, cancel),
         Command::Discover(command) => command.run(out, cancel),

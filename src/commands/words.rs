@@ -35,10 +35,19 @@ pub fn unshaped(design: &Path, path: &Path, error: reshape::Error) -> CommandErr
 pub fn unexported(design: &Path, error: ExportError) -> CommandError {
     match error {
         ExportError::Folder(error) => refused_folder(error),
-        ExportError::Motion(MotionError::TooFast { .. }) => {
+        ExportError::Motion(error) => unplanned(design, &error),
+        ExportError::NoNetworks => CommandError::input(design, format!("{error}; run `plushwright rig` first")),
+        error => CommandError::input(design, error),
+    }
+}
+
+/// Why motors cannot be told the animation of a design.
+pub fn unplanned(design: &Path, error: &MotionError) -> CommandError {
+    match error {
+        MotionError::TooFast { .. } => {
             CommandError::input(design, format!("{error}; move the keyframes apart, or use --stretch"))
         }
-        ExportError::NoNetworks => CommandError::input(design, format!("{error}; run `plushwright rig` first")),
+        MotionError::NoSuchFamily { .. } => CommandError::Usage(error.to_string()),
         error => CommandError::input(design, error),
     }
 }
