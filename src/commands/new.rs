@@ -3,7 +3,7 @@
 use super::error::{CommandError, check_cancel};
 use super::output::{refuse_input, say, say_json};
 use super::words::CleanUp;
-use super::{document, words};
+use super::{document, meant, words};
 use crate::design::{Design, file};
 use crate::files::{self, shown};
 use crate::operations::new_design::{self, Made, Options};
@@ -29,7 +29,7 @@ pub struct New {
     #[arg(long)]
     pub force: bool,
     /// Muscle fibres (mesh edges) [default: 414, or the fewest that the outline allows if that is more]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", alias = "fibres")]
     pub fibers: Option<usize>,
     #[command(flatten)]
     pub reading: Reading,
@@ -142,6 +142,9 @@ impl Reading {
     }
 }
 
+/// Format of what `new --json` prints.
+const FORMAT: &str = "plushwright-new/1";
+
 /// What `new --json` prints.
 #[derive(Serialize)]
 struct Summary<'a> {
@@ -167,6 +170,9 @@ impl New {
             fibers: FiberCount::asked(self.fibers),
             texture: self.texture,
         };
+        if let Some(advice) = meant::instead_of_outline(&self.outline) {
+            return Err(CommandError::input(&self.outline, advice));
+        }
         let failed = |error| words::unmade(&self.outline, error);
         let file = outline::read_file(&self.outline).map_err(|error| failed(error.into()))?;
         let name = if self.texture { Some(self.texture_name()?) } else { None };
@@ -213,7 +219,7 @@ impl New {
             clean_up,
         };
         if self.json {
-            return say_json(out, &summary);
+            return say_json(out, FORMAT, &summary);
         }
         let Summary { design, fibers, nodes, triangles, body_length_mm, texture, clean_up, .. } = summary;
         say(
