@@ -282,6 +282,7 @@ fn parse_unit(text: &str) -> Result<f64, String> {
             None => lower.parse().ok(),
         },
     };
-    mm.filter(|mm| mm.is_finite() && *mm > 0.0)
-        .ok_or_else(|| format!("expected mm, cm, m, in, pt, px, a resolution as 300dpi or a number of mm, found `{text}`"))
+    mm.filter(|mm| mm.is_finite() && *mm > 0.0).ok_or_else(|| {
+        format!("expected mm, cm, m, in, pt, px, a resolution as 300dpi or a number of mm, found `{text}`")
+    })
 }

@@ -6,8 +6,8 @@ use super::{document, words};
 use crate::files::shown;
 use crate::live::{Played, Stage};
 use crate::motion::TooFast;
-use crate::operations::play::{self, Action, Error, Options};
 use crate::operations::Context;
+use crate::operations::play::{self, Action, Error, Options};
 use clap::Args;
 use serde::Serialize;
 use std::io::Write;
@@ -127,7 +127,9 @@ impl Play {
     fn failed(&self, error: Error) -> CommandError {
         match error {
             Error::NoNetworks => CommandError::input(&self.design, format!("{error}; run `plushwright rig` first")),
-            Error::NoSuchFamily { .. } | Error::NoSuchFault(_) | Error::WrongCount { .. } => CommandError::Usage(error.to_string()),
+            Error::NoSuchFamily { .. } | Error::NoSuchFault(_) | Error::WrongCount { .. } => {
+                CommandError::Usage(error.to_string())
+            }
             Error::Motion(error) => words::unplanned(&self.design, &error),
             Error::Live(error) => CommandError::Failed(format!("{}: {error}", self.port)),
             Error::Cancelled(_) => CommandError::Cancelled,

@@ -20,7 +20,9 @@ pub enum Cause {
     Port(io::Error),
     #[error("the line to the controllers broke: {0}")]
     Broken(io::Error),
-    #[error("{who} did not answer {command:?} within {patience_s} s: check its power, its cable, its number and the speed of the line")]
+    #[error(
+        "{who} did not answer {command:?} within {patience_s} s: check its power, its cable, its number and the speed of the line"
+    )]
     NoReply { who: String, command: String, patience_s: f64 },
     #[error("{who} answered {reply} to {command:?}")]
     Refused { who: String, command: String, reply: String },

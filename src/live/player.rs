@@ -165,7 +165,8 @@ impl<'a> Player<'a> {
         // What is still to come belongs to commands before.
         let _ = self.quiet();
         self.received.clear();
-        let told = self.stream.halt().iter().all(|command| self.link.send(&self.stream.framing().encode(command)).is_ok());
+        let told =
+            self.stream.halt().iter().all(|command| self.link.send(&self.stream.framing().encode(command)).is_ok());
         let mut silent = Vec::new();
         for command in self.stream.confirm_halt() {
             let _ = self.quiet();
@@ -250,8 +251,8 @@ impl<'a> Player<'a> {
     fn uncancelled(&mut self, command: &str, patience_s: f64) -> Result<(), Cause> {
         let never = AtomicBool::new(false);
         let (stream, received) = (self.stream, Vec::new());
-        let reply =
-            Player { stream, link: &mut *self.link, cancel: &never, received, round_trip_s: 0.0, on: false }.exchange(command, patience_s)?;
+        let reply = Player { stream, link: &mut *self.link, cancel: &never, received, round_trip_s: 0.0, on: false }
+            .exchange(command, patience_s)?;
         self.stream.taken(command, &reply).map_err(|reply| self.refused(command, reply))
     }
 

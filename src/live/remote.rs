@@ -32,9 +32,15 @@ pub enum Status {
     Ready(Vec<f64>),
     Homing,
     /// Time in the motion, s, and where the winches are told to be, mm.
-    Playing { time_s: f64, lengths_mm: Vec<f64> },
+    Playing {
+        time_s: f64,
+        lengths_mm: Vec<f64>,
+    },
     /// The line is closed; why, in a sentence, and whether somebody wanted it so.
-    Ended { why: String, wanted: bool },
+    Ended {
+        why: String,
+        wanted: bool,
+    },
 }
 
 /// The thread and what it is told.
@@ -62,7 +68,13 @@ const LOOK: Duration = Duration::from_millis(50);
 
 impl Remote {
     /// Opens a line and waits for orders. `wake` is called when the status has changed.
-    pub fn start(open: Open, stream: Box<dyn Stream>, plan: Plan, least_step_s: f64, wake: impl Fn() + Send + Sync + 'static) -> Self {
+    pub fn start(
+        open: Open,
+        stream: Box<dyn Stream>,
+        plan: Plan,
+        least_step_s: f64,
+        wake: impl Fn() + Send + Sync + 'static,
+    ) -> Self {
         let shared = Arc::new(Shared {
             order: Mutex::new(None),
             come: Condvar::new(),
@@ -156,7 +168,9 @@ impl Shared {
                     return Err(LiveError { cause: Cause::Cancelled, end });
                 }
                 Some(Order::SetZero) => player.set_zero()?,
-                Some(Order::Play) => drop(player.play(plan, least_step_s, &mut |stage| self.tell(Status::from(stage)))?),
+                Some(Order::Play) => {
+                    drop(player.play(plan, least_step_s, &mut |stage| self.tell(Status::from(stage)))?)
+                }
                 Some(Order::Home) => {
                     self.tell(Status::Homing);
                     player.finish()?;

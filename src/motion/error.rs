@@ -1,7 +1,7 @@
 //! The errors of motion.
 
-use super::limits::{MAX_COUNTS, MAX_NODES, MAX_RESOLUTION, MAX_STEPS};
 use super::families;
+use super::limits::{MAX_COUNTS, MAX_NODES, MAX_RESOLUTION, MAX_STEPS};
 use thiserror::Error;
 
 /// An animation that the motors cannot be told.

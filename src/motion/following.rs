@@ -82,7 +82,8 @@ impl Following {
         let mut before = track(time_s);
         while time_s < last.time_s + AFTER_S {
             while orders.get(next).is_some_and(|order| order.time_s <= time_s + 1e-9) {
-                (drive.target, drive.speed) = (orders[next].target as f64, f64::from(orders[next].rpm) / 60.0 * resolution);
+                (drive.target, drive.speed) =
+                    (orders[next].target as f64, f64::from(orders[next].rpm) / 60.0 * resolution);
                 next += 1;
             }
             let from = drive.position;

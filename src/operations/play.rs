@@ -2,7 +2,9 @@
 
 use super::{Cancelled, Context};
 use crate::design::Design;
-use crate::live::{Cause, End, Fault, Link, LiveError, Open, Played, Player, Remote, SerialLink, SimulatedLink, Simulation, Stage};
+use crate::live::{
+    Cause, End, Fault, Link, LiveError, Open, Played, Player, Remote, SerialLink, SimulatedLink, Simulation, Stage,
+};
 use crate::motion::{Family, Forecast, Machine, MotionError, Plan, Stream, TooFast, Trajectory, families};
 use serde::{Deserialize, Serialize};
 
@@ -129,7 +131,12 @@ pub fn prepare(design: &Design, options: &Options) -> Result<Prepared, Error> {
 ///
 /// # Errors
 /// [`Error`]; whatever it is, the motors are off, or the error says which could not be told.
-pub fn run(design: &Design, options: &Options, context: &Context, tell: &mut dyn FnMut(Stage)) -> Result<Vec<Played>, Error> {
+pub fn run(
+    design: &Design,
+    options: &Options,
+    context: &Context,
+    tell: &mut dyn FnMut(Stage),
+) -> Result<Vec<Played>, Error> {
     context.check()?;
     let prepared = prepare(design, options)?;
     if let Action::Wind { lengths_mm, .. } = &options.action {
@@ -163,9 +170,7 @@ fn act(
         Player::connect(stream, link, cancel)?
     };
     match &options.action {
-        Action::Play(times) => {
-            (0..*times).map(|_| player.play(&prepared.plan, prepared.least_step_s, tell)).collect()
-        }
+        Action::Play(times) => (0..*times).map(|_| player.play(&prepared.plan, prepared.least_step_s, tell)).collect(),
         Action::Home => player.finish().map(|()| Vec::new()),
         Action::Wind { lengths_mm, hold_s } => {
             player.home()?;
@@ -184,7 +189,9 @@ fn open(prepared: &Prepared, options: &Options) -> Result<Box<dyn Link>, Error> 
         return Ok(Box::new(SimulatedLink::new(simulation(prepared).with_faults(faults))));
     }
     let opened = SerialLink::open(&options.port, prepared.baud);
-    opened.map(|link| Box::new(link) as Box<dyn Link>).map_err(|e| Error::Live(LiveError { cause: Cause::Port(e), end: End::Off }))
+    opened
+        .map(|link| Box::new(link) as Box<dyn Link>)
+        .map_err(|e| Error::Live(LiveError { cause: Cause::Port(e), end: End::Off }))
 }
 
 /// Controllers as a design's family has them.

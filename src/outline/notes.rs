@@ -233,7 +233,10 @@ impl fmt::Display for Note {
                 write!(f, "{count} speck(s) of the picture, each under {pixels:.0} pixels, left out")
             }
             Self::Straightened { width_to_height } => {
-                write!(f, "the sheet was seen at an angle and straightened to {width_to_height:.3} times as wide as high")
+                write!(
+                    f,
+                    "the sheet was seen at an angle and straightened to {width_to_height:.3} times as wide as high"
+                )
             }
             Self::MostlyLines => f.write_str("the drawing is mostly lines around holes"),
             Self::LinesFilled => f.write_str("the drawing is thin lines alone, which were filled"),
@@ -248,7 +251,10 @@ impl fmt::Display for Note {
                 write!(f, "{count} gap(s) under {gap_mm:.2} mm between parts closed")
             }
             Self::Evened { points, within_mm } => {
-                write!(f, "the boundary of {points} points is finer than scissors follow; it was evened within {within_mm:.2} mm")
+                write!(
+                    f,
+                    "the boundary of {points} points is finer than scissors follow; it was evened within {within_mm:.2} mm"
+                )
             }
             Self::Small(height_mm) => {
                 write!(f, "the silhouette is only {height_mm:.1} mm high, small for a plushie")

@@ -55,7 +55,8 @@ fn a_motion_beyond_a_servo_is_refused_with_the_spool_that_would_do() {
     assert!(refused.contains("12.8 mm radius"), "{refused}");
     design.fabrication.spool_radius_mm = 12.8;
     let (files, _) = blueprint(&design, &asked).expect("now it fits");
-    let names: Vec<&str> = files.iter().map(|f| f.name.as_str()).filter(|name| name.starts_with("controller")).collect();
+    let names: Vec<&str> =
+        files.iter().map(|f| f.name.as_str()).filter(|name| name.starts_with("controller")).collect();
     assert_eq!(names, ["controller-servo-arduino.ino"]);
     let unknown = Options { controllers: vec!["abacus".into()], ..Options::default() };
     let refused = blueprint(&design, &unknown).map(drop).expect_err("unknown").to_string();
@@ -225,7 +226,10 @@ fn stored_programs_last_as_long_as_the_track_and_end_where_it_does() {
     for winch in 0..2 {
         let own: Vec<_> = motion.iter().filter(|c| c.0 == winch + 1).collect();
         let names: Vec<&str> = own.iter().map(|c| c.1.as_str()).collect();
-        assert_eq!((names[..2].to_vec(), names[names.len() - 2..].to_vec()), (vec!["DIPROG", "PROGSEQ"], vec!["END", "ENPROG"]));
+        assert_eq!(
+            (names[..2].to_vec(), names[names.len() - 2..].to_vec()),
+            (vec!["DIPROG", "PROGSEQ"], vec!["END", "ENPROG"])
+        );
         let delays: f64 = own.iter().filter(|c| c.1 == "DELAY").filter_map(|c| c.2).sum();
         // The motion lasts 1.51 s, of a hundredth each.
         assert!((delays / 100.0 - lasts).abs() <= 0.005 + 1e-9, "{delays}");

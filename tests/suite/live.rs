@@ -3,7 +3,8 @@
 use crate::support::rigged;
 use plushwright::design::{Design, Easing, Keyframe, Network};
 use plushwright::live::{
-    End, Fault, FaultKind, LIMIT_TOLERANCE_MM, Link, LiveError, Order, Player, Remote, SimulatedLink, Simulation, Status,
+    End, Fault, FaultKind, LIMIT_TOLERANCE_MM, Link, LiveError, Order, Player, Remote, SimulatedLink, Simulation,
+    Status,
 };
 use plushwright::motion::{Family, Machine, Plan, Stream, TooFast, Trajectory, families};
 use std::sync::atomic::AtomicBool;
@@ -68,7 +69,12 @@ fn ten_minutes_on_three_winches_keep_the_time_with_every_family() {
 }
 
 /// Plays with a fault; what came of it, and the line 10 s later.
-fn with_fault(stream: &dyn Stream, plan: &Plan, family: &Family, fault: Fault) -> (Result<(), LiveError>, SimulatedLink) {
+fn with_fault(
+    stream: &dyn Stream,
+    plan: &Plan,
+    family: &Family,
+    fault: Fault,
+) -> (Result<(), LiveError>, SimulatedLink) {
     let mut link = SimulatedLink::new(Simulation::of(family, 3).with_faults(vec![fault]));
     let outcome = Player::found(stream, &mut link, &GO_ON).and_then(|mut player| {
         player.set_zero()?;
@@ -130,7 +136,9 @@ fn told(what: &str, error: &LiveError) {
     match &error.end {
         End::Off => {}
         End::SwitchedOff => assert!(text.contains("all motors are switched off"), "{what}: {text}"),
-        End::Unconfirmed(who) => assert!(text.contains(&who[0]) && text.contains("switch the power off"), "{what}: {text}"),
+        End::Unconfirmed(who) => {
+            assert!(text.contains(&who[0]) && text.contains("switch the power off"), "{what}: {text}")
+        }
     }
 }
 
@@ -194,7 +202,9 @@ fn a_remote_obeys_orders_and_stops_when_told_or_when_its_window_is_lost() {
     own.order(Order::Play);
     wait(&own, "played", |status| *status == Status::Ready(vec![0.0; 3]));
     own.stop();
-    let Status::Ended { why, wanted } = wait(&own, "ended", |s| matches!(s, Status::Ended { .. })) else { unreachable!() };
+    let Status::Ended { why, wanted } = wait(&own, "ended", |s| matches!(s, Status::Ended { .. })) else {
+        unreachable!()
+    };
     assert!(wanted && why.contains("switched off"), "{why}");
 
     let lost = remote(&waving(1, 1.0), ascii);
@@ -260,7 +270,11 @@ mod ports {
         let mut line = String::new();
         told.read_line(&mut line).expect("a port");
         let port = line.trim().strip_prefix("port: ").expect("a port").to_owned();
-        let play = Command::new(program).arg("play").arg(&path).args(["--port", &port, "--set-zero", "--baud", "115200"]).spawn();
+        let play = Command::new(program)
+            .arg("play")
+            .arg(&path)
+            .args(["--port", &port, "--set-zero", "--baud", "115200"])
+            .spawn();
         let mut play = Ended(play.expect("it runs"));
         std::thread::sleep(Duration::from_millis(2500));
         assert!(play.0.try_wait().expect("asked").is_none(), "it still plays");
@@ -269,8 +283,13 @@ mod ports {
         told.read_to_string(&mut text).expect("text");
         let scale = waving_scale();
         for (line, most) in text.lines().zip([8.0, 5.0, 3.0]) {
-            let farthest: f64 =
-                line.split("farthest ").nth(1).and_then(|rest| rest.split(',').next()).expect(line).parse().expect(line);
+            let farthest: f64 = line
+                .split("farthest ")
+                .nth(1)
+                .and_then(|rest| rest.split(',').next())
+                .expect(line)
+                .parse()
+                .expect(line);
             assert!(farthest > 0.0 && farthest <= most * scale + 1.5, "{line}");
             assert!(!line.contains("moving"), "{line}");
         }

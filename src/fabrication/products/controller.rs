@@ -29,16 +29,15 @@ pub(super) fn make(source: &Source<'_>) -> Result<Part, ExportError> {
             },
         }
     }
-    remarks.extend(left_out.iter().map(|(why, names)| format!("No files for controllers {}: {why}.", names.join(", "))));
+    remarks
+        .extend(left_out.iter().map(|(why, names)| format!("No files for controllers {}: {why}.", names.join(", "))));
     Ok(Part { products, guide, remarks })
 }
 
 /// The families that were asked for, or all.
 fn chosen(source: &Source<'_>) -> Result<Vec<&'static Family>, MotionError> {
     let names = &source.options.controllers;
-    let named = |name: &String| {
-        families::by_name(name).ok_or_else(|| MotionError::NoSuchFamily { name: name.clone() })
-    };
+    let named = |name: &String| families::by_name(name).ok_or_else(|| MotionError::NoSuchFamily { name: name.clone() });
     if names.is_empty() { Ok(families::ALL.to_vec()) } else { names.iter().map(named).collect() }
 }
 
@@ -109,7 +108,8 @@ fn family_guide(family: &Family, machine: &Machine, products: &[Product]) -> Str
         .iter()
         .enumerate()
         .map(|(winch, name)| {
-            let address = stream.as_ref().map_or_else(|| format!("winch {}", winch + 1), |stream| stream.address(winch));
+            let address =
+                stream.as_ref().map_or_else(|| format!("winch {}", winch + 1), |stream| stream.address(winch));
             format!("    {address}: {name}, up to {:.1} mm\n", machine.travel_mm[winch])
         })
         .collect();
@@ -135,7 +135,10 @@ fn sending(stream: &dyn Stream, machine: &Machine) -> String {
     let order = if stream.moves_together() {
         "one line for all winches".to_owned()
     } else {
-        format!("{} commands: what loads the position of the next row for every winch, then what starts each", commands_a_step(stream))
+        format!(
+            "{} commands: what loads the position of the next row for every winch, then what starts each",
+            commands_a_step(stream)
+        )
     };
     let bytes = if stream.framing().is_binary() { " Frames follow each other without gaps." } else { "" };
     format!(
@@ -150,8 +153,11 @@ fn sending(stream: &dyn Stream, machine: &Machine) -> String {
 fn ascii(machine: &Machine) -> String {
     let motor = &machine.controller;
     let current = match motor.drives.current_ma {
-        0 => "Set current limits (LPC, LCC) for your motor and gear before you let it pull: the files set none.".to_owned(),
-        current => format!("setup limits the current to {current} mA (LPC, LCC; controller.drives.current_ma): set it to yours."),
+        0 => "Set current limits (LPC, LCC) for your motor and gear before you let it pull: the files set none."
+            .to_owned(),
+        current => format!(
+            "setup limits the current to {current} mA (LPC, LCC; controller.drives.current_ma): set it to yours."
+        ),
     };
     format!(
         "    8N1, 9600 baud from the factory, Xon/Xoff, node numbers set beforehand; each command ends with a carriage return.

@@ -122,7 +122,9 @@ impl Own {
             }
             ("LA", Some(to)) if self.allows(to) => self.loaded = to,
             ("LR", Some(by)) if self.allows(self.drive.target + by) => self.loaded = self.drive.target + by,
-            ("ENCRES" | "SP" | "AC" | "DEC" | "LL" | "LA" | "LR" | "LPC" | "LCC", _) => return "Invalid parameter".into(),
+            ("ENCRES" | "SP" | "AC" | "DEC" | "LL" | "LA" | "LR" | "LPC" | "LCC", _) => {
+                return "Invalid parameter".into();
+            }
             _ => return "Unknown command".into(),
         }
         "OK".into()
@@ -149,7 +151,10 @@ mod tests {
     #[test]
     fn drives_obey_only_what_they_know_and_may() {
         let mut drives = Drives::new(2);
-        assert_eq!(answers(&mut drives, &["1FLY", "1SP-4", "1M"]), ["Unknown command", "Invalid parameter", "Command not available"]);
+        assert_eq!(
+            answers(&mut drives, &["1FLY", "1SP-4", "1M"]),
+            ["Unknown command", "Invalid parameter", "Command not available"]
+        );
         assert_eq!(answers(&mut drives, &["3EN", "EN", "0EN"]), [""; 0], "nobody is there");
         let setup = ["1HO0", "1LL100", "1LL-1", "1APL1", "1EN", "1la101", "1LA90", "1M"];
         assert_eq!(answers(&mut drives, &setup), ["OK", "OK", "OK", "OK", "OK", "Invalid parameter", "OK", "OK"]);

@@ -46,9 +46,7 @@ pub(super) fn of(family: &Family, winches: usize) -> (Box<dyn Controller>, Frami
     match family.name {
         "sdo" => (Box::new(sdo::Drives::new(winches)), Framing::Sdo),
         "bus-servo" => (Box::new(bus::BusServos::new(winches)), Framing::Bus),
-        "grbl" => {
-            (Box::new(grbl::Machine::new(winches)), Framing::Lines { end: "\n", at_once: grbl_words::AT_ONCE })
-        }
+        "grbl" => (Box::new(grbl::Machine::new(winches)), Framing::Lines { end: "\n", at_once: grbl_words::AT_ONCE }),
         "servo" => (Box::new(servo::Sketch::new(winches)), lines("\n")),
         _ => (Box::new(classic::Drives::new(winches)), lines("\r")),
     }

@@ -3,7 +3,8 @@
 use super::{Axis, Controller};
 use crate::motion::Drive;
 use crate::motion::families::sdo::{
-    ACCELERATION, CONTROL, DECELERATION, Frame, HIGHEST, HOMING, LOWEST, MODE, POSITION, READ, REFUSED, SPEED, TARGET, WRITE,
+    ACCELERATION, CONTROL, DECELERATION, Frame, HIGHEST, HOMING, LOWEST, MODE, POSITION, READ, REFUSED, SPEED, TARGET,
+    WRITE,
 };
 
 /// All drives.

@@ -86,10 +86,8 @@ END FUNCTION
 
 fn motion(machine: &Machine, trajectory: &Trajectory, winch: usize) -> String {
     let mut text = head(machine, winch, "as often as you like, from the rest position.") + STEP;
-    let _ = write!(
-        text,
-        "SETOBJ $6060.00 = 1\nSETOBJ $6083.00 = {FOLLOWING}\nSETOBJ $6084.00 = {FOLLOWING}\nEnable()\n"
-    );
+    let _ =
+        write!(text, "SETOBJ $6060.00 = 1\nSETOBJ $6083.00 = {FOLLOWING}\nSETOBJ $6084.00 = {FOLLOWING}\nEnable()\n");
     let (times, lengths) = (&trajectory.times_s, &trajectory.lengths_mm);
     let units = |k: usize| ((times[k] - times[0]) / DELAY_S).round() as u64;
     for pair in thinned(times.len()).windows(2) {

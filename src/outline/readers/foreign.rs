@@ -50,7 +50,10 @@ pub(in crate::outline) fn unknown(bytes: &[u8]) -> OutlineError {
         if let Some(&(format, _, advice)) = PACKED.iter().find(|(_, name, _)| holds(name)) {
             return OutlineError::Foreign { format, advice };
         }
-        return OutlineError::Foreign { format: "a packed file", advice: "unpack it, and read the drawing or picture in it" };
+        return OutlineError::Foreign {
+            format: "a packed file",
+            advice: "unpack it, and read the drawing or picture in it",
+        };
     }
     OutlineError::UnknownFormat
 }

@@ -2,8 +2,8 @@
 
 use super::FLATTEN_FRACTION;
 use super::flatten::flatten;
-use crate::outline::readers::ground::{Mark, holds_box};
 use crate::outline::even::{self, EVEN_FRACTION, Evened};
+use crate::outline::readers::ground::{Mark, holds_box};
 use crate::outline::regions::{self, Shapes};
 use crate::outline::{Note, OutlineError, Point};
 use i_overlay::core::fill_rule::FillRule;
