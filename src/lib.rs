@@ -21,7 +21,8 @@
 //! | [`design`] | the document: design, poses, networks, keyframes, file format, edits, undo |
 //! | [`engine`] | compiles a design into a physics model, poses both plushies, worker thread |
 //! | [`rigging`] | finds winches and tendons: generators of candidates, criteria that judge them, the search |
-//! | [`motion`] | what motors are told: trajectories of winches, programs, links that carry them |
+//! | [`motion`] | what motors are told: trajectories of winches, families of controllers, programs |
+//! | [`live`] | motors that are told live: serial ports, the player, simulated controllers |
 //! | [`fabrication`] | the blueprint: products (patterns, routings, tracks, programs) and the writers of their files |
 //! | [`picture`] | pictures of both plushies in layers, rasterised without a graphics adapter |
 //! | [`operations`] | every use case once: new, remesh, reshape, pose, propose, rig, explore, key, check, export, render |
@@ -50,6 +51,7 @@ pub mod discovery;
 pub mod engine;
 pub mod fabrication;
 pub mod files;
+pub mod live;
 pub mod mesh;
 pub mod motion;
 pub mod operations;

@@ -24,6 +24,9 @@ pub struct Export {
     /// Give the animation more time where its motors are too slow for it; otherwise such an animation is refused
     #[arg(long)]
     pub stretch: bool,
+    /// Families of controllers to write programs for, separated by commas; all that can play the motion by default
+    #[arg(long, value_name = "FAMILIES", value_delimiter = ',')]
+    pub controllers: Vec<String>,
     /// Print the manifest: files with sizes in bytes and SHA-256, and remarks
     #[arg(long)]
     pub json: bool,
@@ -33,7 +36,7 @@ impl Export {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
         let design = document::load(&self.design)?;
         let too_fast = if self.stretch { TooFast::Stretch } else { TooFast::Refuse };
-        let options = export::Options { too_fast };
+        let options = export::Options { too_fast, controllers: self.controllers.clone() };
         let manifest =
             export::run(&design, &self.output, &options, &Context::new(cancel)).map_err(|error| match error {
                 export::Error::Export(error) => words::unexported(&self.design, error),

@@ -25,6 +25,7 @@ mod new;
 mod output;
 mod picture;
 mod place;
+mod play;
 mod pose;
 mod progress;
 mod remesh;
@@ -32,6 +33,7 @@ mod render;
 pub mod report;
 mod reshape;
 mod rig;
+mod simulate_controller;
 mod solve;
 mod table;
 mod usage;
@@ -88,6 +90,8 @@ pub enum Command {
     Key(key::Key),
     Check(check::Check),
     Export(export::Export),
+    Play(play::Play),
+    SimulateController(simulate_controller::SimulateController),
     Render(render::Render),
     Solve(solve::Solve),
     Discover(discover::Discover),
@@ -112,10 +116,12 @@ impl Command {
             Self::Discover(_) => "joining fibres",
             Self::Demo(_) => "making the pig",
             Self::Bench(_) => "measuring",
+            Self::Play(_) => "driving the motors",
             Self::Mesh(_)
             | Self::Drawing(_)
             | Self::Pose(_)
             | Self::Network(_)
+            | Self::SimulateController(_)
             | Self::Completions(_)
             | Self::Man(_) => return None,
         })
@@ -171,6 +177,8 @@ pub fn run(command: &Command, out: &mut dyn Write, cancel: &AtomicBool) -> Resul
         Command::Key(command) => command.run(out, cancel),
         Command::Check(command) => command.run(out, cancel),
         Command::Export(command) => command.run(out, cancel),
+        Command::Play(command) => command.run(out, cancel),
+        Command::SimulateController(command) => command.run(out, cancel),
         Command::Render(command) => command.run(out, cancel),
         Command::Solve(command) => command.run(out, cancel),
         Command::Discover(command) => command.run(out, cancel),

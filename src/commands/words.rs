@@ -57,10 +57,19 @@ pub fn no_such_pose(error: &NoSuchPose) -> CommandError {
 pub fn unexported(design: &Path, error: ExportError) -> CommandError {
     match error {
         ExportError::Folder(error) => refused_folder(error),
-        ExportError::Motion(MotionError::TooFast { .. }) => {
+        ExportError::Motion(error) => unplanned(design, &error),
+        ExportError::NoNetworks => CommandError::input(design, format!("{error}; run `plushwright rig` first")),
+        error => CommandError::input(design, error),
+    }
+}
+
+/// Why motors cannot be told the animation of a design.
+pub fn unplanned(design: &Path, error: &MotionError) -> CommandError {
+    match error {
+        MotionError::TooFast { .. } => {
             CommandError::input(design, format!("{error}; move the keyframes apart, or use --stretch"))
         }
-        ExportError::NoNetworks => CommandError::input(design, format!("{error}; run `plushwright rig` first")),
+        MotionError::NoSuchFamily { .. } => CommandError::Usage(error.to_string()),
         error => CommandError::input(design, error),
     }
 }
@@ -122,10 +131,7 @@ pub fn explored(point: &Point) -> String {
 /// A note of a reader or the clean-up, and the option that would have it otherwise.
 fn note(note: &Note) -> String {
     match note.remedy() {
-        Some(remedy @ (Remedy::Unit | Remedy::Threshold | Remedy::Background)) => {
-            format!("{note} ({})", option(remedy))
-        }
-        Some(remedy) => format!("{note}; {}", option(remedy)),
+        Some(remedy) => format!("{note} ({})", option(remedy)),
         None => note.to_string(),
     }
 }
@@ -140,8 +146,16 @@ fn option(remedy: Remedy) -> &'static str {
         Remedy::Height => "--height sets another height",
         Remedy::Unit => "--unit sets another",
         Remedy::Threshold => "--threshold sets another value",
+        Remedy::Opacity => "--threshold 1 counts all that shows",
         Remedy::Background => "--background keep keeps it",
+        Remedy::DropBackground => "--background drop leaves it out",
         Remedy::Holes => "--holes fill makes a solid body of it",
+        Remedy::KeepHoles => "--holes keep keeps the holes",
+        Remedy::Gap => "--gap sets how wide they may be, 0 for none",
+        Remedy::Join => "--join sets how far apart ends may be",
+        Remedy::Smooth => "--smooth sets how far, 0 for not at all",
+        Remedy::Layers => "--layer names those that count",
+        Remedy::Blocks => "--block names those that count",
         Remedy::MinWidth => "--min-width widens them",
         Remedy::Pieces => "choose --pieces largest, or join them in the drawing",
     }

@@ -3,9 +3,11 @@
 use super::discovery::Discovery;
 use super::document::Document;
 use super::files::Files;
+use super::following::Following;
 use super::judging::Judging;
 use super::look::Look;
 use super::meshing::{Meshing, Resolution};
+use super::motors::Motors;
 use super::overlay::{Overlay, Renamed};
 use super::picked::{Mode, Picked, Selection};
 use super::playback::Playback;
@@ -63,8 +65,10 @@ pub struct Session {
     pub(crate) solo: Solo,
     pub(crate) winding: Winding,
     pub(crate) meshing: Meshing,
+    pub(crate) motors: Motors,
     pub(crate) sketching: Sketching,
     pub(crate) texturing: Texturing,
+    pub(crate) following: Following,
     /// A keyframe that is worked out.
     pub(crate) keying: Option<Running>,
     pub(crate) messages: Messages,
@@ -101,8 +105,10 @@ impl Session {
             solo: Solo::default(),
             winding: Winding::default(),
             meshing: Meshing::default(),
+            motors: Motors::default(),
             sketching: Sketching::default(),
             texturing: Texturing::default(),
+            following: Following::default(),
             keying: None,
             messages: Messages::default(),
             files: Files::default(),
@@ -225,7 +231,8 @@ impl Session {
         let keying = self.keying.is_some().then_some("Working out the keyframe");
         let rigging = self.rigging.running.is_some() || self.rigging.curve.running.is_some();
         let rigging = rigging.then_some("Looking for winches and tendons");
-        self.files.working.or(rigging).or(keying)
+        let following = self.following.is_running().then_some("Working out keyframes again");
+        self.files.working.or(rigging).or(keying).or(following)
     }
 
     /// Whether the window is about to close.
@@ -289,6 +296,11 @@ impl Session {
 
     pub fn meshing(&self) -> &Meshing {
         &self.meshing
+    }
+
+    /// Motors that are driven live.
+    pub fn motors(&self) -> &Motors {
+        &self.motors
     }
 
     pub fn resolution(&self) -> Resolution {
