@@ -110,3 +110,7 @@ pub const MOTOR_ACCELERATION: u32 = 200;
 pub const MOTOR_TORQUE_NMM: f64 = 65.0;
 /// Seconds between keyframes where the tool lays them out itself.
 pub const KEYFRAME_SPACING_S: f64 = 1.0;
+/// Thickness of the line that winches wind, mm: braided fishing line of about 20 kg.
+pub const CABLE_MM: f64 = 0.5;
+/// Opening in the felt at a winch, mm: all of its cables leave there, and a finger feels the spool.
+pub const WINCH_OPENING_MM: f64 = 8.0;

@@ -38,6 +38,12 @@ pub fn unexported(design: &Path, error: ExportError) -> CommandError {
         ExportError::Motion(MotionError::TooFast { .. }) => {
             CommandError::input(design, format!("{error}; move the keyframes apart, or use --stretch"))
         }
+        ExportError::WinchesCollide { .. } => CommandError::input(
+            design,
+            format!(
+                "{error}; move one of them (`plushwright network move`) or take a smaller spool (fabrication.spool_radius_mm)"
+            ),
+        ),
         ExportError::NoNetworks => CommandError::input(design, format!("{error}; run `plushwright rig` first")),
         error => CommandError::input(design, error),
     }

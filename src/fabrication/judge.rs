@@ -1,7 +1,7 @@
 //! The rules of sewing, asked of a design: whether a hand can sew its networks.
 
 use super::cables::points;
-use super::products::seam;
+use super::piece::gap_mm;
 use crate::design::Design;
 use crate::motion::winch_labels;
 use crate::outline::Point;
@@ -14,7 +14,7 @@ const TOLD: usize = 5;
 /// turning gap is the one that the pattern leaves open, which may be less than was asked for. Networks that are switched off are not judged.
 pub fn judge_design(design: &Design) -> Vec<Breach> {
     let rigs = rigs(design);
-    let gap_mm = if rigs.is_empty() { 0.0 } else { seam::of(design).gap_mm };
+    let gap_mm = if rigs.is_empty() { 0.0 } else { gap_mm(design) };
     numbered(design, sewing::judge(&design.sewing, &Body::new(&design.outline), &rigs, gap_mm))
 }
 

@@ -25,23 +25,38 @@
 //! ```
 
 mod blueprint;
+mod buildable;
 mod cables;
+pub mod catalogue;
+mod demand;
 mod error;
+pub mod font;
+pub mod guide;
 mod judge;
+mod options;
+pub mod piece;
+mod preset;
+pub mod prisms;
 mod product;
 pub mod products;
 mod sheet;
 mod solid;
+pub mod stuffing;
 mod table;
+pub mod winch;
 pub mod writers;
 
 pub use crate::files::folder::{Listed as ManifestFile, MANIFEST};
 pub use crate::files::sha256;
-pub use blueprint::{File, Manifest, Options, blueprint, export};
+pub use blueprint::{File, Manifest, blueprint, export};
 pub use cables::{holes, tendon_length_mm};
+pub use catalogue::{Catalogue, CatalogueError};
+pub use demand::{Demand, demands};
 pub use error::ExportError;
 pub use judge::{judge_design, judge_pose};
-pub use product::{Content, Part, Product, Section, Source};
-pub use sheet::{Anchor, Color, Entity, Group, Sheet, Style};
+pub use options::{Options, Topic, Topics};
+pub use preset::{Cutter, Preset};
+pub use product::{Content, Part, Product, Section, Shared, Source};
+pub use sheet::{Anchor, Color, Entity, Group, Layer, Sheet, Style};
 pub use solid::Solid;
 pub use table::{Column, Table, Values};
