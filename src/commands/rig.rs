@@ -9,7 +9,7 @@ use crate::design::Design;
 use crate::files::shown;
 use crate::operations::explore;
 use crate::operations::key;
-use crate::operations::rig::{self, Error, Note, Options, TendonChoice};
+use crate::operations::rig::{self, Error, Note, Options, TendonChoice, Trims};
 use crate::operations::{Context, Progress};
 use crate::rigging;
 use crate::rigging::RigError;
@@ -42,6 +42,12 @@ pub struct Rig {
     /// Whether networks keep the design's rules of sewing, or none (for studies)
     #[arg(long, value_enum, default_value_t)]
     pub rules: Rules,
+    /// Let each cable have a spool radius of its own, as a part of its winch's
+    #[arg(long)]
+    pub ratios: bool,
+    /// Let cables be slack at assembly, so that they pull later than others of their winch
+    #[arg(long)]
+    pub slack: bool,
     /// Forget the networks that are there, and solve keyframes of poses anew
     #[arg(long)]
     pub fresh: bool,
@@ -100,9 +106,16 @@ impl Rig {
         if let Some((name, _)) = given.into_iter().find(|(_, given)| *given && self.method == Method::Joint) {
             return Err(CommandError::Usage(format!("--{name} is a parameter of --method algorithm2")));
         }
+        if (self.ratios || self.slack) && self.method == Method::Algorithm2 {
+            let name = if self.ratios { "ratios" } else { "slack" };
+            return Err(CommandError::Usage(format!(
+                "--{name} is for --method joint: Algorithm 2 knows no such thing"
+            )));
+        }
         let options = Options {
             method: self.method.into(),
             rules: self.rules == Rules::Sewing,
+            trims: Trims { ratios: self.ratios, slack: self.slack },
             fresh: self.fresh,
             rounds: usize::from(self.rounds),
             seed: self.seed,

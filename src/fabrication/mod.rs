@@ -53,7 +53,6 @@ pub use cables::{holes, tendon_length_mm};
 pub use catalogue::{Catalogue, CatalogueError};
 pub use demand::{Demand, demands};
 pub use error::ExportError;
-pub use judge::{judge_design, judge_pose};
 pub use options::{Options, Topic, Topics};
 pub use preset::{Cutter, Preset};
 pub use product::{Content, Part, Product, Section, Shared, Source};

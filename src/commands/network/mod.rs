@@ -5,7 +5,6 @@ mod list;
 
 use super::error::CommandError;
 use super::output::say;
-use crate::fabrication::judge_design;
 use crate::files::shown;
 use crate::motion::winch_labels;
 use crate::operations::Context;
@@ -52,7 +51,7 @@ impl NetworkCommand {
         let done = change.label().to_lowercase();
         say(out, &format!("{}: {done}; {winches} winches, {tendons} tendons", shown(&target.output)))?;
         let names = winch_labels(&design);
-        judge_design(&design).iter().try_for_each(|breach| say(out, &format!("hard to sew: {}", breach.words(&names))))
+        design.breaches().iter().try_for_each(|breach| say(out, &format!("hard to sew: {}", breach.words(&names))))
     }
 }
 

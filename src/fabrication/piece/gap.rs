@@ -5,7 +5,7 @@ use crate::design::Design;
 use crate::fabrication::cables::holes;
 use crate::fabrication::winch;
 use crate::outline::Point;
-use crate::outline::polygon::{bounding_box, distance_to_segment, length, lerp, perimeter};
+use crate::outline::polygon::{bounding_box, distance_to_segment, length, lerp};
 
 /// Places at which the start of a turning gap is tried, around the outline.
 const GAP_CANDIDATES: usize = 1000;
@@ -23,8 +23,6 @@ const GAP_ROOM: f64 = 1.2;
 const GAP_REACH: f64 = 0.3;
 /// How near a hole or pin is in the way, mm: the width of a finger's grip on the seam.
 const GAP_CLEARANCE_MM: f64 = 4.0;
-/// A turning gap takes at most this part of the outline.
-const GAP_LARGEST_PART: f64 = 0.25;
 
 /// The seam around the outer polygon, open at the turning gap.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,17 +34,12 @@ pub struct Seam {
     pub gap_mm: f64,
 }
 
-/// The width of a design's turning gap, mm: what is set, or a quarter of a small outline.
-pub fn gap_mm(design: &Design) -> f64 {
-    design.fabrication.turning_gap_mm.min(GAP_LARGEST_PART * perimeter(&design.outline.outer))
-}
-
 /// The seam of a design: its turning gap away from the holes of its cables and from its pins, where a housing gets in to every winch.
 pub fn seam_of(design: &Design) -> Seam {
     let pins = design.pins.iter().map(|p| design.mesh.position(&p.at, &design.mesh.nodes));
     let obstacles: Vec<Point> = holes(design).into_iter().chain(pins).collect();
     let ways = Ways::of(design);
-    seam(&design.outline.outer, design.fabrication.turning_gap_mm, &obstacles, |stretch| ways.short_of(stretch))
+    seam(&design.outline.outer, design.turning_gap_mm(), &obstacles, |stretch| ways.short_of(stretch))
 }
 
 /// How wide the body is on the way to its winches.
@@ -81,10 +74,9 @@ impl Ways {
 }
 
 /// Leaves `gap_mm` of the polygon open on the stretch that is straightest and nearest to the bottom, away from `obstacles`, where the ways
-/// inward are wide; at most a quarter of the polygon. `short_of` is by which part they are too narrow.
+/// inward are wide. `short_of` is by which part they are too narrow.
 fn seam(polygon: &[Point], gap_mm: f64, obstacles: &[Point], short_of: impl Fn(&[Point]) -> f64) -> Seam {
     let ring = Ring::new(polygon);
-    let gap_mm = gap_mm.min(GAP_LARGEST_PART * ring.length());
     let mut closed = polygon.to_vec();
     closed.extend(polygon.first());
     if gap_mm <= 0.0 {
@@ -208,7 +200,6 @@ mod tests {
         let blocked = seam(&square(120.0), 50.0, &[[40.0, 0.0], [80.0, 0.0]], |_| 0.0);
         let clear = |p: Point| blocked.gap.windows(2).all(|s| distance_to_segment(s[0], s[1], p) >= GAP_CLEARANCE_MM);
         assert!(clear([40.0, 0.0]) && clear([80.0, 0.0]), "{:?}", blocked.gap);
-        assert_eq!(seam(&square(20.0), 50.0, &[], |_| 0.0).gap_mm, 20.0);
         let closed = seam(&square(20.0), 0.0, &[], |_| 0.0);
         assert!(closed.gap.is_empty() && along(&closed.stitches) == 80.0);
     }

@@ -14,7 +14,7 @@ mod snip;
 pub use access::Access;
 pub use allowance::{Corners, Cutting, grown, with_kerf};
 pub use clearance::{LEAST_FELT_MM, Passage, passages};
-pub use gap::{Seam, Ways, gap_mm, seam_of};
+pub use gap::{Seam, Ways, seam_of};
 pub use labels::Labels;
 pub use marks::{match_marks, straight};
 pub use nest::{Bed, Laid, nest};

@@ -50,7 +50,7 @@ pub(super) fn make(source: &Source<'_>) -> Result<Part, ExportError> {
         Product::new("threading", Content::Table(threading(design))),
     ];
     let mut remarks = judge::remarks(source.design);
-    remarks.extend(buildable::remarks(design, &judge::judge_design(source.design), &piece.seam));
+    remarks.extend(buildable::remarks(design, &source.design.breaches(), &piece.seam));
     Ok(Part { products, guide: GUIDE.into(), remarks })
 }
 
