@@ -82,8 +82,8 @@ fn of_winches(names: &[String], breaches: &[Breach]) -> Vec<String> {
         .collect();
     if !through.is_empty() {
         remarks.push(format!(
-            "{} run through the housings of other winches: {}. Lead them around, or move the winches.",
-            if through.len() == 1 { "One cable".into() } else { format!("{} cables", through.len()) },
+            "{} through the housings of other winches: {}. Lead them around, or move the winches.",
+            if through.len() == 1 { "One cable runs".into() } else { format!("{} cables run", through.len()) },
             through.join(", ")
         ));
     }

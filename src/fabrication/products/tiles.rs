@@ -5,7 +5,7 @@ use crate::fabrication::sheet::{
     Anchor, BLACK, Color, Entity, GREY, Group, REFERENCE_MM, Sheet, Style, reference_square,
 };
 use crate::outline::Point;
-use crate::outline::polygon::bounding_box;
+use crate::outline::polygon::{self, bounding_box};
 
 /// A kind of paper.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,8 +44,9 @@ struct Cut<'a> {
     rows: usize,
     /// Width and height of a frame, mm.
     step: [f64; 2],
-    /// The number of its first page, and of the first letter of its marks.
-    first: usize,
+    /// The number of the page of each frame, from the lower left, row by row; none where there is nothing to see.
+    numbers: Vec<Option<usize>>,
+    /// The number of the first letter of its marks.
     letters: usize,
     turned: bool,
 }
@@ -56,14 +57,15 @@ impl Tiles {
         let (mut first, mut letters) = (2, 0);
         for sheet in sheets {
             let cut = Cut::new(sheet, paper, first, letters);
-            first += cut.columns * cut.rows;
+            first += cut.numbers.iter().flatten().count();
             letters += cut.joints();
             cuts.push(cut);
         }
         let mut pages = vec![map(name, &cuts, paper, first - 1)];
         for cut in &cuts {
             for row in (0..cut.rows).rev() {
-                pages.extend((0..cut.columns).map(|column| cut.page(column, row, paper, first - 1)));
+                let shown = (0..cut.columns).filter(|&column| cut.number(column, row).is_some());
+                pages.extend(shown.map(|column| cut.page(column, row, paper, first - 1)));
             }
         }
         Self { pages }
@@ -78,14 +80,41 @@ impl<'a> Cut<'a> {
             let step = [w - 2.0 * (WHITE_MM + BEYOND_MM), h - 2.0 * (WHITE_MM + BEYOND_MM)];
             let count = |side: f64, step: f64| ((side - 1e-9) / step).ceil().max(1.0) as usize;
             let (columns, rows) = (count(sheet.width_mm, step[0]), count(sheet.height_mm, step[1]));
-            Self { sheet, columns, rows, step, first, letters, turned }
+            Self { sheet, columns, rows, step, numbers: Vec::new(), letters, turned }.numbered(first)
         };
         let (upright, lying) = (cut(false), cut(true));
-        if lying.columns * lying.rows < upright.columns * upright.rows { lying } else { upright }
+        let pages = |cut: &Self| cut.numbers.iter().flatten().count();
+        if pages(&lying) < pages(&upright) { lying } else { upright }
     }
 
-    fn number(&self, column: usize, row: usize) -> usize {
-        self.first + (self.rows - 1 - row) * self.columns + column
+    /// Numbers from `first` on for the frames that show something, from the upper left.
+    fn numbered(mut self, first: usize) -> Self {
+        self.numbers = vec![None; self.columns * self.rows];
+        let mut next = first;
+        for row in (0..self.rows).rev() {
+            for column in 0..self.columns {
+                if self.shows(column, row) {
+                    self.numbers[row * self.columns + column] = Some(next);
+                    next += 1;
+                }
+            }
+        }
+        self
+    }
+
+    fn shows(&self, column: usize, row: usize) -> bool {
+        let low = self.corner(column, row);
+        let meets = |(a, b): (Point, Point)| (0..2).all(|k| a[k] <= low[k] + self.step[k] && b[k] >= low[k]);
+        let touches = |entity: &Entity| match entity {
+            Entity::Polygon(points) => polygon::sides(points).any(|(a, b)| meets(bounding_box(&[a, b]))),
+            Entity::Polyline(points) => points.windows(2).any(|side| meets(bounding_box(side))),
+            _ => meets(extent(entity)),
+        };
+        self.sheet.groups.iter().flat_map(|group| &group.entities).any(touches)
+    }
+
+    fn number(&self, column: usize, row: usize) -> Option<usize> {
+        self.numbers[row * self.columns + column]
     }
 
     /// Pairs of frames that meet.
@@ -119,8 +148,10 @@ impl<'a> Cut<'a> {
         let far = [inset + self.step[0], inset + self.step[1]];
         frame.entities.push(Entity::Polygon(vec![[inset; 2], [far[0], inset], far, [inset, far[1]]]));
         let mut words = Group::new("page", Style::filled(BLACK));
-        let number = self.number(column, row);
-        let text = format!("{}: page {number} of {count}; print at 100 %", self.sheet.title);
+        let number = self.number(column, row).unwrap_or(0);
+        let (across, down) = (column + 1, self.rows - row);
+        let text =
+            format!("{}: page {number} of {count}, column {across}, row {down}; print at 100 %", self.sheet.title);
         words.text([WHITE_MM, 0.4 * WHITE_MM], 3.0, Anchor::Start, text);
         groups.push(frame);
         groups.push(self.marks(column, row, place));
@@ -136,16 +167,17 @@ impl<'a> Cut<'a> {
         let [x, y] = self.corner(column, row);
         let [w, h] = self.step;
         let mut sides: Vec<(usize, Point)> = Vec::new();
-        if column > 0 {
+        let is_page = |column: usize, row: usize| self.number(column, row).is_some();
+        if column > 0 && is_page(column - 1, row) {
             sides.push((upright(column - 1, row), [x, y + 0.5 * h]));
         }
-        if column + 1 < self.columns {
+        if column + 1 < self.columns && is_page(column + 1, row) {
             sides.push((upright(column, row), [x + w, y + 0.5 * h]));
         }
-        if row > 0 {
+        if row > 0 && is_page(column, row - 1) {
             sides.push((lying(column, row - 1), [x + 0.5 * w, y]));
         }
-        if row + 1 < self.rows {
+        if row + 1 < self.rows && is_page(column, row + 1) {
             sides.push((lying(column, row), [x + 0.5 * w, y + h]));
         }
         for (joint, at) in sides {
@@ -205,11 +237,12 @@ fn map(name: &str, cuts: &[Cut], paper: &Paper, count: usize) -> Sheet {
         small.entities.extend(lines.map(|e| e.placed(place, scale)));
         for row in 0..cut.rows {
             for column in 0..cut.columns {
+                let Some(number) = cut.number(column, row) else { continue };
                 let [x, y] = cut.corner(column, row);
                 let ring = [[x, y], [x + cut.step[0], y], [x + cut.step[0], y + cut.step[1]], [x, y + cut.step[1]]];
                 grid.entities.push(Entity::Polygon(ring.map(place).to_vec()));
                 let middle = place([x + 0.5 * cut.step[0], y + 0.5 * cut.step[1]]);
-                words.text([middle[0], middle[1] - 2.0], 5.0, Anchor::Middle, cut.number(column, row).to_string());
+                words.text([middle[0], middle[1] - 2.0], 5.0, Anchor::Middle, number.to_string());
             }
         }
         let title = cut.sheet.title.rsplit(": ").next().unwrap_or_default();
@@ -243,11 +276,12 @@ mod tests {
         for paper in &PAPERS {
             let tiles = Tiles::new("x", std::slice::from_ref(&sheet), paper);
             let cut = Cut::new(&sheet, paper, 2, 0);
-            assert_eq!(tiles.pages.len(), 1 + cut.columns * cut.rows);
+            assert_eq!(tiles.pages.len(), 1 + cut.numbers.iter().flatten().count());
             let mut seen = std::collections::BTreeSet::new();
             for row in 0..cut.rows {
                 for column in 0..cut.columns {
-                    let page = &tiles.pages[cut.number(column, row) - 1];
+                    let Some(number) = cut.number(column, row) else { continue };
+                    let page = &tiles.pages[number - 1];
                     let corner = cut.corner(column, row);
                     let inset = WHITE_MM + BEYOND_MM;
                     for entity in page.groups.iter().filter(|g| g.name == "cut").flat_map(|g| &g.entities) {

@@ -11,6 +11,11 @@ const WITHIN: f64 = 0.01;
 const AIM: f64 = 0.004;
 /// Most rounds of moving the rim by what is missing.
 const ROUNDS: usize = 30;
+/// The part of what is missing that the rim is moved by, how often the moves of neighbours are averaged, and the longest move over the body's length:
+/// all of it at once makes curved tubes swing from one side to the other.
+const PART: f64 = 0.7;
+const MEANS: usize = 1;
+const STEP: f64 = 0.05;
 /// Sweeps that spread a change of the rim over the inside.
 const SWEEPS: usize = 200;
 
@@ -30,26 +35,31 @@ pub enum Impossible {
 /// Parts of the pattern would overlap, or it cannot be done to a hundredth of the body's length.
 pub fn compensated(design: &Design) -> Result<Design, Impossible> {
     let rim = design.mesh.boundary();
+    let drawn = design.outline.near();
     let mut mesh = design.mesh.clone();
     let mut before: Option<Vec<[f64; 3]>> = None;
     let mut best: Option<(f64, Vec<Point>)> = None;
     let size = design.mesh.body_length();
     for _ in 0..ROUNDS {
-        let shape = Shape::of(&refined(&mesh), before.as_deref());
+        let fine = refined(&mesh);
+        let shape = Shape::of(&fine, before.as_deref());
         // The nodes of a mesh keep their numbers in a finer one.
         let seen = over(&rim, &design.mesh.nodes, &shape.seen);
-        let missing = |&i: &usize| [0, 1].map(|k| design.mesh.nodes[i][k] - seen[i][k]);
-        let off = rim.iter().flatten().map(|i| length(missing(i), [0.0; 2])).fold(0.0, f64::max);
+        let on_rim = fine.boundary().into_iter().flatten();
+        let off = on_rim.map(|i| drawn.distance(seen[i])).fold(0.0, f64::max);
         if best.as_ref().is_none_or(|b| off < b.0) {
             best = Some((off, mesh.nodes.clone()));
         }
         if off <= AIM * size {
             break;
         }
-        let moves: Vec<(usize, Point)> = rim.iter().flatten().map(|i| (*i, missing(i))).collect();
-        spread(&mut mesh, &moves);
+        spread(&mut mesh, &moves(&rim, &design.mesh.nodes, &seen, STEP * size));
         if let Some(at) = overlap(&mesh, &rim) {
-            return Err(Impossible::Overlap(at));
+            // What was reached before may do.
+            match &best {
+                Some((off, _)) if *off <= WITHIN * size => break,
+                _ => return Err(Impossible::Overlap(at)),
+            }
         }
         before = Some(shape.nodes);
     }
@@ -58,6 +68,27 @@ pub fn compensated(design: &Design) -> Result<Design, Impossible> {
         return Err(Impossible::Off(off));
     }
     Ok(with_nodes(design, &rim, nodes))
+}
+
+/// The moves of the rim's nodes: a part of what is missing to the drawn places, the mean of neighbours, no longer than `longest`.
+fn moves(rim: &[Vec<usize>], drawn: &[Point], seen: &[Point], longest: f64) -> Vec<(usize, Point)> {
+    let mut moves = Vec::new();
+    for ring in rim {
+        let mut missing: Vec<Point> = ring.iter().map(|&i| [0, 1].map(|k| PART * (drawn[i][k] - seen[i][k]))).collect();
+        let n = missing.len();
+        for _ in 0..MEANS {
+            let own = missing.clone();
+            for k in 0..n {
+                let (a, b) = (own[(k + n - 1) % n], own[(k + 1) % n]);
+                missing[k] = [0, 1].map(|c| 0.25 * a[c] + 0.5 * own[k][c] + 0.25 * b[c]);
+            }
+        }
+        moves.extend(ring.iter().zip(missing).map(|(&i, d)| {
+            let whole = length(d, [0.0; 2]);
+            (i, if whole > longest { d.map(|v| v * longest / whole) } else { d })
+        }));
+    }
+    moves
 }
 
 /// Places moved as a whole so that the rim's mean is that of the drawn one.

@@ -4,8 +4,9 @@ use crate::mesh::Mesh;
 use crate::outline::polygon::length;
 use crate::outline::{Outline, Point};
 
-/// A limb is what a disc of this part of the body's deepest place does not reach.
-const OF_DEEPEST: f64 = 0.6;
+/// A limb is what a disc of this part of the body's deepest place does not reach, the band along the rim left out: a quarter more.
+const OF_DEEPEST: f64 = 0.5;
+const BAND: f64 = 1.25;
 /// Smallest limb that is told, as a part of the body's area.
 const LEAST_AREA: f64 = 0.01;
 /// Largest angle off the straight line across a limb at which its other side is looked for: its cosine.
@@ -21,7 +22,7 @@ pub struct Limb {
     pub stuffed_mm: f64,
 }
 
-/// The limbs of a mesh, whose nodes are seen at `seen` when it is stuffed; from left to right.
+/// The limbs of a mesh, whose nodes are seen at `seen` when it is stuffed; from left to right. Of a body without limbs its widest place.
 pub fn limbs(mesh: &Mesh, outline: &Outline, seen: &[Point]) -> Vec<Limb> {
     let near = outline.near();
     let depth: Vec<f64> = mesh.nodes.iter().map(|&p| near.distance(p)).collect();
@@ -30,11 +31,15 @@ pub fn limbs(mesh: &Mesh, outline: &Outline, seen: &[Point]) -> Vec<Limb> {
         mesh.nodes.iter().zip(&depth).filter(|(_, d)| **d >= OF_DEEPEST * deepest).map(|(p, _)| *p).collect();
     let away: Vec<f64> =
         mesh.nodes.iter().map(|&p| core.iter().map(|&q| length(p, q)).fold(f64::INFINITY, f64::min)).collect();
-    let is_limb: Vec<bool> = away.iter().map(|&d| d > OF_DEEPEST * deepest).collect();
+    let is_limb: Vec<bool> = away.iter().map(|&d| d > BAND * OF_DEEPEST * deepest).collect();
     let rim: Vec<usize> = mesh.boundary().into_iter().flatten().collect();
     let share = (LEAST_AREA * mesh.nodes.len() as f64).max(3.0) as usize;
     let parts = components(mesh, &is_limb).into_iter().filter(|part| part.len() >= share);
     let mut limbs: Vec<Limb> = parts.filter_map(|part| limb(mesh, seen, &part, &depth, &away, &rim)).collect();
+    if limbs.is_empty() {
+        let all: Vec<usize> = (0..mesh.nodes.len()).collect();
+        limbs.extend(limb(mesh, seen, &all, &depth, &vec![0.0; all.len()], &rim));
+    }
     limbs.sort_by(|a, b| a.at[0].total_cmp(&b.at[0]));
     limbs
 }

@@ -76,7 +76,7 @@ impl Shape {
         let start = before.map_or_else(|| membrane.dome(mesh), <[_]>::to_vec);
         let nodes = relax::relaxed(&membrane, start);
         let thickness_mm = 2.0 * nodes.iter().map(|p| p[2]).fold(0.0, f64::max);
-        let seen = aligned(&rim, &mesh.nodes, &nodes);
+        let seen = smoothed(&rim, aligned(&rim, &mesh.nodes, &nodes));
         Self { volume_mm3: membrane.volume(&nodes), seen, thickness_mm, nodes }
     }
 }
@@ -89,6 +89,20 @@ fn refined(mesh: &Mesh) -> Mesh {
 
 fn rings(mesh: &Mesh, places: &[Point]) -> Vec<Vec<Point>> {
     mesh.boundary().into_iter().map(|ring| ring.into_iter().map(|node| places[node]).collect()).collect()
+}
+
+/// Places with those of the rim moved to the middle between themselves and their neighbours: a rim that is gathered puckers from node to node, and
+/// what is seen is the line through the middle of that.
+fn smoothed(rim: &[Vec<usize>], mut places: Vec<Point>) -> Vec<Point> {
+    for ring in rim {
+        let own: Vec<Point> = ring.iter().map(|&i| places[i]).collect();
+        let n = own.len();
+        for (k, &i) in ring.iter().enumerate() {
+            let (before, after) = (own[(k + n - 1) % n], own[(k + 1) % n]);
+            places[i] = [0, 1].map(|c| 0.25 * before[c] + 0.5 * own[k][c] + 0.25 * after[c]);
+        }
+    }
+    places
 }
 
 /// Nodes seen from the front, moved and turned so that their rim lies nearest to the flat one (least squares).

@@ -26,7 +26,11 @@ pub(super) fn pages(guide: &Guide) -> Vec<Sheet> {
     let mut layout = Layout { title: &guide.title, pages: Vec::new(), row: 0.0 };
     layout.page();
     layout.lines(&guide.title, TITLE_MM, 0.0, WIDTH_MM);
-    for block in &guide.blocks {
+    for (i, block) in guide.blocks.iter().enumerate() {
+        if let (Block::Heading(_), Some(Block::Figure { sheet, .. })) = (block, guide.blocks.get(i + 1)) {
+            // A heading is not alone at the foot of a page.
+            layout.need(LEADING * (HEADING_MM + 2.0 * SMALL_MM) + 3.0 * SPACE_MM + scale(sheet) * sheet.height_mm);
+        }
         layout.block(block);
     }
     layout.pages
@@ -124,7 +128,7 @@ impl Layout<'_> {
 
     /// As large as the page is wide, no larger than its sheet.
     fn figure(&mut self, sheet: &Sheet, caption: &str) {
-        let scale = (WIDTH_MM / sheet.width_mm).min(FIGURE_MM / sheet.height_mm).min(1.0);
+        let scale = scale(sheet);
         let height = scale * sheet.height_mm;
         self.need(height + 2.0 * LEADING * SMALL_MM);
         let corner = [MARGIN_MM, self.row - height];
@@ -138,6 +142,11 @@ impl Layout<'_> {
         self.row -= height + 1.0;
         self.lines(caption, SMALL_MM, 0.0, WIDTH_MM);
     }
+}
+
+/// The scale of a figure.
+fn scale(sheet: &Sheet) -> f64 {
+    (WIDTH_MM / sheet.width_mm).min(FIGURE_MM / sheet.height_mm).min(1.0)
 }
 
 /// Widths of columns by their longest fields, together as wide as the page.
