@@ -1,11 +1,10 @@
 //! `export`: the blueprint, a folder that appears whole or not at all.
 
 use super::error::CommandError;
-use super::output::{say, say_json};
+use super::output::{json, say, say_lines};
 use super::{document, words};
 use crate::fabrication::piece::{Corners, Cutting};
-use crate::fabrication::products::SheetSize;
-use crate::fabrication::{Catalogue, Cutter, Topic, Topics, catalogue};
+use crate::fabrication::{Catalogue, Cutter, SheetSize, Topic, Topics, catalogue};
 use crate::files;
 use crate::motion::TooFast;
 use crate::operations::{Context, export};
@@ -49,6 +48,9 @@ pub struct Export {
     /// Motors that winches may have, a table as `assets/motors.csv` of the sources [default: that one]
     #[arg(long, value_name = "FILE")]
     pub motors: Option<PathBuf>,
+    /// Families of controllers to write programs for, separated by commas; all that can play the motion by default
+    #[arg(long, value_name = "FAMILIES", value_delimiter = ',')]
+    pub controllers: Vec<String>,
     /// Print the manifest: files with sizes in bytes and SHA-256, and remarks
     #[arg(long)]
     pub json: bool,
@@ -165,6 +167,7 @@ impl Export {
             cutting,
             compensate: self.compensate,
             motors: self.catalogue()?,
+            controllers: self.controllers.clone(),
         };
         let manifest =
             export::run(&design, &self.output, &options, &Context::new(cancel)).map_err(|error| match error {
@@ -172,7 +175,7 @@ impl Export {
                 export::Error::Cancelled(_) => CommandError::Cancelled,
             })?;
         if self.json {
-            return say_json(out, &manifest);
+            return say_lines(out, &json(&manifest)?);
         }
         for file in &manifest.files {
             say(out, &format!("{:8} bytes  {}", file.bytes, self.output.join(&file.name).display()))?;

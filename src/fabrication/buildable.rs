@@ -19,6 +19,8 @@ use i_overlay::mesh::float::style::{LineJoin, OutlineStyle};
 const TURNED_MM: f64 = 8.0;
 /// How far a part reaches out of where it is wide enough, in halves of that width, before it is told: a corner of 39 degrees reaches 2.
 const REACH: f64 = 2.0;
+/// Parts that are looked at: what bounds the work on ragged outlines.
+const MOST_PARTS: usize = 500;
 /// Places told one by one.
 const TOLD: usize = 6;
 
@@ -135,11 +137,15 @@ fn thin(outline: &Outline) -> Vec<String> {
     let reach = |p: Point| kept.iter().map(|&(a, b)| distance_to_segment(a, b, p)).fold(f64::INFINITY, f64::min);
     let mut found: Vec<(f64, Point)> = rest
         .iter()
+        .take(MOST_PARTS)
         .filter_map(|part| {
             let ring = part.first()?;
-            let far = ring.iter().map(|&p| (reach(p), p)).max_by(|a, b| a.0.total_cmp(&b.0))?;
             let (low, high) = bounding_box(ring);
-            (far.0 > REACH * r && length(low, high) > r).then_some(far)
+            if length(low, high) <= r {
+                return None;
+            }
+            let far = ring.iter().map(|&p| (reach(p), p)).max_by(|a, b| a.0.total_cmp(&b.0))?;
+            (far.0 > REACH * r).then_some(far)
         })
         .collect();
     found.sort_by(|a, b| b.0.total_cmp(&a.0));

@@ -1,7 +1,6 @@
 //! Motors that makers own: a small table that can be edited, and which of them a winch can have.
 
 use super::demand::Demand;
-use serde::{Deserialize, Serialize};
 
 /// The table that is used where no other is given.
 pub const BUNDLED: &str = include_str!("../../assets/motors.csv");
@@ -11,7 +10,7 @@ const MOST_MOTORS: usize = 500;
 pub const MOST_BYTES: u64 = 1 << 20;
 
 /// A motor with its gear, as a winch meets it: at its output shaft.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Motor {
     pub name: String,
     pub kind: Kind,
@@ -31,8 +30,7 @@ pub struct Motor {
 }
 
 /// How a motor is told where to go.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// With an encoder and a controller.
     Gearmotor,
@@ -41,7 +39,7 @@ pub enum Kind {
 }
 
 /// A table of motors; never empty.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Catalogue(Vec<Motor>);
 
 /// A line of a table that cannot be read.

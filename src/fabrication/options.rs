@@ -2,8 +2,7 @@
 
 use super::catalogue::Catalogue;
 use super::piece::Cutting;
-use super::preset::Cutter;
-use super::products::SheetSize;
+use super::preset::{Cutter, SheetSize};
 use crate::motion::TooFast;
 use serde::{Deserialize, Serialize};
 
@@ -22,7 +21,10 @@ pub struct Options {
     /// Whether the pattern is widened so that the stuffed body is as drawn.
     pub compensate: bool,
     /// Motors that winches may have.
+    #[serde(skip)]
     pub motors: Catalogue,
+    /// Families of controllers by name ([`crate::motion::families`]); none for all that can play the motion.
+    pub controllers: Vec<String>,
 }
 
 /// A part of a blueprint that somebody may want alone.

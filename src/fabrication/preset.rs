@@ -25,6 +25,20 @@ pub enum Cutter {
     Plotter,
 }
 
+/// The sheet that machines cut felt on.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SheetSize {
+    /// Width and height, mm.
+    pub size_mm: [f64; 2],
+}
+
+impl Default for SheetSize {
+    /// A laser's bed.
+    fn default() -> Self {
+        Self { size_mm: [600.0, 400.0] }
+    }
+}
+
 /// The styles of a pattern's layers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Preset {

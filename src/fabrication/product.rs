@@ -35,8 +35,10 @@ pub enum Content {
     Solid(Solid),
     /// Figures.
     Table(Table),
-    /// Commands to motors.
-    Program(Program),
+    /// Commands to motors, in files that end so.
+    Program { program: Program, extension: &'static str },
+    /// A text for a machine, in a file that ends so.
+    Text { text: String, extension: &'static str },
     /// Words.
     Page(String),
 }
@@ -104,6 +106,16 @@ pub struct Section {
 
 /// Makes a part: one line of the table of products.
 pub type Make = fn(&Source<'_>) -> Result<Part, ExportError>;
+
+impl Content {
+    /// What files of it end with, where that is not the writer's to say.
+    pub(super) fn extension(&self) -> Option<&'static str> {
+        match self {
+            Self::Program { extension, .. } | Self::Text { extension, .. } => Some(extension),
+            _ => None,
+        }
+    }
+}
 
 impl Product {
     pub fn new(name: impl Into<String>, content: Content) -> Self {

@@ -77,22 +77,7 @@ fn together(
     let coarse = coarser(design);
     let searched = coarse.as_ref().unwrap_or(design);
     let found = layouts(searched, options, &topology, progress, cancel)?;
-    // What was found before the end is judged all the same, in a moment.
-    let (ended, go) = (options.keep && cancel.load(atomic::Ordering::Relaxed), AtomicBool::new(false));
-    let cancel = if ended { &go } else { cancel };
-    let found: Vec<Fit> = match coarse {
-        None => found,
-        Some(_) => {
-            let (outline, stop) = (rim(&design.mesh), || cancel.load(atomic::Ordering::Relaxed));
-            let sewable = sewable(design, &outline);
-            let task = Task::new(design, options.rules.then_some(&sewable), &design.networks).trimming(options.trims);
-            in_order(&found, |fit| task.transferred(fit, &stop)).into_iter().flatten().collect()
-        }
-    };
-    let verified = in_order(&found, |fit| verified(design, fit, options.rules && !ended, cancel));
-    if cancel.load(atomic::Ordering::Relaxed) {
-        return Err(RigError::Cancelled);
-    }
+    let verified = judged(design, &found, coarse.is_some(), options, cancel)?;
     let worst =
         |poses: &[Verified], error: fn(&Verified) -> f64| poses.iter().map(|p| error(p) / p.rest).fold(0.0, f64::max);
     // As a hand sews it where it should, with friction where the design has it; a rig that has no figure there is the last choice.
@@ -107,6 +92,47 @@ fn together(
     let errors = poses.into_iter().map(|pose| (pose.name, pose.error)).collect();
     progress(Progress::Found { winches: rigged.networks.len() - design.networks.len(), tendons, errors, sewn });
     Ok(rigged)
+}
+
+/// What a check says of the layouts that were found, on the design's own mesh. Where that is interrupted, and results are kept, the best
+/// layout is judged all the same, in a moment: without what sewing by hand costs.
+fn judged(
+    design: &Design,
+    found: &[Fit],
+    coarse: bool,
+    options: &RigOptions,
+    cancel: &AtomicBool,
+) -> Result<Vec<(Design, Vec<Verified>)>, RigError> {
+    let is_raised = || cancel.load(atomic::Ordering::Relaxed);
+    if !is_raised() {
+        let verified = judge(design, found, coarse, options, options.rules, cancel);
+        if !is_raised() {
+            return Ok(verified);
+        }
+    }
+    let best = &found[..found.len().min(1)];
+    if options.keep {
+        Ok(judge(design, best, coarse, options, false, &AtomicBool::new(false)))
+    } else {
+        Err(RigError::Cancelled)
+    }
+}
+
+fn judge(
+    design: &Design,
+    found: &[Fit],
+    coarse: bool,
+    options: &RigOptions,
+    sewn: bool,
+    cancel: &AtomicBool,
+) -> Vec<(Design, Vec<Verified>)> {
+    let (outline, stop) = (rim(&design.mesh), || cancel.load(atomic::Ordering::Relaxed));
+    let sewable = sewable(design, &outline);
+    let task = Task::new(design, options.rules.then_some(&sewable), &design.networks).trimming(options.trims);
+    // What was found on a coarse mesh is improved on the body's own.
+    let moved =
+        coarse.then(|| in_order(found, |fit| task.transferred(fit, &stop)).into_iter().flatten().collect::<Vec<Fit>>());
+    in_order(moved.as_deref().unwrap_or(found), |fit| verified(design, fit, sewn, cancel))
 }
 
 /// How many winches and tendons there may be.

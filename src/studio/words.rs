@@ -2,7 +2,7 @@
 
 use crate::fabrication::ExportError;
 use crate::motion::MotionError;
-use crate::operations::{MoreFibers, Progress, key, new_design, remesh, reshape, rig};
+use crate::operations::{MoreFibers, Progress, key, new_design, play, remesh, reshape, rig};
 use crate::outline::{Change, Changes, Note, OutlineError, Remedy};
 use crate::rigging::{self, RigError};
 
@@ -24,14 +24,33 @@ pub fn outline(error: &OutlineError) -> String {
     error.remedy().map_or_else(|| error.to_string(), |remedy| format!("{error}; {}", control(remedy)))
 }
 
+/// Why motors do not play.
+pub fn unplayed(error: &play::Error) -> String {
+    match error {
+        play::Error::Motion(MotionError::TooFast { .. }) => {
+            format!("{error}; move the keyframes apart, or choose “{STRETCH}”")
+        }
+        play::Error::NoNetworks => format!("{error}: propose networks for a pose, or rig all poses"),
+        error => error.to_string(),
+    }
+}
+
 /// What the dialog of the import has.
 fn control(remedy: Remedy) -> &'static str {
     match remedy {
         Remedy::Height => "“Height” sets another height",
         Remedy::Unit => "“Unit” sets another",
         Remedy::Threshold => "“Ink from” sets another level",
-        Remedy::Background => "“Keep the background” keeps it",
-        Remedy::Holes => "“Fill holes” makes a solid body of it",
+        Remedy::Opacity => "“Ink from” 1 counts all that shows",
+        Remedy::Background => "“Background” keeps it",
+        Remedy::DropBackground => "“Background” leaves it out",
+        Remedy::Holes => "“Holes” makes a solid body of it",
+        Remedy::KeepHoles => "“Holes” keeps them",
+        Remedy::Gap => "“Gaps up to” sets how wide they may be",
+        Remedy::Join => "“Join ends up to” sets how far apart they may be",
+        Remedy::Smooth => "“Smooth” sets how far",
+        Remedy::Layers => "“Layers” names those that count",
+        Remedy::Blocks => "“Blocks” names those that count",
         Remedy::MinWidth => "“Least width” widens them",
         Remedy::Pieces => "choose “Largest piece only”, or join them in the drawing",
     }

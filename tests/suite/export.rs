@@ -2,8 +2,7 @@
 
 use crate::support::{Random, rectangle, rigged};
 use plushwright::design::{Design, Easing, Keyframe, MaterialPoint, Network, Tendon, animation};
-use plushwright::fabrication::products::SheetSize;
-use plushwright::fabrication::{self, ExportError, Manifest, Options, Topic, blueprint, export};
+use plushwright::fabrication::{self, ExportError, Manifest, Options, SheetSize, Topic, blueprint, export};
 use plushwright::files::folder::FolderError;
 use plushwright::motion::{MotionError, Plan, TooFast, winch_labels};
 use roxmltree::{Document, Node};
@@ -192,6 +191,10 @@ fn a_narrow_notch_is_remarked() {
     ];
     let (_, manifest) = blueprint(&design, &Options::default()).expect("a blueprint");
     assert!(manifest.remarks.iter().any(|r| r.contains("narrow notch")), "{:?}", manifest.remarks);
+    // And snipped, on both pieces; what is left of the slot's end is cut out, as it is wider than 2 mm.
+    let xml = text(&design, "pattern.svg");
+    let svg = Document::parse(&xml).expect("XML");
+    assert!(lines(layer(&svg, "snips")).len() >= 2);
 }
 
 #[test]
@@ -203,6 +206,23 @@ fn holes_on_the_seam_are_remarked() {
     let (_, manifest) = blueprint(&design, &Options::default()).expect("a blueprint");
     let told = |r: &&String| r.contains("tendon 1: hole 1 from the winch is 0.0 mm from the seam");
     assert_eq!(manifest.remarks.iter().filter(told).count(), 1, "{:?}", manifest.remarks);
+    // Such a hole is marked, not cut.
+    assert!(manifest.remarks.iter().any(|r| r.starts_with("Marked, not cut")), "{:?}", manifest.remarks);
+    let xml = text(&design, "pattern.svg");
+    let svg = Document::parse(&xml).expect("XML");
+    let seams = lines(layer(&svg, "stitch"));
+    for hole in layer(&svg, "holes") {
+        let at = [figure(hole, "cx"), figure(hole, "cy")];
+        let near = seams.iter().flat_map(|(line, _)| line.windows(2)).map(|s| away(s[0], s[1], at));
+        assert!(near.fold(f64::INFINITY, f64::min) - figure(hole, "r") >= 3.0 - 1e-3);
+    }
+}
+
+/// Distance of a point from a segment.
+fn away(a: [f64; 2], b: [f64; 2], p: [f64; 2]) -> f64 {
+    let (d, w) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
+    let t = ((d[0] * w[0] + d[1] * w[1]) / (d[0] * d[0] + d[1] * d[1])).clamp(0.0, 1.0);
+    (w[0] - t * d[0]).hypot(w[1] - t * d[1])
 }
 
 #[test]
@@ -335,8 +355,9 @@ fn the_controller_programs_are_valid_commands_for_one_node_a_winch() {
         let own: Vec<_> =
             commands(&setup).into_iter().filter(|c| c.0 == node).map(|(_, name, value)| (name, value)).collect();
         let limits = [("LL", Some(farthest + 1)), ("LL", Some(-1)), ("APL", Some(1))];
+        let currents = [("LPC", Some(500)), ("LCC", Some(500))];
         assert_eq!(own[..4], [("DI", None), ("ANSW", Some(2)), ("ENCRES", Some(2048)), ("HO", Some(0))]);
-        assert_eq!(own[4..], limits);
+        assert_eq!(own[4..], [&limits[..], &currents].concat());
     }
     let (_, _, rows) = tracks(&text(&design, "tracks.csv"));
     let motion = text(&design, "controller-ascii-motion.txt");

@@ -65,11 +65,11 @@ impl Ways {
         self.to.iter().map(|ways| self.access.to(ways, middle, GAP_REACH * self.flat_mm)).collect()
     }
 
-    /// By which part the narrowest way is short of what a housing needs.
+    /// By which part the ways are short of what a housing needs, their mean: one winch that nothing gets to does not hide the others.
     fn short_of(&self, stretch: &[Point]) -> f64 {
-        let wanted = GAP_ROOM * self.flat_mm;
-        let narrowest = self.widths(stretch).into_iter().fold(wanted, f64::min);
-        1.0 - narrowest / wanted.max(f64::MIN_POSITIVE)
+        let wanted = (GAP_ROOM * self.flat_mm).max(f64::MIN_POSITIVE);
+        let short = self.widths(stretch).into_iter().map(|width| 1.0 - width.min(wanted) / wanted);
+        short.sum::<f64>() / self.to.len().max(1) as f64
     }
 }
 

@@ -54,7 +54,7 @@ pub fn match_marks(outline: &Outline, rim: &[Point], seam: &Seam, allowance_mm: 
 }
 
 /// The place at an arc length of a counter-clockwise line and its outward normal, of the chord over `reach` to both sides; none at the ends.
-pub fn straight(line: &[Point], s: f64, reach: f64) -> Option<(Point, Point)> {
+fn straight(line: &[Point], s: f64, reach: f64) -> Option<(Point, Point)> {
     let (a, p, b) = (at(line, s - reach)?, at(line, s)?, at(line, s + reach)?);
     let chord = length(a, b);
     (chord > 0.0).then(|| (p, [(b[1] - a[1]) / chord, -(b[0] - a[0]) / chord]))

@@ -16,7 +16,7 @@ pub use allowance::{Corners, Cutting, grown, with_kerf};
 pub use clearance::{LEAST_FELT_MM, Passage, passages};
 pub use gap::{Seam, Ways, seam_of};
 pub use labels::Labels;
-pub use marks::{match_marks, straight};
+pub use marks::match_marks;
 pub use nest::{Bed, Laid, nest};
 pub use snip::{Closed, closed_notches};
 

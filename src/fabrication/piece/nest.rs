@@ -41,18 +41,28 @@ pub struct Bed {
     pub reserved: [f64; 2],
 }
 
+/// Whether a piece is no larger than a bed, upright or lying.
+fn fits(rim: &[Point], bed: &Bed) -> bool {
+    let (low, high) = bounding_box(rim);
+    let mut own = [high[0] - low[0], high[1] - low[1]];
+    let mut room = bed.size.map(|side| side - 2.0 * bed.margin_mm);
+    own.sort_by(f64::total_cmp);
+    room.sort_by(f64::total_cmp);
+    own[0] <= room[0] && own[1] <= room[1]
+}
+
 /// Lays pieces (their rims, and whether they are mirrored) on sheets; `None` for those that fit on none however they are turned.
 pub fn nest(pieces: &[(&[Point], bool)], bed: &Bed) -> Vec<Option<Laid>> {
     let cell = (bed.size[0].max(bed.size[1]) / CELLS).max(LEAST_CELL_MM);
+    let mask = |rim: &[Point], mirrored: bool, turns: u8| Mask::new(rim, mirrored, turns, cell, 0.5 * bed.between_mm);
+    // A piece that fits in no way has no mask: it may be of any size.
     let masks: Vec<Vec<Mask>> = pieces
         .iter()
-        .map(|&(rim, mirrored)| {
-            (0..4).map(|turns| Mask::new(rim, mirrored, turns, cell, 0.5 * bed.between_mm)).collect()
-        })
+        .map(|&(rim, mirrored)| (0..4).filter(|_| fits(rim, bed)).map(|turns| mask(rim, mirrored, turns)).collect())
         .collect();
     // The largest first, as it has the fewest places; all of its turns are tried.
     let mut order: Vec<usize> = (0..pieces.len()).collect();
-    order.sort_by_key(|&i| std::cmp::Reverse(masks[i][0].columns * masks[i][0].rows));
+    order.sort_by_key(|&i| std::cmp::Reverse(masks[i].first().map_or(0, |mask| mask.columns * mask.rows)));
     let tries = (0..4).map(|first| lay(&masks, &order, first, bed, cell));
     let cost = |laid: &[Option<(Laid, usize)>]| {
         let sheets = laid.iter().flatten().map(|l| l.0.sheet + 1).max().unwrap_or(0);
@@ -67,6 +77,9 @@ fn lay(masks: &[Vec<Mask>], order: &[usize], first: usize, bed: &Bed, cell: f64)
     let mut laid = vec![None; masks.len()];
     let mut sheets: Vec<Mask> = Vec::new();
     for (k, &piece) in order.iter().enumerate() {
+        if masks[piece].is_empty() {
+            continue;
+        }
         let turns = if k == 0 { first..first + 1 } else { 0..4 };
         for sheet in 0..=sheets.len() {
             if sheet == sheets.len() {

@@ -27,6 +27,8 @@ const STRAIGHT_MM: f64 = 0.15;
 const PEAK: f64 = 0.5;
 const APART: f64 = 1.0;
 const DEEP: f64 = 1.5;
+/// Most notches that are snipped, the deepest ones: what bounds the work on ragged outlines.
+const MOST_SNIPPED: usize = 60;
 /// Most corners of a notch that are snipped to.
 const MOST_CORNERS: usize = 4;
 
@@ -39,6 +41,8 @@ pub struct Closed {
     pub distance_mm: f64,
     /// Length of the seam that is farther from the cut than it should be, mm.
     pub seam_mm: f64,
+    /// The places of its bottom that are snipped to, the farthest from the cut first.
+    pub corners: Vec<Point>,
     /// From the cut to a little before the stitches, mm, to every corner of the bottom; none where the seams are too near to each other to snip
     /// between them.
     pub snips: Vec<Vec<Point>>,
@@ -51,7 +55,13 @@ pub fn closed_notches(outline: &Outline, rim: &[Point], cut_outs: &[Vec<Point>],
     }
     let cut = Outline { outer: rim.to_vec(), holes: cut_outs.to_vec() };
     let felt = Felt { outline, seam: outline.near(), near: cut.near(), cut: &cut, allowance_mm };
-    outline.polygons().flat_map(|ring| felt.along(ring)).collect()
+    let mut closed: Vec<Closed> = outline.polygons().flat_map(|ring| felt.along(ring)).collect();
+    let mut deepest: Vec<usize> = (0..closed.len()).collect();
+    deepest.sort_by(|&a, &b| closed[b].distance_mm.total_cmp(&closed[a].distance_mm));
+    for i in deepest.into_iter().take(MOST_SNIPPED) {
+        closed[i].snips = felt.snips(&closed[i].corners);
+    }
+    closed
 }
 
 /// A body between its seam and its cut.
@@ -109,12 +119,17 @@ impl Felt<'_> {
     fn closed(&self, run: &[(f64, Point, f64)], spacing: f64) -> Option<Closed> {
         let worst = run.iter().max_by(|a, b| a.2.total_cmp(&b.2))?;
         let seam_mm = run.len() as f64 * spacing;
+        let corners = self.corners(run);
+        Some(Closed { bottom: worst.1, distance_mm: worst.2, seam_mm, corners, snips: Vec::new() })
+    }
+
+    fn snips(&self, corners: &[Point]) -> Vec<Vec<Point>> {
         let mut snips: Vec<Vec<Point>> = Vec::new();
-        for corner in self.corners(run) {
+        for &corner in corners {
             let snip = self.snip(corner, &snips);
             snips.extend((!snip.is_empty()).then_some(snip));
         }
-        Some(Closed { bottom: worst.1, distance_mm: worst.2, seam_mm, snips })
+        snips
     }
 
     /// The places of a run farthest from the cut, the farthest first: each is farther than all that are near to it, and felt is drawn together

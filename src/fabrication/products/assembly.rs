@@ -10,7 +10,7 @@ use crate::fabrication::guide::{Block, Guide};
 use crate::fabrication::preset::Preset;
 use crate::fabrication::product::{Content, Part, Product, Source};
 use crate::fabrication::sheet::Sheet;
-use crate::fabrication::winch::{housing, housing_solid, spool, spool_solid};
+use crate::fabrication::winch::{housing, housing_solid, spool};
 use crate::motion::winch_labels;
 use crate::outline::polygon::{bounding_box, length, signed_area};
 
@@ -55,7 +55,7 @@ fn parts(guide: &mut Guide, source: &Source<'_>, motor: &Motor) {
     let seam_m = (seam(&piece.seam.stitches) + seam(&piece.seam.gap) + inner) / 1000.0;
     let line_m = threads(source.skin).iter().map(|t| 2.0 * t.cut_mm).sum::<f64>() / 1000.0;
     let winches = design.networks.len();
-    let spools: f64 = design.networks.iter().map(|n| spool_solid(&spool(design, n, motor.shaft_mm)).volume_mm3()).sum();
+    let spools: f64 = design.networks.iter().map(|n| spool(design, n, motor.shaft_mm).volume_mm3()).sum();
     let housings = winches as f64 * housing_solid(&housing(design), motor).volume_mm3();
     let stuffing_l = source.stuffed().volume_mm3 / 1e6;
     let row = |what: &str, much: String, note: String| vec![what.to_owned(), much, note];

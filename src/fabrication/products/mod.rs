@@ -14,8 +14,6 @@ mod tiles;
 mod tracks;
 mod winches;
 
-pub use pattern::SheetSize;
-
 use super::options::Topic;
 use super::product::Make;
 

@@ -38,13 +38,17 @@ pub(super) fn make(source: &Source<'_>) -> Result<Part, ExportError> {
     let mut products = vec![Product::new("pattern-print", Content::Book(pages.iter().map(with_square).collect()))];
     let mut counts = Vec::new();
     let close: Vec<Sheet> = FACES.iter().map(|face| page(source, piece, face, CLOSE_MM)).collect();
+    let mut remarks = Vec::new();
     for paper in PAPERS {
-        let tiles = Tiles::new(&source.design.name, &close, &paper);
+        let Some(tiles) = Tiles::new(&source.design.name, &close, &paper) else {
+            remarks.push(format!("The pattern would take hundreds of pages of {} paper: there are none.", paper.title));
+            continue;
+        };
         counts.push(format!("{} of {}", tiles.pages.len(), paper.title));
         products.push(Product::new(format!("pattern-{}", paper.name), Content::Book(tiles.pages)));
     }
     let guide = format!("{GUIDE}  Pages: {}.\n", counts.join(", "));
-    Ok(Part { products, guide, remarks: Vec::new() })
+    Ok(Part { products, guide, remarks })
 }
 
 /// A page as large as the piece and a margin.

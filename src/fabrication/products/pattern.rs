@@ -98,17 +98,3 @@ fn sheets(source: &Source<'_>, piece: &Piece) -> (Vec<Sheet>, Vec<String>) {
         .collect();
     (sheets, remarks)
 }
-
-/// The sheet that machines cut felt on.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct SheetSize {
-    /// Width and height, mm.
-    pub size_mm: [f64; 2],
-}
-
-impl Default for SheetSize {
-    /// A laser's bed.
-    fn default() -> Self {
-        Self { size_mm: [600.0, 400.0] }
-    }
-}

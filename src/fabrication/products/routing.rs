@@ -28,6 +28,8 @@ const KNOT_MM: f64 = 1.5;
 const HOLE_MM: f64 = 0.9;
 /// Heights of the numbers of holes, mm.
 const NUMBER_MM: [f64; 3] = [3.6, 3.0, 2.4];
+/// Most holes that are numbered: what bounds the work of finding places for numbers.
+const MOST_NUMBERS: usize = 300;
 /// Dashes of tendons, mm: copies without colours are read by them.
 const DASHES: [&[f64]; 6] = [&[], &[6.0, 1.6], &[1.6, 1.4], &[8.0, 1.6, 1.6, 1.6], &[3.2, 1.4], &[12.0, 3.0]];
 
@@ -202,7 +204,7 @@ fn tendons(
 }
 
 fn number(piece: &Piece, place: &impl Fn(Point) -> Point, labels: &mut Labels, note: &mut Group) {
-    for passage in &piece.passages {
+    for passage in piece.passages.iter().take(MOST_NUMBERS) {
         let texts = std::iter::once(passage.number.to_string()).chain(passage.winches.iter().cloned());
         for text in texts {
             let free =
@@ -233,13 +235,12 @@ fn legend(design: &Design, title: &str, threads: &[Thread], at: Point, note: &mu
         line(row, x, WORDS_MM, text.into());
     }
     let mut samples = Vec::new();
-    for (i, thread) in threads.iter().enumerate() {
+    for thread in threads {
         if thread.tendon == 1 {
             row -= 1.6 * LINE_MM;
             line(row, x, 4.2, thread.winch.clone());
         }
         row -= LINE_MM;
-        debug_assert_eq!(samples.len(), i);
         samples.push(Entity::Polyline(vec![[x, row + 1.2], [x + 14.0, row + 1.2]]));
         line(row, x + 17.0, WORDS_MM, thread.words());
     }

@@ -1,7 +1,6 @@
 //! The two faces of the skin as groups of a sheet, and remarks for whoever sews them.
 
 use crate::design::Design;
-use crate::fabrication::font;
 use crate::fabrication::piece::{Cutting, LEAST_FELT_MM, Labels, Piece};
 use crate::fabrication::preset::Preset;
 use crate::fabrication::sheet::{Anchor, Entity, Group, Layer};
@@ -21,6 +20,8 @@ const GRAIN_MM: f64 = 30.0;
 const TITLE_PLACES: usize = 24;
 /// Closed notches told one by one among the remarks; the others are counted.
 const TOLD: usize = 8;
+/// Most marks of a kind that have words: what bounds the work of finding places for them.
+const MOST_LABELS: usize = 300;
 
 /// One of the two pieces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -147,13 +148,13 @@ fn label(
             note.text(at, size, Anchor::Start, text);
         }
     };
-    for passage in &piece.passages {
+    for passage in piece.passages.iter().take(MOST_LABELS) {
         put(&passage.number.to_string(), place(passage.at));
     }
-    for (i, &pin) in piece.pins.iter().enumerate() {
+    for (i, &pin) in piece.pins.iter().enumerate().take(MOST_LABELS) {
         put(&format!("pin {}", i + 1), place(pin));
     }
-    for (i, closed) in piece.closed.iter().enumerate() {
+    for (i, closed) in piece.closed.iter().enumerate().take(MOST_LABELS) {
         let middle = closed.snips.first().map_or(closed.bottom, |snip| snip[snip.len() / 2]);
         put(&letter(i), place(middle));
     }
@@ -172,7 +173,6 @@ fn label(
     // A long name gives way to the face.
     for (text, size) in TITLE_MM.iter().map(|&s| (title.as_str(), s)).chain(TITLE_MM.iter().map(|&s| (face.title, s))) {
         if let Some(at) = labels.place_at(text, size, places.iter().copied()) {
-            debug_assert!(font::width_mm(text, size) > 0.0);
             return note.text(at, size, Anchor::Start, text);
         }
     }

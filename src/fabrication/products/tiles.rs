@@ -51,8 +51,16 @@ struct Cut<'a> {
     turned: bool,
 }
 
+/// Most frames that a sheet is cut into: more paper than anybody glues.
+const MOST_FRAMES: f64 = 400.0;
+
 impl Tiles {
-    pub fn new(name: &str, sheets: &[Sheet], paper: &Paper) -> Self {
+    /// None where that would be hundreds of pages.
+    pub fn new(name: &str, sheets: &[Sheet], paper: &Paper) -> Option<Self> {
+        let frame = paper.size_mm[0] * paper.size_mm[1];
+        if sheets.iter().any(|sheet| sheet.width_mm * sheet.height_mm > MOST_FRAMES * frame) {
+            return None;
+        }
         let mut cuts: Vec<Cut> = Vec::new();
         let (mut first, mut letters) = (2, 0);
         for sheet in sheets {
@@ -68,7 +76,7 @@ impl Tiles {
                 pages.extend(shown.map(|column| cut.page(column, row, paper, first - 1)));
             }
         }
-        Self { pages }
+        Some(Self { pages })
     }
 }
 
@@ -274,7 +282,7 @@ mod tests {
         group.entities.extend(dots.map(|center| Entity::Circle { center, radius: 0.5 }));
         let sheet = Sheet { title: "x: FRONT".into(), width_mm: 391.0, height_mm: 291.0, groups: vec![group] };
         for paper in &PAPERS {
-            let tiles = Tiles::new("x", std::slice::from_ref(&sheet), paper);
+            let tiles = Tiles::new("x", std::slice::from_ref(&sheet), paper).expect("some pages");
             let cut = Cut::new(&sheet, paper, 2, 0);
             assert_eq!(tiles.pages.len(), 1 + cut.numbers.iter().flatten().count());
             let mut seen = std::collections::BTreeSet::new();

@@ -10,6 +10,9 @@ use crate::fabrication::table::{Column, Table, Values};
 use crate::fabrication::winch::{Housing, Spool, drawing, housing, housing_solid, spool, spool_solid};
 use crate::motion::winch_labels;
 
+/// Most grooves of a spool: longer ones break, and fit in no body.
+const MOST_GROOVES: usize = 60;
+
 /// The solids `winch-1-spool` and so on, the housing and the drawings `winch-1` of each winch, and the table `motors`.
 pub(super) fn make(source: &Source<'_>) -> Result<Part, ExportError> {
     let design = source.design;
@@ -21,7 +24,9 @@ pub(super) fn make(source: &Source<'_>) -> Result<Part, ExportError> {
     let mut products = Vec::new();
     for (i, (network, sheet)) in design.networks.iter().zip(drawings(source, motor)).enumerate() {
         let spool = spool(design, network, motor.shaft_mm);
-        products.push(Product::new(format!("winch-{}-spool", i + 1), Content::Solid(spool_solid(&spool))));
+        if spool.grooves.len() <= MOST_GROOVES {
+            products.push(Product::new(format!("winch-{}-spool", i + 1), Content::Solid(spool_solid(&spool))));
+        }
         products.push(Product::new(format!("winch-{}", i + 1), Content::Sheet(sheet)));
     }
     products.push(Product::new("winch-housing", Content::Solid(housing_solid(&housing, motor))));
@@ -112,6 +117,12 @@ fn remarks(source: &Source<'_>, names: &[String], housing: &Housing) -> Vec<Stri
                 demand.torque_nmm, demand.speed_rpm
             ));
         }
+    }
+    let crowded = source.design.networks.iter().zip(names).filter(|(n, _)| 2 * n.tendons.len() > MOST_GROOVES);
+    let crowded: Vec<&str> = crowded.map(|(_, name)| name.as_str()).collect();
+    if !crowded.is_empty() {
+        remarks
+            .push(format!("More than {MOST_GROOVES} threads, too many for a spool to print: {}.", crowded.join(", ")));
     }
     let short = |m: &&Motor| {
         let fit = |d: &Demand| matches!(m.fit(d, radius), Fit::TurnsTooLittle(_));

@@ -1,6 +1,6 @@
 //! A pattern that has the drawn silhouette when it is stuffed.
 
-use super::{Shape, refined};
+use super::shape::{Shape, aligned, refined};
 use crate::design::Design;
 use crate::mesh::Mesh;
 use crate::outline::polygon::{distance_to_segment, length, nearest_parameter};
@@ -94,7 +94,7 @@ fn moves(rim: &[Vec<usize>], drawn: &[Point], seen: &[Point], longest: f64) -> V
 /// Places moved as a whole so that the rim's mean is that of the drawn one.
 fn over(rim: &[Vec<usize>], drawn: &[Point], seen: &[Point]) -> Vec<Point> {
     let nodes: Vec<[f64; 3]> = seen.iter().map(|p| [p[0], p[1], 0.0]).collect();
-    super::aligned(rim, drawn, &nodes)
+    aligned(rim, drawn, &nodes)
 }
 
 /// Moves the rim, and the inside as a membrane that is fixed to it (every node by the mean of its neighbours).

@@ -39,6 +39,12 @@ impl Spool {
         self.hub_mm + self.flange_width_mm + grooves
     }
 
+    /// Volume without screw and slits, mm^3.
+    pub fn volume_mm3(&self) -> f64 {
+        let bore = 0.5 * self.shaft_mm;
+        self.profile().iter().map(|(from, to, r)| std::f64::consts::PI * (r * r - bore * bore) * (to - from)).sum()
+    }
+
     /// Radius along the axis: (from, to, radius) of every step, mm. The side of a flange towards the hub slopes.
     pub fn profile(&self) -> Vec<(f64, f64, f64)> {
         let mut z = self.hub_mm;

@@ -91,7 +91,7 @@ mod tests {
     fn one_winch() -> Layout {
         let mut cables: Vec<crate::rigging::layout::Cable> =
             vec![vec![[120.0, 48.0], [210.0, 46.0]].into(), vec![[120.0, 38.0], [180.0, 40.0]].into()];
-        (cables[1].ratio, cables[1].slack_mm) = (0.8, 0.5);
+        (cables[0].slack_mm, cables[1].ratio, cables[1].slack_mm) = (0.3, 0.8, 0.5);
         Layout { winches: vec![Placed { at: [40.0, 30.0], cables }] }
     }
 
