@@ -6,8 +6,8 @@ use super::{document, words};
 use crate::files::shown;
 use crate::live::{Played, Stage};
 use crate::motion::TooFast;
-use crate::operations::play::{self, Action, Error, Options};
 use crate::operations::Context;
+use crate::operations::play::{self, Action, Error, Options};
 use clap::Args;
 use serde::Serialize;
 use std::io::Write;
@@ -81,10 +81,10 @@ impl Play {
             say(
                 out,
                 &format!(
-                    "{}: {:.1} s in steps of {:.3} s, {starts} starts, 95 % at most {:.1} ms late, the worst {:.1} ms; motors off",
+                    "{}: {:.1} s in slots of {:.3} s, {starts} starts, 95 % at most {:.1} ms late, the worst {:.1} ms; motors off",
                     shown(&self.design),
                     played.lasted_s,
-                    played.step_s,
+                    played.slot_s,
                     1e3 * late_p95_s,
                     1e3 * late_worst_s
                 ),
@@ -118,7 +118,9 @@ impl Play {
     fn failed(&self, error: Error) -> CommandError {
         match error {
             Error::NoNetworks => CommandError::input(&self.design, format!("{error}; run `plushwright rig` first")),
-            Error::NoSuchFamily { .. } | Error::NoSuchFault(_) | Error::WrongCount { .. } => CommandError::Usage(error.to_string()),
+            Error::NoSuchFamily { .. } | Error::NoSuchFault(_) | Error::WrongCount { .. } => {
+                CommandError::Usage(error.to_string())
+            }
             Error::Motion(error) => words::unplanned(&self.design, &error),
             Error::Live(error) => CommandError::Failed(format!("{}: {error}", self.port)),
             Error::Cancelled(_) => CommandError::Cancelled,

@@ -37,9 +37,9 @@ pub struct SimulateController {
 
 impl SimulateController {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
-        let family = families::streams()
-            .find(|family| family.name == self.controllers)
-            .ok_or_else(|| CommandError::Usage(format!("there are no controllers {:?} to simulate", self.controllers)))?;
+        let family = families::streams().find(|family| family.name == self.controllers).ok_or_else(|| {
+            CommandError::Usage(format!("there are no controllers {:?} to simulate", self.controllers))
+        })?;
         let simulation = Simulation::of(family, usize::from(self.winches));
         let mut simulation =
             simulation.on_line(self.latency / 1e3, f64::from(self.baud)).with_faults(self.fault.clone());
@@ -49,7 +49,13 @@ impl SimulateController {
         simulation.pass_to(settled_s);
         for (winch, axis) in simulation.axes().into_iter().enumerate() {
             let Axis { position, farthest, on, moving } = axis;
-            let state = if !on { "off" } else if moving { "moving" } else { "on" };
+            let state = if !on {
+                "off"
+            } else if moving {
+                "moving"
+            } else {
+                "on"
+            };
             say(out, &format!("winch {}: at {position:.1}, farthest {farthest:.1}, {state}", winch + 1))?;
         }
         Ok(())
@@ -66,7 +72,12 @@ impl SimulateController {
     }
 
     #[cfg(not(unix))]
-    fn serve(&self, _out: &mut dyn Write, _simulation: &mut Simulation, _cancel: &AtomicBool) -> Result<(), CommandError> {
+    fn serve(
+        &self,
+        _out: &mut dyn Write,
+        _simulation: &mut Simulation,
+        _cancel: &AtomicBool,
+    ) -> Result<(), CommandError> {
         Err(CommandError::Environment("this system has no pseudo-terminals; `play --port simulated` needs none".into()))
     }
 }

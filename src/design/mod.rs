@@ -28,7 +28,8 @@ pub use figures::MeshFigures;
 pub use file::FileError;
 pub use history::History;
 pub use settings::{
-    ControllerSettings, DriveSettings, FabricationSettings, FiberSet, FiberSettings, Gravity, Material, TendonSettings, Term,
+    ControllerSettings, DriveSettings, FabricationSettings, FiberSet, FiberSettings, Gravity, Material, TendonSettings,
+    Term,
 };
 pub use validate::MAX_NAME_CHARS;
 pub use version::FORMAT_VERSION;

@@ -6,7 +6,9 @@
 
 use super::fault::{Check, DesignError, Fault, at_least, fail, finite, require, same_length};
 use super::ranges::{self, Range, at_most};
-use super::{Design, DriveSettings, FORMAT_VERSION, FiberSet, Keyframe, MaterialPoint, Network, Pin, Pose, Target, Tendon, Term};
+use super::{
+    Design, DriveSettings, FORMAT_VERSION, FiberSet, Keyframe, MaterialPoint, Network, Pin, Pose, Target, Tendon, Term,
+};
 use crate::files::is_hidden;
 use crate::mesh::{BodyPoint, Mesh};
 use crate::outline::{Point, polygon::signed_area};

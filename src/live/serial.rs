@@ -51,7 +51,9 @@ impl Link for SerialLink {
                 bytes.truncate(count);
                 Ok(bytes)
             }
-            Err(e) if matches!(e.kind(), ErrorKind::TimedOut | ErrorKind::WouldBlock | ErrorKind::Interrupted) => Ok(Vec::new()),
+            Err(e) if matches!(e.kind(), ErrorKind::TimedOut | ErrorKind::WouldBlock | ErrorKind::Interrupted) => {
+                Ok(Vec::new())
+            }
             Err(e) => Err(e),
         }
     }

@@ -127,7 +127,9 @@ impl Simulation {
             _ => {}
         }
         let addressed = self.controller.addressed(command);
-        if addressed.is_some_and(|winch| self.missing.contains(&winch)) || (addressed.is_none() && !self.missing.is_empty()) {
+        if addressed.is_some_and(|winch| self.missing.contains(&winch))
+            || (addressed.is_none() && !self.missing.is_empty())
+        {
             // A single controller for all winches is missing as a whole; nobody answers for a drive that is not there.
             return;
         }

@@ -136,7 +136,10 @@ mod tests {
         assert_eq!(whole(Framing::Bus, &[7, 0xFF])[0], "07");
         assert_eq!(bytes_of(&hex(&frame)), frame);
         assert_eq!(bytes_of("0G1"), [0u8; 0]);
-        assert_eq!(Framing::Lines { end: "\r", at_once: &[] }.take_reply(&mut vec![b'x'; LONGEST + 1]).map(|l| l.len()), Some(LONGEST + 1));
+        assert_eq!(
+            Framing::Lines { end: "\r", at_once: &[] }.take_reply(&mut vec![b'x'; LONGEST + 1]).map(|l| l.len()),
+            Some(LONGEST + 1)
+        );
     }
 
     #[test]

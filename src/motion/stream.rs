@@ -128,7 +128,8 @@ pub fn programs(stream: &dyn Stream, trajectory: &Trajectory, remarks: &[String]
         program.extend(head.filter_map(|text| stream.comment(text)));
         program
     };
-    let mut setup = begin("setup: once, with the plushie at rest and its cables just slack. It makes this position zero.");
+    let mut setup =
+        begin("setup: once, with the plushie at rest and its cables just slack. It makes this position zero.");
     setup.extend(stream.setup());
     let mut motion = begin("motion: as often as you like, from the rest position.");
     motion.extend(stream.ready());

@@ -4,9 +4,25 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-const COMMANDS: [&str; 16] = [
-    "demo", "new", "mesh", "remesh", "reshape", "drawing", "pose", "rig", "network", "key", "check", "export",
-    "render", "solve", "discover", "bench",
+const COMMANDS: [&str; 18] = [
+    "demo",
+    "new",
+    "mesh",
+    "remesh",
+    "reshape",
+    "drawing",
+    "pose",
+    "rig",
+    "network",
+    "key",
+    "check",
+    "export",
+    "play",
+    "simulate-controller",
+    "render",
+    "solve",
+    "discover",
+    "bench",
 ];
 
 /// A bar that is wide enough for a few dozen fibres.

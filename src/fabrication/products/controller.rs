@@ -29,7 +29,8 @@ pub(super) fn make(source: &Source<'_>) -> Result<Part, ExportError> {
             },
         }
     }
-    remarks.extend(left_out.iter().map(|(why, names)| format!("No files for controllers {}: {why}.", names.join(", "))));
+    remarks
+        .extend(left_out.iter().map(|(why, names)| format!("No files for controllers {}: {why}.", names.join(", "))));
     Ok(Part { products, guide, remarks })
 }
 
@@ -37,7 +38,8 @@ pub(super) fn make(source: &Source<'_>) -> Result<Part, ExportError> {
 fn chosen(source: &Source<'_>) -> Result<Vec<&'static Family>, MotionError> {
     let names = &source.options.controllers;
     let named = |name: &String| {
-        families::by_name(name).ok_or_else(|| MotionError::NoSuchFamily { name: name.clone() })
+        families::by_name(name)
+            .ok_or_else(|| MotionError::NoSuchFamily { name: name.clone(), known: families::names() })
     };
     if names.is_empty() { Ok(families::ALL.to_vec()) } else { names.iter().map(named).collect() }
 }
@@ -74,8 +76,8 @@ fn how() -> String {
   just slack; it makes this the zero position and sets the limits of travel; never send it while cable is wound. motion: as often as you
   like, from the rest position; it never sets zero. stop: slowly back to zero, then motors off; send it after the last motion, and after
   one that was broken off.
-  `plushwright play DESIGN --port PORT` does all of it live: it reads replies, keeps the time, winds back to zero first, and switches all motors off
-  on any fault.
+  `plushwright play` and the studio do all of it live: they read replies, keep the time, wind back to zero first, and switch all motors off on any
+  fault.
 "
     .into()
 }
@@ -90,12 +92,12 @@ fn followed(source: &Source<'_>, machine: &Machine) -> Result<String, MotionErro
     let forecast = Forecast::of(&classic, &plan, source.trajectory);
     Ok(format!(
         "  Simulated drives (trapezoids of speed) that get each step of the file at its time: {}.
-  Played live at {} baud with replies after {:.0} ms: steps of {:.3} s; {}.
+  Played live at {} baud with replies after {:.0} ms, a winch every {:.3} s: {}.
 ",
         words(forecast.file),
         machine.controller.drives.baud,
         1e3 * line::LATENCY_S,
-        forecast.step_s,
+        forecast.slot_s,
         words(forecast.live),
     ))
 }
@@ -109,7 +111,8 @@ fn family_guide(family: &Family, machine: &Machine, products: &[Product]) -> Str
         .iter()
         .enumerate()
         .map(|(winch, name)| {
-            let address = stream.as_ref().map_or_else(|| format!("winch {}", winch + 1), |stream| stream.address(winch));
+            let address =
+                stream.as_ref().map_or_else(|| format!("winch {}", winch + 1), |stream| stream.address(winch));
             format!("    {address}: {name}, up to {:.1} mm\n", machine.travel_mm[winch])
         })
         .collect();
@@ -135,7 +138,10 @@ fn sending(stream: &dyn Stream, machine: &Machine) -> String {
     let order = if stream.moves_together() {
         "one line for all winches".to_owned()
     } else {
-        format!("{} commands: what loads the position of the next row for every winch, then what starts each", commands_a_step(stream))
+        format!(
+            "{} commands: what loads the position of the next row for every winch, then what starts each",
+            commands_a_step(stream)
+        )
     };
     let bytes = if stream.framing().is_binary() { " Frames follow each other without gaps." } else { "" };
     format!(
@@ -150,8 +156,11 @@ fn sending(stream: &dyn Stream, machine: &Machine) -> String {
 fn ascii(machine: &Machine) -> String {
     let motor = &machine.controller;
     let current = match motor.drives.current_ma {
-        0 => "Set current limits (LPC, LCC) for your motor and gear before you let it pull: the files set none.".to_owned(),
-        current => format!("setup limits the current to {current} mA (LPC, LCC; controller.drives.current_ma): set it to yours."),
+        0 => "Set current limits (LPC, LCC) for your motor and gear before you let it pull: the files set none."
+            .to_owned(),
+        current => format!(
+            "setup limits the current to {current} mA (LPC, LCC; controller.drives.current_ma): set it to yours."
+        ),
     };
     format!(
         "    8N1, 9600 baud from the factory, Xon/Xoff, node numbers set beforehand; each command ends with a carriage return.

@@ -1,6 +1,6 @@
 //! GRBL 1.1: G-code of straight moves, a queue, codes that are obeyed at once.
 
-use super::{Axis, Controller};
+use super::controller::{Axis, Controller};
 use crate::motion::families::grbl::AXES;
 use std::collections::VecDeque;
 
@@ -69,7 +69,8 @@ impl Machine {
                 self.queue.clear();
             }
             "X" if self.state == State::Alarm => self.state = State::Ready,
-            _ if setting.split_once('=').is_some_and(|(n, v)| n.parse::<u32>().is_ok() && v.parse::<f64>().is_ok()) => {}
+            _ if setting.split_once('=').is_some_and(|(n, v)| n.parse::<u32>().is_ok() && v.parse::<f64>().is_ok()) => {
+            }
             _ => return "error:3".into(),
         }
         "ok".into()

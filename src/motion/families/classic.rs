@@ -5,7 +5,7 @@
 //! (`SP`) that gets there when the step is over and acceleration limits out of the way, it stays within tenths of a mm. The trajectory itself keeps
 //! speed and acceleration within the design's. `HO` takes the limits of travel along, so it stands in no program that is sent again.
 
-use super::Family;
+use super::family::Family;
 use crate::motion::error::MotionError;
 use crate::motion::framing::Framing;
 use crate::motion::limits::{MAX_COUNTS, MAX_NODES, MAX_RESOLUTION};

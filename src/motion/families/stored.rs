@@ -7,7 +7,7 @@
 //! the step before, so that nothing adds up.
 
 use super::classic::{self, END, FOLLOWING};
-use super::{Family, Sketch};
+use super::family::{Family, Sketch};
 use crate::motion::error::MotionError;
 use crate::motion::machine::Machine;
 use crate::motion::trajectory::Trajectory;

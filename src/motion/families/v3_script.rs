@@ -4,8 +4,8 @@
 //! its end. Times are rounded to milliseconds from the beginning, so that nothing adds up.
 
 use super::classic::{self, FOLLOWING};
+use super::family::{Family, Sketch};
 use super::stored::thinned;
-use super::{Family, Sketch};
 use crate::motion::error::MotionError;
 use crate::motion::machine::Machine;
 use crate::motion::trajectory::Trajectory;
@@ -86,10 +86,8 @@ END FUNCTION
 
 fn motion(machine: &Machine, trajectory: &Trajectory, winch: usize) -> String {
     let mut text = head(machine, winch, "as often as you like, from the rest position.") + STEP;
-    let _ = write!(
-        text,
-        "SETOBJ $6060.00 = 1\nSETOBJ $6083.00 = {FOLLOWING}\nSETOBJ $6084.00 = {FOLLOWING}\nEnable()\n"
-    );
+    let _ =
+        write!(text, "SETOBJ $6060.00 = 1\nSETOBJ $6083.00 = {FOLLOWING}\nSETOBJ $6084.00 = {FOLLOWING}\nEnable()\n");
     let (times, lengths) = (&trajectory.times_s, &trajectory.lengths_mm);
     let units = |k: usize| ((times[k] - times[0]) / DELAY_S).round() as u64;
     for pair in thinned(times.len()).windows(2) {

@@ -32,14 +32,22 @@ pub static PLAY: Command = Command {
     scope: Scope::Views,
     why_not: &|session, _| not_ready(session),
     run: &|session, _| acts::motors::order(session, Order::Play),
-    ..Command::new("motors.play", "Play on motors", "Wind back to zero, play the animation on the motors, and back again")
+    ..Command::new(
+        "motors.play",
+        "Play on motors",
+        "Wind back to zero, play the animation on the motors, and back again",
+    )
 };
 
 pub static HOME: Command = Command {
     scope: Scope::Views,
     why_not: &|session, _| not_ready(session),
     run: &|session, _| acts::motors::order(session, Order::Home),
-    ..Command::new("motors.home", "Back to zero", "Wind all cables back to just slack, slowly, then switch the motors off")
+    ..Command::new(
+        "motors.home",
+        "Back to zero",
+        "Wind all cables back to just slack, slowly, then switch the motors off",
+    )
 };
 
 pub static STOP: Command = Command {

@@ -81,7 +81,8 @@ impl Motors {
             ui.label("Controllers");
             let list = ComboBox::from_id_salt("family").selected_text(&choice.family).width(120.0).show_ui(ui, |ui| {
                 for family in families::streams() {
-                    ui.selectable_value(&mut choice.family, family.name.to_owned(), family.name).on_hover_text(family.title);
+                    ui.selectable_value(&mut choice.family, family.name.to_owned(), family.name)
+                        .on_hover_text(family.title);
                 }
             });
             list.response.accessible_name("Controllers").on_hover_text("What tells the motors");
@@ -126,8 +127,9 @@ impl Motors {
 }
 
 fn said(forecast: &Forecast) -> String {
-    let [file, live] = [forecast.file, forecast.live].map(|[lag, ripple]| format!("lag {lag:.2} mm, ripple {:.1} %", 100.0 * ripple));
-    format!("From the files: {file}\nLive, steps of {:.2} s: {live}", forecast.step_s)
+    let [file, live] =
+        [forecast.file, forecast.live].map(|[lag, ripple]| format!("lag {lag:.2} mm, ripple {:.1} %", 100.0 * ripple));
+    format!("From the files: {file}\nLive, a winch every {:.2} s: {live}", forecast.slot_s)
 }
 
 /// What the motors do, in words.
@@ -155,7 +157,9 @@ fn sliders(ui: &mut Ui, session: &Session, actions: &mut Actions) {
             let mut asked = motors.asked_mm().get(winch).copied().unwrap_or(0.0);
             let before = asked;
             let slider = Slider::new(&mut asked, 0.0..=travel_mm).suffix(" mm").fixed_decimals(1);
-            ui.add(slider).accessible_name(format!("Motor of {name}")).on_hover_text("Winds this winch on the plushie itself");
+            ui.add(slider)
+                .accessible_name(format!("Motor of {name}"))
+                .on_hover_text("Winds this winch on the plushie itself");
             if asked != before {
                 actions.push(Action::WindMotor(winch, asked));
             }
