@@ -114,3 +114,68 @@ fn off_mm(lengths: &[Vec<f64>], winch: usize, last: Option<usize>, to: usize) ->
     };
     (1..places).map(off).fold(0.0, f64::max)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::{Design, Easing, Keyframe, testing};
+    use crate::motion::families::classic::Classic;
+    use crate::motion::{Machine, TooFast, Trajectory};
+
+    /// The sample with as many winches as there are rows of keyframe values, a second apart.
+    fn moving(rows: &[&[f64]]) -> (Classic, Plan) {
+        let mut design: Design = testing::sample();
+        let network = design.networks[0].clone();
+        design.networks =
+            (0..rows[0].len()).map(|k| crate::design::Network { name: format!("{k}"), ..network.clone() }).collect();
+        let key = |(k, row): (usize, &&[f64])| Keyframe {
+            time_s: k as f64,
+            activations_mm: row.to_vec(),
+            pose: None,
+            easing: Easing::Smooth,
+        };
+        design.keyframes = rows.iter().enumerate().map(key).collect();
+        let trajectory = Trajectory::of(&design, TooFast::Refuse).expect("slow enough");
+        let machine = Machine::new(&design, &trajectory);
+        (Classic::new(&machine).expect("it fits"), Plan::of(&design, TooFast::Refuse).expect("slow enough"))
+    }
+
+    #[test]
+    fn every_winch_runs_from_slot_to_slot_along_the_plan_and_those_that_rest_need_none() {
+        let (stream, plan) = moving(&[&[0.0, 0.0, 0.0], &[8.0, 0.0, 5.0], &[8.0, 0.0, 0.0], &[0.0, 0.0, 0.0]]);
+        let slot_s = 0.07;
+        let all = beats(&plan, &stream, slot_s);
+        let pairs = || all.windows(2);
+        assert!(pairs().all(|pair| pair[1].due_s > pair[0].due_s + 0.99 * slot_s && pair[0].moves.len() == 1));
+        for winch in 0..3 {
+            let own: Vec<(f64, Move)> =
+                all.iter().filter(|b| b.moves[0].winch == winch).map(|b| (b.due_s, b.moves[0])).collect();
+            if winch == 1 {
+                assert_eq!(own, []);
+                continue;
+            }
+            assert_eq!(own[0].1.from_mm, 0.0);
+            for pair in own.windows(2) {
+                let ((due_s, step), (next_s, next)) = (pair[0], pair[1]);
+                assert!((due_s + step.duration_s - next_s).abs() < 1e-9 && step.to_mm == next.from_mm);
+                assert_eq!(step.to_mm, plan.at(next_s)[winch]);
+            }
+            let (due_s, last) = own[own.len() - 1];
+            assert!((due_s + last.duration_s - 3.0).abs() < 1e-9 && last.to_mm == 0.0);
+        }
+        // The third rests from the second second on, the first in the middle one: then the other has the line for itself.
+        let within = |from_s: f64, to_s: f64| all.iter().filter(move |b| b.due_s > from_s && b.due_s < to_s);
+        assert!(
+            within(1.2, 1.8).all(|beat| beat.moves[0].winch == 2)
+                && within(2.2, 2.9).all(|beat| beat.moves[0].winch == 0)
+        );
+    }
+
+    #[test]
+    fn slots_are_as_long_as_the_line_needs() {
+        let (stream, _) = moving(&[&[0.0; 3], &[5.0; 3]]);
+        assert_eq!(commands_a_step(&stream), 9);
+        assert!((slot_s(&stream, 0.0255, 0.02) - 0.09).abs() < 1e-12);
+        assert_eq!(slot_s(&stream, 0.001, 0.02), 0.02);
+    }
+}

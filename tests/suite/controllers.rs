@@ -216,7 +216,7 @@ fn driven(motion: &str, times_s: &[f64], nodes: usize, resolution: f64) -> Vec<(
 
 #[test]
 fn the_plushie_is_where_the_animation_has_it_when_drives_play_the_file() {
-    for name in ["pig", "robot"] {
+    for name in ["Pig", "Robot"] {
         let design = bundled::ALL.iter().find(|b| b.name == name).expect(name).design().expect("a sound design");
         let files = files(&design);
         let rows = rows(&files);

@@ -76,7 +76,7 @@ fn how() -> String {
   just slack; it makes this the zero position and sets the limits of travel; never send it while cable is wound. motion: as often as you
   like, from the rest position; it never sets zero. stop: slowly back to zero, then motors off; send it after the last motion, and after
   one that was broken off.
-  `plushwright play` and the studio do all of it live: they read replies, keep the time, wind back to zero first, and switch all motors off on any
+  Played live by plushwright, replies are read, the time is kept, the winches go back to zero first, and all motors are switched off on any
   fault.
 "
     .into()
@@ -183,7 +183,7 @@ fn remarks(source: &Source<'_>) -> Vec<String> {
         if on_line > shortest {
             remarks.push(format!(
                 "At {} baud a step takes about {:.0} ms on the line with its replies, longer than the {:.0} ms of the shortest step: set a higher \
-                 baud rate, or a lower track rate; or let `plushwright play` choose its steps.",
+                 baud rate, or a lower track rate; or play it live, where slow lines get fewer steps.",
                 machine.controller.drives.baud,
                 1e3 * on_line,
                 1e3 * shortest
