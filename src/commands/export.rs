@@ -1,7 +1,7 @@
 //! `export`: the blueprint, a folder that appears whole or not at all.
 
 use super::error::CommandError;
-use super::output::{say, say_json};
+use super::output::{json, say, say_lines};
 use super::{document, words};
 use crate::motion::TooFast;
 use crate::operations::{Context, export};
@@ -43,7 +43,7 @@ impl Export {
                 export::Error::Cancelled(_) => CommandError::Cancelled,
             })?;
         if self.json {
-            return say_json(out, &manifest);
+            return say_lines(out, &json(&manifest)?);
         }
         for file in &manifest.files {
             say(out, &format!("{:8} bytes  {}", file.bytes, self.output.join(&file.name).display()))?;

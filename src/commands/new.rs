@@ -3,7 +3,7 @@
 use super::error::{CommandError, check_cancel};
 use super::output::{refuse_input, say, say_json};
 use super::words::CleanUp;
-use super::{document, words};
+use super::{document, meant, words};
 use crate::design::{Design, file};
 use crate::files::{self, shown};
 use crate::operations::new_design::{self, Made, Options};
@@ -29,7 +29,7 @@ pub struct New {
     #[arg(long)]
     pub force: bool,
     /// Muscle fibres (mesh edges) [default: 414, or the fewest that the outline allows if that is more]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", alias = "fibres")]
     pub fibers: Option<usize>,
     #[command(flatten)]
     pub reading: Reading,
@@ -51,51 +51,41 @@ pub struct Reading {
     /// Several pieces: refuse them, or keep the largest
     #[arg(long, value_enum, default_value_t)]
     pub pieces: PiecesChoice,
-    /// Holes: keep or fill them
+    /// Holes: fill those of a drawing in thin lines alone (across small openings too), keep or fill them all
     #[arg(long, value_enum, default_value_t)]
     pub holes: HolesChoice,
-    /// A rectangle as large as the page below everything else: drop or keep it
+    /// Paper, cards and frames that everything else lies on: leave out what is surely one, drop or keep it
     #[arg(long, value_enum, default_value_t)]
     pub background: BackgroundChoice,
-    /// Smooth the boundary, moving it by at most so many mm; corners stay
+    /// Smooth the boundary, moving it by at most so many mm; corners stay. 0: leave it as it is, however fine [default: where it is
+    /// rougher than scissors can follow, by 0.1 % of the size]
     #[arg(long, value_name = "MM", value_parser = parse_length, allow_hyphen_values = true)]
     pub smooth: Option<f64>,
     /// Widen parts thinner than so many mm, 0 for none [default: 1 % of the size, adding at most 1 % of the area]
     #[arg(long, value_name = "MM", value_parser = parse_length, allow_hyphen_values = true)]
     pub min_width: Option<f64>,
-    /// Unit of plain numbers in DXF and OBJ files and of pixels [default: what the file says; else mm, and px for pixels]
-    #[arg(long, value_enum)]
-    pub unit: Option<Unit>,
-    /// Pictures: difference from the background from which a pixel is ink, 0 to 255 [default: found by Otsu's method]
+    /// Join parts that are less than so many mm apart [default: 0.1 % of the size, of separate parts alone]
+    #[arg(long, value_name = "MM", value_parser = parse_length, allow_hyphen_values = true)]
+    pub gap: Option<f64>,
+    /// Join ends of lines that are less than so many mm apart [default: 2 % of the size in DXF drawings; 12 % of what is drawn in thin
+    /// lines alone]
+    #[arg(long, value_name = "MM", value_parser = parse_length, allow_hyphen_values = true)]
+    pub join: Option<f64>,
+    /// Length of a plain number or a pixel: mm, cm, m, in, pt, px, a resolution such as 300dpi, or a number of mm [default: what the
+    /// file says; else mm in DXF and mesh files, and 1/96 inch in SVG files and pictures]
+    #[arg(long, value_parser = parse_unit)]
+    pub unit: Option<f64>,
+    /// Pictures: difference from the background from which a pixel is ink, 0 to 255 [default: found by Otsu's method]. With
+    /// transparency, and in an SVG: opacity from which something counts [default: half; 40 % in an SVG]
     #[arg(long, value_name = "LEVEL")]
     pub threshold: Option<u8>,
     /// Read only this layer of an SVG (id or Inkscape label of a group or element) or DXF; may be repeated. A name that is none
     /// is refused with a list of those there are [default: everything]
     #[arg(long = "layer", value_name = "NAME")]
     pub layers: Vec<String>,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum Unit {
-    Mm,
-    Cm,
-    M,
-    In,
-    Pt,
-    Px,
-}
-
-impl Unit {
-    fn mm(self) -> f64 {
-        match self {
-            Self::Mm => 1.0,
-            Self::Cm => 10.0,
-            Self::M => 1000.0,
-            Self::In => 25.4,
-            Self::Pt => 25.4 / 72.0,
-            Self::Px => 25.4 / 96.0,
-        }
-    }
+    /// Read this block of a DXF in place of its drawing; may be repeated
+    #[arg(long = "block", value_name = "NAME")]
+    pub blocks: Vec<String>,
 }
 
 #[derive(Clone, Copy, Debug, Default, ValueEnum)]
@@ -108,6 +98,7 @@ pub enum PiecesChoice {
 #[derive(Clone, Copy, Debug, Default, ValueEnum)]
 pub enum HolesChoice {
     #[default]
+    Auto,
     Keep,
     Fill,
 }
@@ -115,6 +106,7 @@ pub enum HolesChoice {
 #[derive(Clone, Copy, Debug, Default, ValueEnum)]
 pub enum BackgroundChoice {
     #[default]
+    Auto,
     Drop,
     Keep,
 }
@@ -129,21 +121,29 @@ impl Reading {
                 PiecesChoice::Largest => Pieces::Largest,
             },
             holes: match self.holes {
+                HolesChoice::Auto => Holes::Found,
                 HolesChoice::Keep => Holes::Keep,
                 HolesChoice::Fill => Holes::Fill,
             },
             background: match self.background {
+                BackgroundChoice::Auto => Background::Found,
                 BackgroundChoice::Drop => Background::Drop,
                 BackgroundChoice::Keep => Background::Keep,
             },
-            smooth_mm: self.smooth.unwrap_or(0.0),
+            smooth_mm: self.smooth,
+            gap_mm: self.gap,
+            join_mm: self.join,
             min_width_mm: self.min_width,
-            unit_mm: self.unit.map(Unit::mm),
+            unit_mm: self.unit,
             threshold: self.threshold,
             layers: self.layers.clone(),
+            blocks: self.blocks.clone(),
         }
     }
 }
+
+/// Format of what `new --json` prints.
+const FORMAT: &str = "plushwright-new/1";
 
 /// What `new --json` prints.
 #[derive(Serialize)]
@@ -170,6 +170,9 @@ impl New {
             fibers: FiberCount::asked(self.fibers),
             texture: self.texture,
         };
+        if let Some(advice) = meant::instead_of_outline(&self.outline) {
+            return Err(CommandError::input(&self.outline, advice));
+        }
         let failed = |error| words::unmade(&self.outline, error);
         let file = outline::read_file(&self.outline).map_err(|error| failed(error.into()))?;
         let name = if self.texture { Some(self.texture_name()?) } else { None };
@@ -216,7 +219,7 @@ impl New {
             clean_up,
         };
         if self.json {
-            return say_json(out, &summary);
+            return say_json(out, FORMAT, &summary);
         }
         let Summary { design, fibers, nodes, triangles, body_length_mm, texture, clean_up, .. } = summary;
         say(
@@ -261,4 +264,25 @@ fn parse_length(text: &str) -> Result<f64, String> {
         Ok(length) if length.is_finite() && length >= 0.0 => Ok(length),
         _ => Err(format!("expected a length in mm, found `{text}`")),
     }
+}
+
+/// A unit by its name, as a resolution or as a number of mm.
+fn parse_unit(text: &str) -> Result<f64, String> {
+    const MM_PER_INCH: f64 = 25.4;
+    let lower = text.trim().to_ascii_lowercase();
+    let mm = match lower.as_str() {
+        "mm" => Some(1.0),
+        "cm" => Some(10.0),
+        "m" => Some(1000.0),
+        "in" => Some(MM_PER_INCH),
+        "pt" => Some(MM_PER_INCH / 72.0),
+        "px" => Some(MM_PER_INCH / 96.0),
+        _ => match lower.strip_suffix("dpi") {
+            Some(dots) => dots.trim().parse().ok().map(|dots: f64| MM_PER_INCH / dots),
+            None => lower.parse().ok(),
+        },
+    };
+    mm.filter(|mm| mm.is_finite() && *mm > 0.0).ok_or_else(|| {
+        format!("expected mm, cm, m, in, pt, px, a resolution as 300dpi or a number of mm, found `{text}`")
+    })
 }

@@ -58,6 +58,15 @@ pub struct Play {
     pub json: bool,
 }
 
+/// Format of what `play --json` prints.
+const FORMAT: &str = "plushwright-play/1";
+
+/// What `play --json` prints.
+#[derive(Serialize)]
+struct Summary<'a> {
+    plays: &'a [Timing<'a>],
+}
+
 /// How a motion kept the time, as it is printed.
 #[derive(Serialize)]
 struct Timing<'a> {
@@ -75,7 +84,7 @@ impl Play {
             .map_err(|error| self.failed(error))?;
         let timings: Vec<Timing> = played.iter().map(timing).collect();
         if self.json {
-            return say_json(out, &timings);
+            return say_json(out, FORMAT, &Summary { plays: &timings });
         }
         for Timing { played, starts, late_p95_s, late_worst_s } in &timings {
             say(

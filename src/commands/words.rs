@@ -1,12 +1,13 @@
 //! What the core has to say, in the words of the command line: its options by name.
 
 use super::error::CommandError;
+use super::meant;
 use super::output::refused_folder;
 use crate::defaults;
 use crate::fabrication::ExportError;
 use crate::motion::MotionError;
 use crate::operations::explore::Point;
-use crate::operations::{Progress, Unbalanced, new_design, reshape};
+use crate::operations::{NoSuchPose, Progress, Unbalanced, new_design, reshape};
 use crate::outline::{Change, Changes, Note, OutlineError, Remedy};
 use crate::rigging;
 use serde::Serialize;
@@ -15,7 +16,7 @@ use std::path::Path;
 /// Why an outline made no design.
 pub fn unmade(path: &Path, error: new_design::Error) -> CommandError {
     match error {
-        new_design::Error::Outline(error) => CommandError::input(path, outline(&error)),
+        new_design::Error::Outline(error) => unread(path, &error),
         new_design::Error::Mesh(error) => CommandError::input(path, error),
         new_design::Error::Cancelled(_) => CommandError::Cancelled,
     }
@@ -24,11 +25,32 @@ pub fn unmade(path: &Path, error: new_design::Error) -> CommandError {
 /// Why a design was not given another silhouette.
 pub fn unshaped(design: &Path, path: &Path, error: reshape::Error) -> CommandError {
     match error {
-        reshape::Error::Outline(error) => CommandError::input(path, outline(&error)),
+        reshape::Error::Outline(error) => unread(path, &error),
         reshape::Error::Mesh(error) => CommandError::input(path, error),
         reshape::Error::Edit(error) => CommandError::input(design, error),
         reshape::Error::Cancelled(_) => CommandError::Cancelled,
     }
+}
+
+/// Why a file gave no outline, and what is called alike where there is none.
+fn unread(path: &Path, error: &OutlineError) -> CommandError {
+    match meant::like(path) {
+        Some(advice) => CommandError::input(path, format!("{}; {advice}", outline(error))),
+        None => CommandError::input(path, outline(error)),
+    }
+}
+
+/// A pose that a design does not have, and the one that may be meant.
+pub fn no_such_pose(error: &NoSuchPose) -> CommandError {
+    let NoSuchPose { name, known } = error;
+    if known.is_empty() {
+        let advice = "the design has none yet; `plushwright pose` makes one";
+        return CommandError::Usage(format!("no pose `{name}`; {advice}"));
+    }
+    CommandError::Usage(match meant::closest(name, known.iter().map(String::as_str)) {
+        Some(pose) => format!("{error}; did you mean `{pose}`?"),
+        None => error.to_string(),
+    })
 }
 
 /// Why there is no blueprint of a design.
@@ -109,10 +131,7 @@ pub fn explored(point: &Point) -> String {
 /// A note of a reader or the clean-up, and the option that would have it otherwise.
 fn note(note: &Note) -> String {
     match note.remedy() {
-        Some(remedy @ (Remedy::Unit | Remedy::Threshold | Remedy::Background)) => {
-            format!("{note} ({})", option(remedy))
-        }
-        Some(remedy) => format!("{note}; {}", option(remedy)),
+        Some(remedy) => format!("{note} ({})", option(remedy)),
         None => note.to_string(),
     }
 }
@@ -127,8 +146,16 @@ fn option(remedy: Remedy) -> &'static str {
         Remedy::Height => "--height sets another height",
         Remedy::Unit => "--unit sets another",
         Remedy::Threshold => "--threshold sets another value",
+        Remedy::Opacity => "--threshold 1 counts all that shows",
         Remedy::Background => "--background keep keeps it",
+        Remedy::DropBackground => "--background drop leaves it out",
         Remedy::Holes => "--holes fill makes a solid body of it",
+        Remedy::KeepHoles => "--holes keep keeps the holes",
+        Remedy::Gap => "--gap sets how wide they may be, 0 for none",
+        Remedy::Join => "--join sets how far apart ends may be",
+        Remedy::Smooth => "--smooth sets how far, 0 for not at all",
+        Remedy::Layers => "--layer names those that count",
+        Remedy::Blocks => "--block names those that count",
         Remedy::MinWidth => "--min-width widens them",
         Remedy::Pieces => "choose --pieces largest, or join them in the drawing",
     }

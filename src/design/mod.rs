@@ -16,6 +16,7 @@ pub mod ranges;
 pub mod remesh;
 pub mod reshape;
 mod settings;
+mod sewable;
 #[cfg(test)]
 pub(crate) mod testing;
 pub mod texture;

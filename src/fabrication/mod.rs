@@ -41,7 +41,6 @@ pub use crate::files::sha256;
 pub use blueprint::{File, Manifest, blueprint, export};
 pub use cables::{holes, tendon_length_mm};
 pub use error::ExportError;
-pub use judge::{judge_design, judge_pose};
 pub use options::Options;
 pub use product::{Content, Part, Product, Section, Source};
 pub use sheet::{Anchor, Color, Entity, Group, Sheet, Style};

@@ -2,13 +2,14 @@
 //! simplification, placement.
 
 use super::changes::{Changes, What};
-use super::imported::Imported;
+use super::imported::{Aside, Imported, Why};
+use super::lines::{self, Lines};
 use super::notes::Note;
 use super::options::{Holes, Import, Pieces};
 use super::readers::Painting;
 use super::regions::{self, Shapes};
 use super::simplify::simplify;
-use super::{Outline, OutlineError, Point, polygon, smooth, thin};
+use super::{Outline, OutlineError, Point, even, gaps, polygon, smooth, thin};
 
 /// Farthest that simplification may move the boundary, as a fraction of the longer side of the box: 0.03 mm on a
 /// 300 mm plushie, a tenth of what scissors can follow. Larger values drop detail, smaller ones keep needless points.
@@ -31,16 +32,22 @@ const PINCH_FRACTION: f64 = 1.5 * HAIRLINE_FRACTION;
 
 /// One outline from what was painted.
 pub(super) fn clean(painting: Painting, import: &Import) -> Result<Imported, OutlineError> {
-    let Painting { shapes, unit_mm, notes } = painting;
+    let Painting { shapes, unit_mm, notes, asides, evened } = painting;
     let mut changes = Changes { notes, ..Changes::default() };
+    let mut aside = Asides(asides);
     let shapes = regions::union(shapes)?;
     let all = regions::area(&shapes);
     // Anything that is NaN or infinite is degenerate too.
     if shapes.is_empty() || !(all.is_finite() && all > 0.0) {
         return Err(OutlineError::Degenerate);
     }
-    let shapes = without_specks(shapes, all, &mut changes);
-    let shapes = filled(shapes, import.holes, &mut changes);
+    let units = Units::of(&shapes, unit_mm, import);
+    if evened.points > 0 {
+        changes.notes.push(Note::Evened { points: evened.points, within_mm: units.mm * evened.within });
+    }
+    let shapes = without_gaps(shapes, &units, import, &mut changes, &mut aside)?;
+    let shapes = without_specks(shapes, all, &mut changes, &mut aside);
+    let shapes = filled(shapes, &units, import, &mut changes, &mut aside)?;
     // Parts that touch in a point alone come as separate pieces.
     let (low, high) = regions::bounding_box(&shapes);
     let width = PINCH_FRACTION * (high[0] - low[0]).max(high[1] - low[1]);
@@ -49,7 +56,7 @@ pub(super) fn clean(painting: Painting, import: &Import) -> Result<Imported, Out
     let widened_by = (regions::area(&shapes) - before) / before;
     changes.add(What::Pinches, touching, widened_by, false);
     changes.unasked += widened_by.max(0.0);
-    let shapes = one_piece(shapes, import.pieces, &mut changes)?;
+    let shapes = one_piece(shapes, import.pieces, &mut changes, &mut aside)?;
     if holes_area(&shapes) > regions::area(&shapes) {
         changes.notes.push(Note::MostlyLines);
     }
@@ -60,19 +67,31 @@ pub(super) fn clean(painting: Painting, import: &Import) -> Result<Imported, Out
         return Err(OutlineError::Degenerate);
     }
     let scale = import.height_mm.map_or(unit_mm, |height| height / (high[1] - low[1]));
+    changes.painted_mm2 = all * scale * scale;
     let shapes = placed(shapes, low, scale);
-    let longer = longer * scale;
+    let (shapes, longer) = (shapes, longer * scale);
+    let shapes = shaped(shapes, longer, import, &mut changes)?;
+    let (outline, box_mm) = outline(shapes, import.height_mm)?;
+    changes.outline_mm2 = outline.area();
+    // Back to where it was before it was placed.
+    let drawn_box = box_mm.map(|p| [p[0] / scale + low[0], p[1] / scale + low[1]]);
+    Ok(Imported { asides: aside.placed(&outline, drawn_box), outline, changes, drawn_box, mesh: None, drawing: None })
+}
+
+/// The boundary of a silhouette in mm made fit to be sewn: thin parts widened, smoothed, simplified.
+fn shaped(shapes: Shapes, longer: f64, import: &Import, changes: &mut Changes) -> Result<Shapes, OutlineError> {
     let area = regions::area(&shapes);
     // What was not asked for is measured against the shape after the last step that was.
     let mut reference = shapes.clone();
     // Offsets of polygons much finer than their distance take quadratic time.
     let shapes = simplified(shapes, 0.25 * SIMPLIFY_FRACTION * longer)?;
-    let shapes = widened(shapes, longer, import.min_width_mm, &mut changes)?;
+    let shapes = smooth_enough(shapes, longer, import, changes)?;
+    let shapes = widened(shapes, longer, import.min_width_mm, changes)?;
     if import.min_width_mm.is_some() {
         reference.clone_from(&shapes);
     }
-    let smooth = smoothed(shapes.clone(), import.smooth_mm, &mut changes)?;
-    if import.smooth_mm > 0.0 {
+    let smooth = smoothed(shapes.clone(), import.smooth_mm.unwrap_or(0.0), changes)?;
+    if import.smooth_mm.is_some_and(|smooth| smooth > 0.0) {
         changes.unasked += regions::unlike(&reference, &shapes) / area;
         reference.clone_from(&smooth);
     }
@@ -80,17 +99,75 @@ pub(super) fn clean(painting: Painting, import: &Import) -> Result<Imported, Out
     let (shapes, pinches) = joined(smooth, longer)?;
     let shapes = simplified(shapes, SIMPLIFY_FRACTION * longer)?;
     changes.add(What::Pinches, pinches, (regions::area(&shapes) - unjoined) / area, false);
-    changes.painted_mm2 = all * scale * scale;
     changes.unasked += regions::unlike(&reference, &shapes) / area;
-    let (outline, box_mm) = outline(shapes, import.height_mm)?;
-    changes.outline_mm2 = outline.area();
-    // Back to where it was before it was placed.
-    let drawn_box = box_mm.map(|p| [p[0] / scale + low[0], p[1] / scale + low[1]]);
-    Ok(Imported { outline, changes, drawn_box, mesh: None, drawing: None })
+    Ok(shapes)
+}
+
+/// What a drawing's units measure, before it is known which of its parts count.
+struct Units {
+    low: Point,
+    longer: f64,
+    /// Millimetres in one.
+    mm: f64,
+}
+
+impl Units {
+    fn of(shapes: &Shapes, unit_mm: f64, import: &Import) -> Self {
+        let (low, high) = regions::bounding_box(shapes);
+        let mm = import.height_mm.map_or(unit_mm, |height| height / (high[1] - low[1]));
+        Self { low, longer: (high[0] - low[0]).max(high[1] - low[1]), mm }
+    }
+
+    /// Where a place of the drawing lies in the outline, mm.
+    fn place(&self, p: Point) -> Point {
+        [0, 1].map(|axis| (p[axis] - self.low[axis]) * self.mm)
+    }
+}
+
+/// What does not count, in the drawing's coordinates.
+struct Asides(Vec<Aside>);
+
+impl Asides {
+    fn add(&mut self, why: Why, areas: Shapes) {
+        if !areas.is_empty() {
+            self.0.push(Aside { why, areas });
+        }
+    }
+
+    /// In the coordinates of the outline, whose box was `drawn_box` in the drawing.
+    fn placed(self, outline: &Outline, drawn_box: [Point; 2]) -> Vec<Aside> {
+        let (_, high) = outline.bounding_box();
+        let scale = high[1] / (drawn_box[1][1] - drawn_box[0][1]);
+        self.0
+            .into_iter()
+            .map(|Aside { why, areas }| Aside { why, areas: placed(areas, drawn_box[0], scale) })
+            .collect()
+    }
+}
+
+/// Parts that all but touch joined.
+fn without_gaps(
+    shapes: Shapes,
+    units: &Units,
+    import: &Import,
+    changes: &mut Changes,
+    aside: &mut Asides,
+) -> Result<Shapes, OutlineError> {
+    let gap = import.gap_mm.map_or(gaps::GAP_FRACTION * units.longer, |mm| mm / units.mm);
+    let before = regions::area(&shapes);
+    let gaps::Closed { shapes, bridges } = gaps::closed(shapes, gap, import.gap_mm.is_some())?;
+    if !bridges.is_empty() {
+        changes.notes.push(Note::GapsClosed { count: bridges.len(), gap_mm: gap * units.mm });
+        if import.gap_mm.is_none() {
+            changes.unasked += (regions::area(&shapes) / before - 1.0).max(0.0);
+        }
+        aside.add(Why::Closed, bridges);
+    }
+    Ok(shapes)
 }
 
 /// Drops the smallest islands and fills the smallest holes.
-fn without_specks(shapes: Shapes, all: f64, changes: &mut Changes) -> Shapes {
+fn without_specks(shapes: Shapes, all: f64, changes: &mut Changes, aside: &mut Asides) -> Shapes {
     let limit = |mut areas: Vec<f64>| {
         areas.sort_by(f64::total_cmp);
         let mut sum = 0.0;
@@ -107,32 +184,65 @@ fn without_specks(shapes: Shapes, all: f64, changes: &mut Changes) -> Shapes {
     changes.add(What::Specks, islands, lost, false);
     changes.add(What::Pinholes, holes, gained, false);
     changes.unasked += lost + gained;
-    let kept = shapes.into_iter().filter(|rings| regions::piece_area(rings) > island);
-    kept.map(|rings| {
-        rings.into_iter().enumerate().filter(|(k, r)| *k == 0 || ring_area(r) > hole).map(|x| x.1).collect()
-    })
-    .collect()
+    let (kept, specks): (Shapes, Shapes) = shapes.into_iter().partition(|rings| regions::piece_area(rings) > island);
+    aside.add(Why::Specks, specks);
+    kept.into_iter()
+        .map(|rings| {
+            rings.into_iter().enumerate().filter(|(k, r)| *k == 0 || ring_area(r) > hole).map(|x| x.1).collect()
+        })
+        .collect()
 }
 
-/// Without holes, where that is asked; what lay in a hole lies in the body then.
-fn filled(shapes: Shapes, holes: Holes, changes: &mut Changes) -> Shapes {
-    let count = shapes.iter().map(|rings| rings.len().saturating_sub(1)).sum();
-    if holes == Holes::Keep || count == 0 {
-        return shapes;
+/// Without holes, where that is asked or the drawing is nothing but lines; what lay in a hole lies in the body then.
+fn filled(
+    shapes: Shapes,
+    units: &Units,
+    import: &Import,
+    changes: &mut Changes,
+    aside: &mut Asides,
+) -> Result<Shapes, OutlineError> {
+    if import.holes == Holes::Keep {
+        return Ok(shapes);
     }
-    let before = regions::area(&shapes);
-    let outers: Shapes = shapes.iter().map(|rings| rings.iter().take(1).cloned().collect()).collect();
-    // Outer polygons are fewer than what they came from: this cannot be too complex.
-    let shapes = regions::union(outers).unwrap_or(shapes);
-    changes.add(What::Holes, count, (regions::area(&shapes) - before) / before, true);
-    shapes
+    let before = shapes.clone();
+    let widest = import.join_mm.map_or(lines::OPENING_FRACTION * units.longer, |mm| mm / units.mm);
+    let shapes = match lines::filled(shapes, widest)? {
+        Lines::Body(shapes) => shapes,
+        Lines::Open { shapes, opening } => {
+            let (gap_mm, at) = (opening.opening * units.mm, units.place(opening.at));
+            changes.notes.push(Note::NotClosed { gap_mm, at });
+            shapes
+        }
+        Lines::Filled { shapes, opening } => {
+            changes.notes.push(match opening {
+                Some(opening) => Note::Closed { gap_mm: opening.opening * units.mm, at: units.place(opening.at) },
+                None => Note::LinesFilled,
+            });
+            aside.add(Why::Filled, regions::difference(&shapes, &before));
+            return Ok(shapes);
+        }
+    };
+    let count = shapes.iter().map(|rings| rings.len().saturating_sub(1)).sum();
+    if import.holes != Holes::Fill || count == 0 {
+        return Ok(shapes);
+    }
+    let shapes = regions::union(shapes.iter().map(|rings| rings.iter().take(1).cloned().collect()).collect())?;
+    let area = regions::area(&before);
+    changes.add(What::Holes, count, (regions::area(&shapes) - area) / area, true);
+    aside.add(Why::Filled, regions::difference(&shapes, &before));
+    Ok(shapes)
 }
 
 fn holes_area(shapes: &Shapes) -> f64 {
     shapes.iter().flat_map(|rings| rings.iter().skip(1)).map(|ring| polygon::signed_area(ring).abs()).sum()
 }
 
-fn one_piece(mut shapes: Shapes, choice: Pieces, changes: &mut Changes) -> Result<Shapes, OutlineError> {
+fn one_piece(
+    mut shapes: Shapes,
+    choice: Pieces,
+    changes: &mut Changes,
+    aside: &mut Asides,
+) -> Result<Shapes, OutlineError> {
     let pieces = shapes.len();
     if pieces <= 1 {
         return Ok(shapes);
@@ -144,7 +254,7 @@ fn one_piece(mut shapes: Shapes, choice: Pieces, changes: &mut Changes) -> Resul
     if choice == Pieces::Refuse {
         return Err(OutlineError::Pieces { pieces, largest: 100.0 * largest });
     }
-    shapes.truncate(1);
+    aside.add(Why::Pieces, shapes.split_off(1));
     changes.add(What::Pieces, pieces - 1, 1.0 - largest, true);
     Ok(shapes)
 }
@@ -189,6 +299,19 @@ fn smoothed(shapes: Shapes, tolerance: f64, changes: &mut Changes) -> Result<Sha
     }
     let smooth = smooth::smooth(shapes.clone(), tolerance)?;
     changes.add(What::Smoothing, 1, regions::unlike(&shapes, &smooth) / regions::area(&shapes), true);
+    Ok(smooth)
+}
+
+/// Evened where it is rougher than scissors can follow, unless smoothing is asked for or refused.
+fn smooth_enough(shapes: Shapes, longer: f64, import: &Import, changes: &mut Changes) -> Result<Shapes, OutlineError> {
+    let within = even::EVEN_FRACTION * longer;
+    if import.smooth_mm.is_some() || !even::is_rough(&shapes, within) {
+        return Ok(shapes);
+    }
+    let points = shapes.iter().flatten().map(Vec::len).sum();
+    let smooth = smooth::smooth(shapes, within)?;
+    changes.notes.retain(|note| !matches!(note, Note::Evened { .. }));
+    changes.notes.push(Note::Evened { points, within_mm: within });
     Ok(smooth)
 }
 
@@ -241,7 +364,7 @@ mod tests {
     }
 
     fn painting(shapes: Shapes, unit_mm: f64) -> Painting {
-        Painting { shapes, unit_mm, notes: Vec::new() }
+        Painting { shapes, unit_mm, ..Painting::default() }
     }
 
     #[test]

@@ -9,8 +9,12 @@ use thiserror::Error;
 pub enum OutlineError {
     #[error("{0}")]
     Unopened(String),
-    #[error("neither an SVG, PNG, JPEG, DXF, OBJ nor drawing file")]
+    #[error(
+        "no outline that can be read: SVG, PDF, DXF, pictures (PNG, JPEG, WebP, GIF, BMP, TIFF), flat meshes (OBJ, STL) and drawings of parts are"
+    )]
     UnknownFormat,
+    #[error("{format} is not read; {advice}")]
+    Foreign { format: &'static str, advice: &'static str },
     #[error("not a readable {format}: {reason}")]
     Unreadable { format: &'static str, reason: String },
     #[error("the file is larger than {max} MB, the most that is read", max = MAX_FILE_BYTES >> 20)]
@@ -25,7 +29,19 @@ pub enum OutlineError {
     NoSuchLayer { name: String, layers: String },
     #[error("{0} have no layers to choose from; SVG and DXF drawings have")]
     NoLayers(&'static str),
-    #[error("{0} has no colours to make a texture of; an SVG, PNG or JPEG has")]
+    #[error("{0} have no blocks to choose from; DXF drawings have")]
+    NoBlocks(&'static str),
+    #[error("there is no block \"{name}\"; the drawing has: {blocks}")]
+    NoSuchBlock { name: String, blocks: String },
+    #[error("nothing is drawn but in blocks that nothing inserts: {0}")]
+    BlocksAlone(String),
+    #[error(
+        "nothing is painted: the DXF has no closed outline; its {lines} lines do not meet, the nearest loose ends are {gap:.3} of its units apart"
+    )]
+    NotClosed { lines: usize, gap: f64 },
+    #[error("all that the DXF draws is hidden, on layers that are off, frozen or not plotted: {0}")]
+    HiddenAlone(String),
+    #[error("{0} has no colours to make a texture of; an SVG or a picture has")]
     NoTexture(&'static str),
     #[error("the text \"{0}\" has characters that the bundled font lacks; convert it to paths")]
     NoFont(String),
@@ -49,6 +65,9 @@ impl OutlineError {
         match self {
             Self::Pieces { .. } => Some(Remedy::Pieces),
             Self::Size(_) => Some(Remedy::Height),
+            Self::NotClosed { .. } => Some(Remedy::Join),
+            Self::HiddenAlone(_) => Some(Remedy::Layers),
+            Self::BlocksAlone(_) => Some(Remedy::Blocks),
             _ => None,
         }
     }

@@ -1,6 +1,6 @@
 //! From the bytes of a file to one clean outline.
 
-use super::readers::{ReadingOption, reader_of};
+use super::readers::{ReadingOption, reader_of, unknown, unpacked};
 use super::{Import, Imported, MAX_FILE_BYTES, OutlineError};
 use std::io::Read;
 use std::path::Path;
@@ -14,9 +14,13 @@ pub fn import(bytes: &[u8], import: &Import) -> Result<Imported, OutlineError> {
     if bytes.len() > MAX_FILE_BYTES {
         return Err(OutlineError::TooLarge);
     }
-    let reader = reader_of(bytes).ok_or(OutlineError::UnknownFormat)?;
+    let bytes = &*unpacked(bytes)?;
+    let reader = reader_of(bytes).ok_or_else(|| unknown(bytes))?;
     if !import.layers.is_empty() && !reader.options().contains(&ReadingOption::Layers) {
         return Err(OutlineError::NoLayers(reader.names()[1]));
+    }
+    if !import.blocks.is_empty() && !reader.options().contains(&ReadingOption::Blocks) {
+        return Err(OutlineError::NoBlocks(reader.names()[1]));
     }
     reader.read(bytes, import)
 }

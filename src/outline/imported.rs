@@ -4,6 +4,33 @@ use super::changes::Changes;
 use super::drawing::{Drawing, Track};
 use super::{Outline, Point};
 
+/// Something that a file shows and that is no part of the outline.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Aside {
+    pub why: Why,
+    /// Areas, each an outer polygon and its holes, in the coordinates of the outline.
+    pub areas: Vec<Vec<Vec<Point>>>,
+}
+
+/// Why something is no part of the outline, or why it is though the file does not show it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Why {
+    /// Paper, a card, a frame.
+    Background,
+    /// Hardly seen.
+    Faint,
+    /// On a layer that is hidden.
+    Hidden,
+    /// Islands too small.
+    Specks,
+    /// Smaller pieces, left out as asked.
+    Pieces,
+    /// Holes that were filled: not shown, and part of the outline.
+    Filled,
+    /// Gaps that were closed: not shown, and part of the outline.
+    Closed,
+}
+
 /// An outline and what was changed to get it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Imported {
@@ -11,6 +38,8 @@ pub struct Imported {
     pub changes: Changes,
     /// The silhouette's box where the file has it: lower left and upper right corner in the file's plain numbers or pixels, y up.
     pub drawn_box: [Point; 2],
+    /// What the file shows besides.
+    pub asides: Vec<Aside>,
     /// The triangles of a file that brings its own mesh, mm, counter-clockwise.
     pub mesh: Option<(Vec<Point>, Vec<[usize; 3]>)>,
     /// The parts that it was drawn from, in the coordinates of `outline`.

@@ -10,13 +10,17 @@
 //! | `drawing/` | outlines drawn by hand |
 //! | `silhouette`, `polygon`, `regions`, ... | geometry |
 
+mod basins;
 mod changes;
 mod clean;
 pub mod drawing;
 mod error;
+mod even;
+mod gaps;
 mod grid;
 mod import;
 mod imported;
+mod lines;
 mod notes;
 mod options;
 mod point;
@@ -35,8 +39,8 @@ pub use changes::{Change, Changes, What};
 pub use drawing::Drawing;
 pub use error::OutlineError;
 pub use import::{import, import_file, read_file};
-pub use imported::Imported;
-pub use notes::{Note, Remedy};
+pub use imported::{Aside, Imported, Why};
+pub use notes::{Ground, Note, Remedy, Sizing};
 pub use options::{Background, Holes, Import, MAX_FILE_BYTES, Pieces};
 pub use point::Point;
 pub use readers::{extensions, svg};

@@ -20,15 +20,20 @@ pub enum Pieces {
 /// The treatment of holes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Holes {
+    /// Kept, but what is drawn in thin lines alone is filled, across a small gap too.
     #[default]
+    Found,
     Keep,
     Fill,
 }
 
-/// The treatment of a rectangle that fills the page below everything else.
+/// The treatment of what lies below everything else: paper, a card, a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Background {
+    /// Left out where there is little doubt: it covers the page, it is white, it is a frame. A note tells either way.
     #[default]
+    Found,
+    /// What covers everything else is left out, whatever it is.
     Drop,
     Keep,
 }
@@ -42,15 +47,22 @@ pub struct Import {
     pub pieces: Pieces,
     pub holes: Holes,
     pub background: Background,
-    /// How far smoothing may move the boundary, mm; 0 for none.
-    pub smooth_mm: f64,
+    /// How far smoothing may move the boundary, mm; 0 for none. `None`: where it is finer than scissors can follow, by less
+    /// than these see.
+    pub smooth_mm: Option<f64>,
+    /// Parts nearer to each other than this are one piece, mm. `None`: where scissors cannot part them.
+    pub gap_mm: Option<f64>,
+    /// Ends of lines nearer to each other than this meet, mm. `None`: a small part of the drawing's size.
+    pub join_mm: Option<f64>,
     /// Parts thinner than this are widened, mm. `None`: hairlines alone, as long as they change little.
     pub min_width_mm: Option<f64>,
-    /// Length of a plain number or a pixel, mm, whatever the file says. An SVG has units of its own.
+    /// Length of a plain number or a pixel, mm, whatever the file says.
     pub unit_mm: Option<f64>,
-    /// Difference from the background, 0 to 255, from which a pixel is ink; `None` finds it.
+    /// Difference from the background, or opacity, 0 to 255, from which something counts; `None` finds it.
     pub threshold: Option<u8>,
     /// Names of the layers that count, empty for all. SVG: the `id` or Inkscape label of groups and elements at any depth.
     /// DXF: the layers of the entities.
     pub layers: Vec<String>,
+    /// Names of the blocks of a DXF that are read in place of its drawing, empty for none.
+    pub blocks: Vec<String>,
 }

@@ -1,6 +1,6 @@
 //! The picture of a plushie: what its file shows within the silhouette's box.
 
-use super::readers::{decoded, reader_of};
+use super::readers::{decoded, reader_of, unknown, unpacked};
 use super::resample::{MAX_TEXTURE_PX, fitted, shrunk};
 use super::{Import, Imported, MAX_FILE_BYTES, OutlineError};
 use crate::files;
@@ -15,7 +15,8 @@ use std::path::Path;
 /// # Errors
 /// A format without colours; a drawing that takes too long to paint. See [`OutlineError`].
 pub fn texture(bytes: &[u8], import: &Import, imported: &Imported) -> Result<Vec<u8>, OutlineError> {
-    let reader = reader_of(bytes).ok_or(OutlineError::UnknownFormat)?;
+    let bytes = &*unpacked(bytes)?;
+    let reader = reader_of(bytes).ok_or_else(|| unknown(bytes))?;
     let picture = reader.texture(bytes, import, imported.drawn_box)?;
     let mut png = Cursor::new(Vec::new());
     let unwritable = |e: image::ImageError| OutlineError::Unreadable { format: "texture", reason: e.to_string() };

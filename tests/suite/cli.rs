@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-const COMMANDS: [&str; 18] = [
+const COMMANDS: [&str; 20] = [
     "demo",
     "new",
     "mesh",
@@ -23,6 +23,8 @@ const COMMANDS: [&str; 18] = [
     "solve",
     "discover",
     "bench",
+    "completions",
+    "man",
 ];
 
 /// A bar that is wide enough for a few dozen fibres.
@@ -176,7 +178,7 @@ fn a_pose_travels_from_the_command_line_to_the_check() {
     };
     assert_eq!(
         keys(&json),
-        ["body_length_mm", "fibers", "name", "nodes", "poses", "sewing", "tendons", "triangles", "winches"]
+        ["body_length_mm", "fibers", "format", "name", "nodes", "poses", "sewing", "tendons", "triangles", "winches"]
     );
     let bend = &json["poses"][0];
     assert_eq!(
@@ -516,8 +518,11 @@ fn networks_are_listed_changed_and_what_is_hard_to_sew_told() {
     network("mute", &["--winch", "1"]);
     let listed: serde_json::Value =
         serde_json::from_str(&succeed(f, &["network", "list", "bar.plush", "--json"])).unwrap();
-    assert_eq!((&listed[0]["muted"], &listed[0]["color"]), (&true.into(), &serde_json::json!([10, 20, 30])));
-    let hole: Vec<f64> = serde_json::from_value(listed[0]["tendons"][0]["places"][1].clone()).unwrap();
+    assert_eq!(
+        (&listed["winches"][0]["muted"], &listed["winches"][0]["color"]),
+        (&true.into(), &serde_json::json!([10, 20, 30]))
+    );
+    let hole: Vec<f64> = serde_json::from_value(listed["winches"][0]["tendons"][0]["places"][1].clone()).unwrap();
     assert!((hole[0] - 60.0).abs() < 1e-9 && (hole[1] - 38.0).abs() < 1e-9, "{hole:?}");
     assert!(
         succeed(f, &["network", "list", "bar.plush"]).contains("1 winch 1 (switched off)\n  tendon 1: 20.000,20.000 ")

@@ -197,7 +197,7 @@ fn what_no_hand_can_sew_is_remarked_the_worst_first_and_counted() {
     let told = remarks(&design);
     let holes = design.networks.iter().flat_map(|n| &n.tendons).map(|t| t.routing.len()).sum::<usize>() - 1;
     assert_eq!(told.len(), 6);
-    let breaches = fabrication::judge_design(&design).len();
+    let breaches = design.breaches().len();
     assert!(breaches > 6 && breaches <= holes + 1, "{breaches}");
     assert_eq!(told[5], format!("Hard to sew: {} more places break a rule.", breaches - 5));
     design.sewing.turn_degrees = 180.0;

@@ -20,10 +20,12 @@ mod layers;
 mod live;
 mod mesh;
 mod minimum;
+mod mistakes;
 mod muted;
 mod networks;
 mod networks_reference;
 mod outlines;
+mod pages;
 #[cfg(feature = "studio")]
 mod palette;
 #[cfg(feature = "studio")]

@@ -52,7 +52,7 @@ impl Drawing {
         if shapes.is_empty() {
             return Err(OutlineError::NothingPainted("all that is drawn is cut out again"));
         }
-        Ok(Painting { shapes, unit_mm: 1.0, notes: Vec::new() })
+        Ok(Painting { shapes, unit_mm: 1.0, ..Painting::default() })
     }
 }
 

@@ -35,7 +35,9 @@ impl Import {
             return Err(OutlineError::Height(height));
         }
         let lengths = [
-            ("the smoothing tolerance", Some(self.smooth_mm)),
+            ("the smoothing tolerance", self.smooth_mm),
+            ("the gap", self.gap_mm),
+            ("the join", self.join_mm),
             ("the least width", self.min_width_mm),
             ("the unit", self.unit_mm),
         ];

@@ -2,13 +2,19 @@
 
 mod drawing;
 mod dxf;
+mod encoding;
 mod finish;
+mod foreign;
+mod ground;
 mod layers;
 mod obj;
+mod packed;
 mod picture;
 mod reader;
 pub mod svg;
 
+pub(super) use foreign::unknown;
+pub(super) use packed::unpacked;
 pub(super) use picture::decoded;
 pub(super) use reader::Painting;
 pub use reader::{OutlineReader, ReadingOption};

@@ -65,7 +65,7 @@ fn read(bytes: &[u8], import: &Import) -> Result<Imported, OutlineError> {
         let area = |t: &[usize; 3]| vec![t.map(|n| nodes[n]).to_vec()];
         let shapes = triangles.iter().map(area).collect();
         notes.push(Note::NotOnePiece);
-        return finish(Painting { shapes, unit_mm, notes }, import);
+        return finish(Painting { shapes, unit_mm, notes, ..Painting::default() }, import);
     };
     let (low, high) = polygon::bounding_box(&nodes);
     let scale = import.height_mm.map_or(unit_mm, |height| height / (high[1] - low[1]));
@@ -79,7 +79,7 @@ fn read(bytes: &[u8], import: &Import) -> Result<Imported, OutlineError> {
     }
     let changes = Changes { painted_mm2: area, outline_mm2: area, notes, ..Changes::default() };
     let mesh = Some((nodes.iter().map(place).collect(), triangles));
-    Ok(warned(Imported { outline, changes, drawn_box: [low, high], mesh, drawing: None }, import))
+    Ok(warned(Imported { outline, changes, drawn_box: [low, high], asides: Vec::new(), mesh, drawing: None }, import))
 }
 
 fn parse(text: &str) -> Result<Triangles, OutlineError> {

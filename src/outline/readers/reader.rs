@@ -1,7 +1,8 @@
 //! What a reader of outlines is.
 
+use crate::outline::even::Evened;
 use crate::outline::regions::Shapes;
-use crate::outline::{Import, Imported, Note, OutlineError, Point};
+use crate::outline::{Aside, Import, Imported, Note, OutlineError, Point};
 use image::RgbaImage;
 
 /// Reads one kind of file.
@@ -46,12 +47,19 @@ pub enum ReadingOption {
     Threshold,
     /// [`Import::background`].
     Background,
+    /// [`Import::blocks`]; refused where there are none.
+    Blocks,
 }
 
 /// Painted areas of a file, which may overlap, y up, and what there is to say about them.
+#[derive(Default)]
 pub(in crate::outline) struct Painting {
     pub shapes: Shapes,
     /// Millimetres in a unit of the shapes.
     pub unit_mm: f64,
     pub notes: Vec<Note>,
+    /// What was found besides and does not count.
+    pub asides: Vec<Aside>,
+    /// What was evened on the way, in the unit of the shapes.
+    pub evened: Evened,
 }

@@ -229,9 +229,9 @@ fn import_settings(ui: &mut Ui, edited: &mut PathDialog) {
             .on_hover_text("Of a drawing in several pieces, which is refused otherwise");
         options.import.pieces = if largest { Pieces::Largest } else { Pieces::Refuse };
         ui.add_space(12.0);
-        let mut fill = options.import.holes == Holes::Fill;
-        ui.checkbox(&mut fill, "Fill holes").on_hover_text("Make a solid body of it");
-        options.import.holes = if fill { Holes::Fill } else { Holes::Keep };
+        let tip = "Holes of a drawing in thin lines alone are filled; or keep them, or fill all";
+        let holes = [(Holes::Found, "as found"), (Holes::Keep, "keep"), (Holes::Fill, "fill")];
+        choice(ui, ("Holes", tip), &mut options.import.holes, &holes);
     });
     let tip =
         "Show on the plushie what the SVG, PNG or JPEG shows; saving puts it beside the plushie, NAME.texture.png";
@@ -249,19 +249,25 @@ fn import_settings(ui: &mut Ui, edited: &mut PathDialog) {
 
 /// What is seldom asked for.
 fn details(ui: &mut Ui, import: &mut Import) {
-    let mut keep = import.background == Background::Keep;
-    let tip = "A rectangle as large as the page below everything else, which is left out otherwise";
-    ui.checkbox(&mut keep, "Keep the background").on_hover_text(tip);
-    import.background = if keep { Background::Keep } else { Background::Drop };
+    ui.horizontal(|ui| {
+        let tip = "Paper, cards and frames that everything else lies on: what is surely one is left out; or leave out any, or keep it";
+        let grounds =
+            [(Background::Found, "as found"), (Background::Drop, "leave out"), (Background::Keep, "keep")];
+        choice(ui, ("Background", tip), &mut import.background, &grounds);
+    });
     Grid::new("import details").num_columns(2).spacing([8.0, 4.0]).show(ui, |ui| {
-        let tip = "How far smoothing may move the boundary; corners stay";
-        or_usual(ui, ("Smooth", tip), &mut import.smooth_mm, ("not", " mm"), 0.0..=LARGEST_MM);
+        let tip = "How far smoothing may move the boundary; corners stay. -1: where it is finer than scissors follow; 0: not at all";
+        optional(ui, ("Smooth", tip), &mut import.smooth_mm);
+        ui.end_row();
+        let tip = "Parts less than this apart are joined; -1: what scissors cannot part; 0: none";
+        optional(ui, ("Gaps up to", tip), &mut import.gap_mm);
+        ui.end_row();
+        let tip = "Ends of lines less than this apart are joined; -1: a small part of the size; 0: none";
+        optional(ui, ("Join ends up to", tip), &mut import.join_mm);
         ui.end_row();
         // A least width of nothing widens nothing, which is not the usual.
         let tip = "Parts thinner than this are widened; -1: hairlines alone, as long as that changes little; 0: none";
-        let mut width = import.min_width_mm.unwrap_or(-1.0);
-        or_usual(ui, ("Least width", tip), &mut width, ("as usual", " mm"), -1.0..=LARGEST_MM);
-        import.min_width_mm = (width >= 0.0).then_some(width);
+        optional(ui, ("Least width", tip), &mut import.min_width_mm);
         ui.end_row();
         let tip = "What a plain number of a DXF or OBJ file or a pixel measures; 0: what the file says";
         let mut unit = import.unit_mm.unwrap_or(0.0);
@@ -274,6 +280,22 @@ fn details(ui: &mut Ui, import: &mut Import) {
         import.threshold = (level >= 0.0).then_some(level as u8);
         ui.end_row();
     });
+}
+
+/// One of a few, as buttons beside each other.
+fn choice<T: PartialEq + Copy>(ui: &mut Ui, (name, tip): (&str, &str), value: &mut T, all: &[(T, &str)]) {
+    ui.label(name).on_hover_text(tip);
+    for (one, label) in all {
+        let button = ui.selectable_value(value, *one, *label).on_hover_text(tip);
+        button.accessible_name(format!("{name}: {label}"));
+    }
+}
+
+/// A length that has a usual value, which -1 stands for.
+fn optional(ui: &mut Ui, label: (&str, &str), value: &mut Option<f64>) {
+    let mut shown = value.unwrap_or(-1.0);
+    or_usual(ui, label, &mut shown, ("as usual", " mm"), -1.0..=LARGEST_MM);
+    *value = (shown >= 0.0).then_some(shown);
 }
 
 /// A number whose least value stands for what is usual, and is shown as that in words.

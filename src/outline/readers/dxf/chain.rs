@@ -1,116 +1,261 @@
 //! Lines that meet end to end become closed outlines.
+//!
+//! Ends that lie at one place are joined first, of several the pair that goes on most nearly straight; then what is left, the nearest ends
+//! first, within the tolerance. So a large tolerance does no harm where lines do meet.
 
 use crate::outline::{Point, polygon};
 use std::collections::BTreeMap;
 
-/// Ends this near each other meet, as a fraction of the drawing's size: the gaps that CAD programs leave.
-const GAP_FRACTION: f64 = 1e-4;
+/// Ends this near each other lie at one place, as a fraction of the drawing's size: the gaps that CAD programs leave.
+const SAME_FRACTION: f64 = 1e-4;
+/// Ends this near each other meet unless asked otherwise, as a fraction of the drawing's size: 4 mm on 200 mm.
+pub(super) const JOIN_FRACTION: f64 = 0.02;
+/// A line and its copy lie so near each other all along, as a fraction of the drawing's size and of their length.
+const COPY_FRACTION: f64 = 5e-4;
+const COPY_OF_LENGTH: f64 = 0.05;
+/// A line whose own ends meet is at least so many times as long as they are apart.
+const LOOP: f64 = 3.0;
+/// Pairs of ends that are compared at most.
+const MAX_PAIRS: usize = 4_000_000;
 
-/// Closed outlines, and how many lines belong to none.
+/// Closed outlines, and what became of the other lines.
+#[derive(Default)]
 pub(super) struct Closed {
     pub contours: Vec<Vec<Point>>,
+    /// Lines that belong to none.
     pub open: usize,
+    /// Places where ends did not quite meet, and the farthest that they were apart.
+    pub joined: usize,
+    pub farthest: f64,
+    /// Lines that were there before.
+    pub copies: usize,
+    /// How far apart the nearest ends are that stay loose.
+    pub nearest_loose: Option<f64>,
 }
 
-/// Joins lines into closed outlines. Of two equal outlines one is dropped: drawn twice is not a hole.
-pub(super) fn closed(lines: Vec<(Vec<Point>, bool)>, size: f64) -> Closed {
-    let gap = GAP_FRACTION * size;
-    let mut contours = Vec::new();
+/// Joins lines into closed outlines, across gaps up to `join`.
+pub(super) fn closed(lines: Vec<(Vec<Point>, bool)>, size: f64, join: f64) -> Closed {
+    let same = (SAME_FRACTION * size).min(join.max(f64::MIN_POSITIVE));
+    let mut result = Closed::default();
     let mut open: Vec<Vec<Point>> = Vec::new();
     for (line, closed) in lines {
         let (Some(&first), Some(&last)) = (line.first(), line.last()) else { continue };
-        if closed || (line.len() > 3 && polygon::length(first, last) <= gap) {
-            contours.push(line);
-        } else if line.len() >= 2 && polygon::perimeter(&line) > gap {
+        if closed || (line.len() > 3 && polygon::length(first, last) <= same) {
+            result.contours.push(line);
+        } else if line.len() >= 2 && length(&line) > same {
             open.push(line);
         }
     }
-    let mut ends = Ends::new(&open, gap);
+    result.copies = drop_copies(&mut open, COPY_FRACTION * size);
+    let mut partner: Vec<Option<(usize, f64)>> = vec![None; 2 * open.len()];
+    matched(&open, &mut partner, same, true);
+    matched(&open, &mut partner, join, false);
+    chains(&open, &partner, same, &mut result);
+    result.contours.retain(|contour| contour.len() >= 3);
+    result
+}
+
+fn length(line: &[Point]) -> f64 {
+    line.windows(2).map(|pair| polygon::length(pair[0], pair[1])).sum()
+}
+
+/// Drops lines that lie on earlier ones from end to end, either way round.
+fn drop_copies(open: &mut Vec<Vec<Point>>, reach: f64) -> usize {
+    let mut kept: Vec<(Vec<Point>, Point, f64)> = Vec::new();
+    let mut cells: BTreeMap<[i64; 2], Vec<usize>> = BTreeMap::new();
+    let cell = |p: Point| p.map(|v| (v / reach).floor() as i64);
+    let before = open.len();
+    for line in open.drain(..) {
+        let long = length(&line);
+        let middle = along(&line, 0.5 * long);
+        let near = reach.min(COPY_OF_LENGTH * long);
+        let [x, y] = cell(middle);
+        let neighbours = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| [x.saturating_add(dx), y.saturating_add(dy)]));
+        let is_copy = neighbours.filter_map(|at| cells.get(&at)).flatten().any(|&k: &usize| {
+            let (other, at, other_long) = &kept[k];
+            polygon::length(*at, middle) <= near
+                && (long - other_long).abs() <= 2.0 * near
+                && [false, true].into_iter().any(|back| follows(&line, other, long, *other_long, back, near))
+        });
+        if !is_copy {
+            cells.entry([x, y]).or_default().push(kept.len());
+            kept.push((line, middle, long));
+        }
+    }
+    open.extend(kept.into_iter().map(|(line, ..)| line));
+    before - open.len()
+}
+
+/// Whether two lines lie near each other at their ends and between.
+fn follows(a: &[Point], b: &[Point], a_long: f64, b_long: f64, back: bool, near: f64) -> bool {
+    [0.0, 0.25, 0.75, 1.0].into_iter().all(|t| {
+        let u = if back { 1.0 - t } else { t };
+        polygon::length(along(a, t * a_long), along(b, u * b_long)) <= near
+    })
+}
+
+/// The point of a line after some of its length.
+fn along(line: &[Point], mut way: f64) -> Point {
+    for pair in line.windows(2) {
+        let side = polygon::length(pair[0], pair[1]);
+        if way <= side && side > 0.0 {
+            return polygon::lerp(pair[0], pair[1], way / side);
+        }
+        way -= side;
+    }
+    line[line.len() - 1]
+}
+
+/// End `2 k` is the first point of line `k`, `2 k + 1` its last; also the point that the line comes from there.
+fn end(open: &[Vec<Point>], e: usize) -> (Point, Point) {
+    let line = &open[e / 2];
+    if e.is_multiple_of(2) { (line[0], line[1]) } else { (line[line.len() - 1], line[line.len() - 2]) }
+}
+
+/// Joins loose ends within `reach`: the straightest pairs first, or the nearest.
+fn matched(open: &[Vec<Point>], partner: &mut [Option<(usize, f64)>], reach: f64, by_turn: bool) {
+    let cell = |p: Point| p.map(|v| (v / reach).floor() as i64);
+    let loose: Vec<usize> = (0..partner.len()).filter(|&e| partner[e].is_none()).collect();
+    let mut cells: BTreeMap<[i64; 2], Vec<usize>> = BTreeMap::new();
+    for &e in &loose {
+        cells.entry(cell(end(open, e).0)).or_default().push(e);
+    }
+    let mut pairs: Vec<(f64, usize, usize, f64)> = Vec::new();
+    for &e in &loose {
+        let (p, p_from) = end(open, e);
+        let [x, y] = cell(p);
+        for at in (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| [x.saturating_add(dx), y.saturating_add(dy)])) {
+            for &f in cells.get(&at).into_iter().flatten().filter(|&&f| f > e) {
+                let (q, q_from) = end(open, f);
+                let away = polygon::length(p, q);
+                if away > reach || (e / 2 == f / 2 && length(&open[e / 2]) < LOOP * away.max(reach * 1e-3)) {
+                    continue;
+                }
+                let key = if by_turn { turn(p_from, p, q_from) } else { away };
+                pairs.push((key, e, f, away));
+            }
+        }
+        if pairs.len() > MAX_PAIRS {
+            break;
+        }
+    }
+    pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2)));
+    for (_, e, f, away) in pairs {
+        if partner[e].is_none() && partner[f].is_none() {
+            (partner[e], partner[f]) = (Some((f, away)), Some((e, away)));
+        }
+    }
+}
+
+/// How far from straight on it goes from `a` over `p` to `b`, rad.
+fn turn(a: Point, p: Point, b: Point) -> f64 {
+    let (u, v) = ([p[0] - a[0], p[1] - a[1]], [b[0] - p[0], b[1] - p[1]]);
+    (u[0] * v[1] - u[1] * v[0]).atan2(u[0] * v[0] + u[1] * v[1]).abs()
+}
+
+/// Follows joined ends around.
+fn chains(open: &[Vec<Point>], partner: &[Option<(usize, f64)>], same: f64, result: &mut Closed) {
     let mut used = vec![false; open.len()];
-    let mut left = 0;
+    let mut loose: Vec<Point> = Vec::new();
     for start in 0..open.len() {
-        if std::mem::replace(&mut used[start], true) {
+        if used[start] {
             continue;
         }
-        let mut chain = open[start].clone();
-        let mut parts = 1;
-        while let (Some(&first), Some(&last)) = (chain.first(), chain.last()) {
-            if chain.len() > 3 && polygon::length(first, last) <= gap {
-                break;
-            }
-            let Some((next, backwards)) = ends.take(last, &open, &mut used) else { break };
+        let (mut chain, mut parts, mut gaps) = (Vec::new(), 0, Vec::new());
+        // Enters a line at one end and leaves at the other.
+        let mut enter = 2 * start;
+        let is_closed = loop {
+            used[enter / 2] = true;
             parts += 1;
-            if backwards {
-                chain.extend(open[next].iter().rev().skip(1));
+            let line = &open[enter / 2];
+            if enter.is_multiple_of(2) {
+                chain.extend(line)
             } else {
-                chain.extend(open[next].iter().skip(1));
+                chain.extend(line.iter().rev())
             }
+            let Some((next, away)) = partner[enter ^ 1] else { break false };
+            gaps.push(away);
+            if next == 2 * start {
+                break true;
+            }
+            if used[next / 2] {
+                break false;
+            }
+            enter = next;
+        };
+        if is_closed && chain.len() > 3 {
+            let wide: Vec<f64> = gaps.into_iter().filter(|away| *away > same).collect();
+            result.joined += wide.len();
+            result.farthest = wide.into_iter().fold(result.farthest, f64::max);
+            chain.dedup_by(|a, b| polygon::length(*a, *b) <= 1e-3 * same);
+            result.contours.push(chain);
+            continue;
         }
-        let meets = chain.first().zip(chain.last()).is_some_and(|(a, b)| polygon::length(*a, *b) <= gap);
-        if meets && chain.len() > 3 { contours.push(chain) } else { left += parts }
+        // The other way from where it began.
+        let mut enter = 2 * start;
+        while let Some((next, _)) = partner[enter].filter(|(next, _)| !used[next / 2]) {
+            used[next / 2] = true;
+            parts += 1;
+            enter = next ^ 1;
+        }
+        result.open += parts;
+        loose.extend([chain[chain.len() - 1], end(open, enter).0]);
     }
-    contours.retain(|c| c.len() >= 3);
-    Closed { contours: without_twins(contours, gap), open: left }
+    const COMPARED: usize = 400;
+    let some = &loose[..loose.len().min(COMPARED)];
+    let pairs = some.iter().enumerate().flat_map(|(k, p)| some[k + 1..].iter().map(|q| polygon::length(*p, *q)));
+    result.nearest_loose = pairs.min_by(f64::total_cmp);
 }
 
-/// The ends of lines in square cells as wide as a gap.
-struct Ends {
-    cells: BTreeMap<(i64, i64), Vec<usize>>,
-    gap: f64,
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-impl Ends {
-    fn new(open: &[Vec<Point>], gap: f64) -> Self {
-        let mut ends = Self { cells: BTreeMap::new(), gap };
-        for (k, line) in open.iter().enumerate() {
-            for p in [line[0], line[line.len() - 1]] {
-                let cell = ends.cell(p);
-                ends.cells.entry(cell).or_default().push(k);
+    /// The sides of a hexagon of size 100 with all their ends moved by a little, in a mixed order and direction.
+    fn hexagon(off: f64) -> Vec<(Vec<Point>, bool)> {
+        let corner = |i: usize| {
+            let a = std::f64::consts::TAU * i as f64 / 6.0;
+            [50.0 * a.cos(), 50.0 * a.sin()]
+        };
+        let side = |i: usize| {
+            let (a, b) = (corner(i), corner(i + 1));
+            let away = |p: Point, s: f64| [p[0] + s * off, p[1] - s * off];
+            let line = vec![away(a, 0.5), away(b, -0.5)];
+            (if i % 2 == 0 { line } else { line.into_iter().rev().collect() }, false)
+        };
+        [3, 0, 5, 1, 4, 2].map(side).to_vec()
+    }
+
+    #[test]
+    fn ends_are_joined_within_the_tolerance_and_told() {
+        for (off, join, contours) in [(0.0, 2.0, 1), (0.3, 2.0, 1), (0.3, 0.1, 0), (3.0, 2.0, 0), (3.0, 5.0, 1)] {
+            let found = closed(hexagon(off), 100.0, join);
+            assert_eq!((found.contours.len(), found.open), (contours, 6 * (1 - contours)), "{off} {join}");
+            if contours == 1 {
+                assert!((polygon::signed_area(&found.contours[0]).abs() / 6495.2 - 1.0).abs() < 0.002 + 0.02 * off);
+                assert_eq!(found.joined, if off > 0.0 { 6 } else { 0 });
+                assert!((found.farthest - off * 2_f64.sqrt()).abs() < 1e-9);
+            } else {
+                assert!((found.nearest_loose.unwrap() - off * 2_f64.sqrt()).abs() < 1e-9);
             }
         }
-        ends
     }
 
-    fn cell(&self, p: Point) -> (i64, i64) {
-        ((p[0] / self.gap).floor() as i64, (p[1] / self.gap).floor() as i64)
+    #[test]
+    fn lines_drawn_twice_count_once() {
+        let mut twice = hexagon(0.0);
+        twice.extend(hexagon(0.0).into_iter().map(|(line, closed)| (line.into_iter().rev().collect(), closed)));
+        twice.extend(hexagon(0.01).into_iter().take(2));
+        let found = closed(twice, 100.0, 2.0);
+        assert_eq!((found.contours.len(), found.open, found.copies), (1, 0, 8));
     }
 
-    /// The unused line with the end nearest to `p`, and whether that is its last point.
-    fn take(&mut self, p: Point, open: &[Vec<Point>], used: &mut [bool]) -> Option<(usize, bool)> {
-        let (x, y) = self.cell(p);
-        let mut best: Option<(f64, usize, bool)> = None;
-        for dx in -1..=1 {
-            for dy in -1..=1 {
-                let Some(cell) = self.cells.get_mut(&(x.saturating_add(dx), y.saturating_add(dy))) else { continue };
-                cell.retain(|&k| !used[k]);
-                for &k in cell.iter() {
-                    let line = &open[k];
-                    for (end, backwards) in [(line[0], false), (line[line.len() - 1], true)] {
-                        let away = polygon::length(p, end);
-                        if away <= self.gap && best.is_none_or(|b| away < b.0) {
-                            best = Some((away, k, backwards));
-                        }
-                    }
-                }
-            }
-        }
-        let (_, k, backwards) = best?;
-        used[k] = true;
-        Some((k, backwards))
+    #[test]
+    fn where_three_lines_meet_the_straight_way_goes_on() {
+        let mut lines = hexagon(0.0);
+        lines.push((vec![[50.0, 0.0], [90.0, 1.0]], false));
+        lines.push((vec![[-50.0, 0.0], [0.0, 0.0]], false));
+        let found = closed(lines, 100.0, 2.0);
+        assert_eq!((found.contours.len(), found.open), (1, 2));
     }
-}
-
-/// Without outlines that have the area and box of an earlier one.
-fn without_twins(contours: Vec<Vec<Point>>, gap: f64) -> Vec<Vec<Point>> {
-    let mut seen: BTreeMap<[i64; 5], ()> = BTreeMap::new();
-    let mut kept = Vec::with_capacity(contours.len());
-    for contour in contours {
-        let (low, high) = polygon::bounding_box(&contour);
-        let area = polygon::signed_area(&contour).abs().sqrt();
-        let key = [low[0], low[1], high[0], high[1], area].map(|v| (v / gap).round() as i64);
-        if seen.insert(key, ()).is_none() {
-            kept.push(contour);
-        }
-    }
-    kept
 }

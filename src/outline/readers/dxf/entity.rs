@@ -1,6 +1,6 @@
 //! The pairs of lines that a DXF file is made of, and the entities they make.
 
-use crate::outline::Point;
+use super::place::Point3;
 
 /// The pairs of a file: a code and a value, each on a line of its own.
 pub(super) struct Tags<'a> {
@@ -51,9 +51,24 @@ impl<'a> Entity<'a> {
         self.text(code)?.parse().ok().filter(|v: &f64| v.is_finite())
     }
 
-    /// The point whose x has this code, and y that plus ten.
-    pub fn point(&self, code: i32) -> Point {
-        [code, code + 10].map(|code| self.number(code).unwrap_or(0.0))
+    /// The point whose x has this code, and y and z that plus ten and twenty.
+    pub fn point(&self, code: i32) -> Point3 {
+        [code, code + 10, code + 20].map(|code| self.number(code).unwrap_or(0.0))
+    }
+
+    /// The extrusion direction, z where none is stated.
+    pub fn normal(&self) -> Point3 {
+        [(210, 0.0), (220, 0.0), (230, 1.0)].map(|(code, usual)| self.number(code).unwrap_or(usual))
+    }
+
+    /// Whether its points are in the coordinates of its own plane; those of all others are the world's.
+    pub fn is_flat(&self) -> bool {
+        match self.kind {
+            "CIRCLE" | "ARC" | "LWPOLYLINE" | "SOLID" | "TRACE" | "INSERT" | "HATCH" => true,
+            // Flag 8: a polyline in space.
+            "POLYLINE" => !self.has_flag(8),
+            _ => false,
+        }
     }
 
     pub fn has_flag(&self, bit: i64) -> bool {
@@ -67,8 +82,18 @@ impl<'a> Entity<'a> {
     }
 
     /// All points whose x has this code.
-    pub fn points(&self, code: i32) -> Vec<Point> {
-        self.numbers(code).into_iter().zip(self.numbers(code + 10)).map(|(x, y)| [x, y]).collect()
+    pub fn points(&self, code: i32) -> Vec<Point3> {
+        let mut points: Vec<Point3> = Vec::new();
+        for &(at, value) in &self.tags {
+            let Some(value) = value.parse().ok().filter(|v: &f64| v.is_finite()) else { continue };
+            match (at - code, points.last_mut()) {
+                (0, _) => points.push([value, 0.0, 0.0]),
+                (10, Some(last)) => last[1] = value,
+                (20, Some(last)) => last[2] = value,
+                _ => {}
+            }
+        }
+        points
     }
 }
 

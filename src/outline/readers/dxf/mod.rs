@@ -1,36 +1,41 @@
 //! A silhouette from a DXF drawing: the areas inside its closed outlines.
 //!
-//! Closed polylines (with arcs), circles, ellipses and splines bound areas, and so do lines and arcs that meet end to end.
-//! An outline within another is a hole. Blocks are inserted where they are used. Where layers are chosen, the entities on
-//! them count alone; what lies on layer 0 of a block lies on the layer of its insertion. `$INSUNITS` tells the unit; without it a
-//! plain number is a millimetre. The format is pairs of lines, a code and a value, and is read here directly: the known
-//! libraries build a model of the whole CAD document, allocate what a header tells them, and do not bound nested blocks.
-//! Codes as in Autodesk's DXF Reference.
+//! Closed polylines (with arcs), circles, ellipses and splines bound areas, and so do lines and arcs whose ends meet, nearly at least
+//! (`chain`). Outlines that cross are one area, an outline within another is a hole, copies count once, a frame is left out (`areas`). Blocks
+//! are inserted where they are used; where nothing is drawn but in blocks, as in sewing patterns, a block is read by its name. What is
+//! hidden does not count. Where layers are chosen, the entities on them count alone; what lies on layer 0 of a block lies on the layer of
+//! its insertion. Hatches count where nothing else is closed. `$INSUNITS` tells the unit; without it a plain number is a millimetre.
+//!
+//! The format is pairs of lines, a code and a value (or the same in bytes), and is read here directly, codes as in Autodesk's DXF Reference.
+//! DXF_LIBRARIES
 
+mod areas;
+mod binary;
 mod chain;
 mod curves;
+mod draw;
 mod entity;
+mod file;
+mod hatch;
 mod place;
+mod through;
 
 use super::finish::finish;
 use super::{OutlineReader, Painting, ReadingOption, layers};
-use crate::outline::{Import, Imported, Note, OutlineError, Point, regions};
+use crate::outline::even::{self, EVEN_FRACTION};
+use crate::outline::{Import, Imported, Note, OutlineError, Point};
 use curves::Curve;
-use entity::{Entity, Tags};
-use i_overlay::core::fill_rule::FillRule;
-use place::Place;
-use std::collections::{BTreeMap, BTreeSet};
+use draw::{CUT_LINE, Drawn, LAYER_0};
+use file::File;
+use place::{Place, Point3};
+use std::collections::BTreeSet;
 
-/// The layer that every drawing has; in a block it is that of the insertion.
-const LAYER_0: &str = "0";
-/// Deepest nesting of blocks.
-const MAX_DEPTH: usize = 12;
-/// Most entities after blocks are inserted.
-const MAX_ENTITIES: usize = 300_000;
 /// Most points of all curves.
 const MAX_POINTS: usize = 2_000_000;
 /// Farthest that a polygon may lie from its curve, as a fraction of the drawing's size.
 const FLATTEN_FRACTION: f64 = 2e-5;
+/// A drawing whose extent along x or y is less than this part of that along z was drawn in a plane that stands upright.
+const UPRIGHT: f64 = 1e-6;
 
 pub(super) struct Dxf;
 
@@ -48,7 +53,7 @@ impl OutlineReader for Dxf {
     }
 
     fn options(&self) -> &'static [ReadingOption] {
-        &[ReadingOption::Layers, ReadingOption::Unit]
+        &[ReadingOption::Layers, ReadingOption::Unit, ReadingOption::Background, ReadingOption::Blocks]
     }
 
     fn read(&self, bytes: &[u8], import: &Import) -> Result<Imported, OutlineError> {
@@ -58,12 +63,12 @@ impl OutlineReader for Dxf {
 
 /// Whether the bytes look like a DXF drawing.
 fn is_dxf(bytes: &[u8]) -> bool {
-    if bytes.starts_with(BINARY) {
+    if bytes.starts_with(binary::SENTINEL) {
         return true;
     }
     // Comments (code 999) may stand before the first section.
     let head = String::from_utf8_lossy(&bytes[..bytes.len().min(2000)]).into_owned();
-    let mut lines = head.lines().map(str::trim).filter(|line| !line.is_empty());
+    let mut lines = head.trim_start_matches('\u{feff}').lines().map(str::trim).filter(|line| !line.is_empty());
     while let (Some(code), Some(value)) = (lines.next(), lines.next()) {
         match code {
             "0" => return value == "SECTION",
@@ -74,35 +79,137 @@ fn is_dxf(bytes: &[u8]) -> bool {
     false
 }
 
-const BINARY: &[u8] = b"AutoCAD Binary DXF";
-
 fn painting(bytes: &[u8], import: &Import) -> Result<Painting, OutlineError> {
     let unreadable = |reason: &str| OutlineError::Unreadable { format: "DXF", reason: reason.into() };
-    if bytes.starts_with(BINARY) {
-        return Err(unreadable("binary DXF; save it as ASCII DXF"));
-    }
-    let text = String::from_utf8_lossy(bytes);
+    let text = file::text(bytes).map_err(unreadable)?;
     let file = File::read(&text).map_err(unreadable)?;
-    let chosen: Vec<String> = import.layers.iter().map(|name| name.to_lowercase()).collect();
-    let mut reader = Reader {
-        file: &file,
-        chosen: &chosen,
-        layers: BTreeMap::new(),
-        curves: Vec::new(),
-        entities: 0,
-        skipped: BTreeMap::new(),
-    };
-    reader.draw(&file.entities, Place::IDENTITY, LAYER_0, 0)?;
-    let Reader { curves, skipped, layers, .. } = reader;
-    let there: BTreeSet<String> = layers.keys().map(|name| name.to_lowercase()).collect();
-    layers::check(&import.layers, |name| there.contains(&name.to_lowercase()), layers.keys().copied())?;
-    let size = extent(&curves);
-    if !(size.is_finite() && size > 0.0) {
-        return Err(OutlineError::NothingPainted("the DXF has no lines, arcs, polylines or splines"));
+    let mut painting = Painting::default();
+    let mut chosen: Vec<String> = import.layers.iter().map(|name| name.to_lowercase()).collect();
+    let blocks = blocks(&file, import, &mut chosen)?;
+    let mut drawn = Drawn::new(&file, &chosen);
+    if blocks.is_empty() {
+        drawn.draw(&file.entities, Place::IDENTITY, LAYER_0, 0)?;
     }
+    for name in &blocks {
+        if let Some((_, content)) = file.blocks.get(name) {
+            drawn.draw(content, Place::IDENTITY, LAYER_0, 1)?;
+        }
+    }
+    if import.blocks.is_empty() && !blocks.is_empty() {
+        painting.notes.push(Note::Blocks(blocks.iter().map(|name| (*name).to_owned()).collect()));
+    }
+    let there: BTreeSet<String> = drawn.layers.keys().map(|name| name.to_lowercase()).collect();
+    layers::check(&import.layers, |name| there.contains(&name.to_lowercase()), drawn.layers.keys().copied())?;
+    closed_areas(&mut drawn, import, &file, &mut painting)?;
+    if drawn.hidden > 0 {
+        painting.notes.push(Note::Hidden { layers: drawn.hidden_layers(), count: drawn.hidden });
+    }
+    for (kind, count) in &drawn.skipped {
+        painting.notes.push(Note::LeftOut { count: *count, kind: kind.clone() });
+    }
+    if import.unit_mm.or(file.unit_mm).is_none() {
+        painting.notes.push(Note::NoUnit("the DXF"));
+    }
+    Ok(painting)
+}
+
+/// The blocks that are read in place of the drawing: those asked for, or the only one where nothing else is drawn. With the layer of cut
+/// lines, where these blocks are pieces of a sewing pattern.
+fn blocks<'a>(file: &'a File<'a>, import: &Import, chosen: &mut Vec<String>) -> Result<Vec<&'a str>, OutlineError> {
+    let has_curves =
+        |content: &[entity::Entity]| content.iter().any(|entity| entity.kind == "HATCH" || Curve::of(entity).is_some());
+    let pieces: Vec<&str> =
+        file.blocks.iter().filter(|(_, (_, content))| has_curves(content)).map(|(name, _)| *name).collect();
+    let named = |name: &&&str| import.blocks.iter().any(|asked| asked.eq_ignore_ascii_case(name));
+    for asked in &import.blocks {
+        if !file.blocks.keys().any(|name| asked.eq_ignore_ascii_case(name)) {
+            let blocks = if pieces.is_empty() { "no blocks".to_owned() } else { pieces.join(", ") };
+            return Err(OutlineError::NoSuchBlock { name: asked.clone(), blocks });
+        }
+    }
+    let asked: Vec<&str> = file.blocks.keys().filter(named).copied().collect();
+    let draws = has_curves(&file.entities) || file.entities.iter().any(|entity| entity.kind == "INSERT");
+    let read = match (asked.is_empty(), draws, pieces.len()) {
+        (false, ..) => asked,
+        (true, true, _) | (true, false, 0) => return Ok(Vec::new()),
+        (true, false, 1) => pieces,
+        (true, false, _) => return Err(OutlineError::BlocksAlone(pieces.join(", "))),
+    };
+    let on_cut_line = |name: &&str| {
+        let content = &file.blocks[*name].1;
+        let mut curves = content.iter().filter(|entity| Curve::of(entity).is_some());
+        curves.any(|entity| entity.text(8) == Some(CUT_LINE))
+    };
+    if chosen.is_empty() && !draws && read.iter().all(on_cut_line) {
+        chosen.push(CUT_LINE.to_owned());
+    }
+    Ok(read)
+}
+
+/// Closes the curves and fills them.
+fn closed_areas(drawn: &mut Drawn, import: &Import, file: &File, painting: &mut Painting) -> Result<(), OutlineError> {
+    let none = OutlineError::NothingPainted("the DXF has no lines, arcs, polylines or splines");
+    let hidden = || OutlineError::HiddenAlone(drawn.hidden_layers().join(", "));
+    let lines = if drawn.curves.is_empty() { Vec::new() } else { flat(&drawn.curves)? };
+    let hatched = if drawn.hatched.is_empty() { Vec::new() } else { flat(&drawn.hatched)? };
+    let size = extent(if lines.is_empty() { &hatched } else { &lines });
+    if !(size.is_finite() && size > 0.0) {
+        return Err(if drawn.hidden > 0 { hidden() } else { none });
+    }
+    painting.unit_mm = import.unit_mm.or(file.unit_mm).unwrap_or(1.0);
+    let (lines, upright) = projected(lines);
+    let (hatched, _) = projected(hatched);
+    // What a mm is in the drawing: its height is not known before it is read.
+    let height = || {
+        let (low, high) = lines
+            .iter()
+            .flat_map(|line| &line.0)
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p[1]), h.max(p[1])));
+        high - low
+    };
+    let mm = import.height_mm.map_or(painting.unit_mm, |asked| asked / height());
+    let join = import.join_mm.map_or(chain::JOIN_FRACTION * size, |join| join / mm);
+    let mut found = chain::closed(lines, size, join);
+    let (open, nearest) = (found.open, found.nearest_loose);
+    if found.contours.is_empty() && !hatched.is_empty() {
+        found = chain::Closed { open, ..chain::closed(hatched, size, join) };
+        painting.notes.push(Note::Hatches(drawn.hatches));
+    } else if drawn.hatches > 0 {
+        drawn.skipped.insert("hatch".to_owned(), drawn.hatches);
+    }
+    if found.contours.is_empty() {
+        let gap = nearest.unwrap_or(f64::INFINITY);
+        return Err(OutlineError::NotClosed { lines: open, gap });
+    }
+    if import.smooth_mm != Some(0.0) {
+        painting.evened = even::evened(&mut found.contours, EVEN_FRACTION * size);
+    }
+    let areas = areas::of(found.contours, size, import.background)?;
+    painting.notes.extend(areas.notes);
+    painting.asides = areas.asides;
+    painting.shapes = areas.shapes;
+    if found.joined > 0 {
+        painting.notes.push(Note::Joined { count: found.joined, farthest_mm: found.farthest * mm });
+    }
+    if found.copies + areas.copies > 0 {
+        painting.notes.push(Note::Copies(found.copies + areas.copies));
+    }
+    if found.open > 0 {
+        painting.notes.push(Note::OpenLines(found.open));
+    }
+    if let Some(along) = upright {
+        painting.notes.push(Note::Upright(along));
+    }
+    Ok(())
+}
+
+/// The curves as polygons in space, and whether they are closed by definition.
+fn flat(curves: &[(Curve, Place)]) -> Result<Vec<(Vec<Point3>, bool)>, OutlineError> {
+    let hull = curves.iter().flat_map(|(curve, place)| curve.hull().into_iter().map(|p| place.at(p)));
+    let size = extent(&[(hull.collect(), false)]);
     let mut points = 0;
     let mut lines = Vec::with_capacity(curves.len());
-    for (curve, place) in &curves {
+    for (curve, place) in curves {
         let line = curve.flat(place, FLATTEN_FRACTION * size);
         points += line.len();
         if points > MAX_POINTS {
@@ -110,201 +217,32 @@ fn painting(bytes: &[u8], import: &Import) -> Result<Painting, OutlineError> {
         }
         lines.push((line, curve.is_closed()));
     }
-    let chain::Closed { contours, open } = chain::closed(lines, size);
-    if contours.is_empty() {
-        return Err(OutlineError::NothingPainted("the DXF has no closed outline; its lines do not meet"));
-    }
-    let mut notes = Vec::new();
-    if open > 0 {
-        notes.push(Note::OpenLines(open));
-    }
-    for (kind, count) in skipped {
-        notes.push(Note::LeftOut { count, kind: kind.to_string() });
-    }
-    let unit_mm = match (import.unit_mm, file.unit_mm) {
-        (Some(mm), _) | (None, Some(mm)) => mm,
-        (None, None) => {
-            notes.push(Note::NoUnit("the DXF"));
-            1.0
-        }
+    Ok(lines)
+}
+
+/// The longest side of the box around all.
+fn extent(lines: &[(Vec<Point3>, bool)]) -> f64 {
+    (0..3).map(|axis| span(lines, axis)).fold(0.0, f64::max)
+}
+
+fn span(lines: &[(Vec<Point3>, bool)], axis: usize) -> f64 {
+    let all = lines.iter().flat_map(|(line, _)| line);
+    let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p[axis]), h.max(p[axis])));
+    if low <= high { high - low } else { 0.0 }
+}
+
+/// Seen from above; or from the front or the side, where nothing is seen from above. Tells from where then.
+fn projected(lines: Vec<(Vec<Point3>, bool)>) -> (Vec<(Vec<Point>, bool)>, Option<&'static str>) {
+    let [x, y, z] = [0, 1, 2].map(|axis| span(&lines, axis));
+    let (axes, along) = if y < UPRIGHT * z {
+        ([0, 2], Some("the front (the x-z plane)"))
+    } else if x < UPRIGHT * z {
+        ([1, 2], Some("the side (the y-z plane)"))
+    } else {
+        ([0, 1], None)
     };
-    Ok(Painting { shapes: regions::resolve(&contours, FillRule::EvenOdd)?, unit_mm, notes })
-}
-
-/// Size of the box around the control points of all curves.
-fn extent(curves: &[(Curve, Place)]) -> f64 {
-    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-    for (curve, place) in curves {
-        for p in curve.hull() {
-            let p = place.at(p);
-            for axis in 0..2 {
-                low[axis] = low[axis].min(p[axis]);
-                high[axis] = high[axis].max(p[axis]);
-            }
-        }
-    }
-    (high[0] - low[0]).max(high[1] - low[1])
-}
-
-/// The parts of a drawing that matter.
-struct File<'a> {
-    unit_mm: Option<f64>,
-    /// Name to base point and content.
-    blocks: BTreeMap<&'a str, (Point, Vec<Entity<'a>>)>,
-    entities: Vec<Entity<'a>>,
-}
-
-impl<'a> File<'a> {
-    fn read(text: &'a str) -> Result<Self, &'static str> {
-        let mut tags = Tags::new(text);
-        let mut file = Self { unit_mm: None, blocks: BTreeMap::new(), entities: Vec::new() };
-        let mut ended = false;
-        while let Some((code, value)) = tags.next_tag()? {
-            match (code, value) {
-                (0, "EOF") => {
-                    ended = true;
-                    break;
-                }
-                (2, "HEADER") => file.unit_mm = unit(&mut tags)?,
-                (2, "BLOCKS") => file.read_blocks(&mut tags)?,
-                (2, "ENTITIES") => file.entities = entity::read(&mut tags, "ENDSEC")?,
-                _ => {}
-            }
-        }
-        if ended || !file.entities.is_empty() { Ok(file) } else { Err("the file ends early or is no drawing") }
-    }
-
-    fn read_blocks(&mut self, tags: &mut Tags<'a>) -> Result<(), &'static str> {
-        while let Some((code, value)) = tags.next_tag()? {
-            match (code, value) {
-                (0, "ENDSEC") => return Ok(()),
-                (0, "BLOCK") => {
-                    let head = entity::one(tags, "BLOCK")?;
-                    let content = entity::read(tags, "ENDBLK")?;
-                    let name = head.text(2).unwrap_or_default();
-                    self.blocks.insert(name, (head.point(10), content));
-                }
-                _ => {}
-            }
-        }
-        Ok(())
-    }
-}
-
-/// The unit that the header names, mm. 0 is "none", 1 inch, 2 foot, 4 mm, 5 cm, 6 m and so on (`$INSUNITS`).
-fn unit(tags: &mut Tags) -> Result<Option<f64>, &'static str> {
-    let mut unit = None;
-    while let Some((code, value)) = tags.next_tag()? {
-        match (code, value) {
-            (0, "ENDSEC") => break,
-            (9, "$INSUNITS") => {
-                unit = match tags.next_tag()? {
-                    Some((70, value)) => match value.parse::<i64>() {
-                        Ok(1) => Some(25.4),
-                        Ok(2) => Some(304.8),
-                        Ok(4) => Some(1.0),
-                        Ok(5) => Some(10.0),
-                        Ok(6) => Some(1000.0),
-                        Ok(8) => Some(2.54e-5),
-                        Ok(9) => Some(0.0254),
-                        Ok(10) => Some(914.4),
-                        Ok(13) => Some(1e-3),
-                        Ok(14) => Some(100.0),
-                        _ => None,
-                    },
-                    _ => None,
-                }
-            }
-            _ => {}
-        }
-    }
-    Ok(unit)
-}
-
-struct Reader<'a> {
-    file: &'a File<'a>,
-    /// The layers that count, in lower case, as names of layers have no case; empty for all.
-    chosen: &'a [String],
-    /// The layers that something lies on, and whether they count.
-    layers: BTreeMap<&'a str, bool>,
-    curves: Vec<(Curve, Place)>,
-    entities: usize,
-    /// What cannot bound an area, by kind.
-    skipped: BTreeMap<String, usize>,
-}
-
-impl<'a> Reader<'a> {
-    /// Entities that stand for something on `around` where they lie on layer 0.
-    fn draw(
-        &mut self,
-        entities: &'a [Entity<'a>],
-        place: Place,
-        around: &'a str,
-        depth: usize,
-    ) -> Result<(), OutlineError> {
-        for entity in entities {
-            self.entities += 1;
-            if self.entities > MAX_ENTITIES || self.curves.len() > MAX_ENTITIES {
-                return Err(OutlineError::TooComplex("has more than 300 000 entities"));
-            }
-            let layer = entity.text(8).filter(|name| *name != LAYER_0).unwrap_or(around);
-            if entity.kind == "INSERT" {
-                self.insert(entity, place, layer, depth)?;
-                continue;
-            }
-            if !self.counts(layer) {
-                continue;
-            }
-            // An extrusion that points down mirrors the entity (the "arbitrary axis" of the reference).
-            let mirrored = entity.number(230).is_some_and(|z| z < 0.0) && entity.kind != "LINE";
-            let place = if mirrored { place.after(&Place([-1.0, 0.0, 0.0, 1.0, 0.0, 0.0])) } else { place };
-            match Curve::of(entity) {
-                Some(curve) => self.curves.push((curve, place)),
-                None if matches!(entity.kind, "ATTRIB" | "SEQEND" | "VERTEX" | "VIEWPORT" | "POINT") => {}
-                None => *self.skipped.entry(entity.kind.to_lowercase()).or_default() += 1,
-            }
-        }
-        Ok(())
-    }
-
-    /// Whether what lies on a layer counts.
-    fn counts(&mut self, layer: &'a str) -> bool {
-        let chosen = self.chosen;
-        *self.layers.entry(layer).or_insert_with(|| chosen.is_empty() || chosen.contains(&layer.to_lowercase()))
-    }
-
-    /// A block, scaled, turned and repeated in rows and columns.
-    fn insert(
-        &mut self,
-        entity: &'a Entity<'a>,
-        place: Place,
-        layer: &'a str,
-        depth: usize,
-    ) -> Result<(), OutlineError> {
-        if depth >= MAX_DEPTH {
-            return Err(OutlineError::TooComplex("has blocks nested more than twelve deep"));
-        }
-        let Some((base, content)) = entity.text(2).and_then(|name| self.file.blocks.get(name)) else { return Ok(()) };
-        let at = entity.point(10);
-        let scale = [41, 42].map(|code| entity.number(code).unwrap_or(1.0));
-        let (sin, cos) = entity.number(50).unwrap_or(0.0).to_radians().sin_cos();
-        let repeats = |code| entity.number(code).map_or(1, |n| n.clamp(1.0, 1e4) as usize);
-        let steps = [44, 45].map(|code| entity.number(code).unwrap_or(0.0));
-        for row in 0..repeats(71) {
-            for column in 0..repeats(70) {
-                let shift = [column as f64 * steps[0], row as f64 * steps[1]];
-                let turn = Place([cos, sin, -sin, cos, at[0], at[1]]);
-                let grow = Place([scale[0], 0.0, 0.0, scale[1], shift[0], shift[1]]);
-                let base = Place([1.0, 0.0, 0.0, 1.0, -base[0], -base[1]]);
-                self.draw(content, place.after(&turn).after(&grow).after(&base), layer, depth + 1)?;
-                self.entities += 1;
-                if self.entities > MAX_ENTITIES {
-                    return Err(OutlineError::TooComplex("has more than 300 000 entities"));
-                }
-            }
-        }
-        Ok(())
-    }
+    let flat = |line: Vec<Point3>| line.into_iter().map(|p| axes.map(|axis| p[axis])).collect();
+    (lines.into_iter().map(|(line, closed)| (flat(line), closed)).collect(), along)
 }
 
 #[cfg(test)]

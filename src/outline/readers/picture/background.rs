@@ -12,21 +12,33 @@ const SAMPLES: usize = 60_000;
 /// Coefficients over 1, x, y, x^2, x y, y^2 with x and y between -1 and 1.
 type Surface = [f64; 6];
 
-/// The distance of every pixel's colour from the background there, 0 for none, about 1 for black on white.
-pub(super) fn difference(pixels: &[[f32; 4]], width: usize, height: usize) -> Vec<f32> {
+/// A background, and the distance of every pixel's colour from it, 0 for none, about 1 for black on white.
+pub(super) struct Found {
+    pub difference: Vec<f32>,
+    /// Its colour in the middle of the picture, red, green and blue from 0 to 1.
+    pub colour: [f64; 3],
+}
+
+/// Finds the background by the rim of a picture, or of the part of it where `within` holds; elsewhere nothing differs from it.
+pub(super) fn find(pixels: &[[f32; 4]], width: usize, height: usize, within: Option<&[bool]>) -> Found {
     let basis = |k: usize| -> Surface {
         let x = 2.0 * ((k % width) as f64 + 0.5) / width as f64 - 1.0;
         let y = 2.0 * ((k / width) as f64 + 0.5) / height as f64 - 1.0;
         [1.0, x, y, x * x, x * y, y * y]
     };
     let rim = ((width.min(height) as f64 * RIM) as usize).max(1);
+    let counts = |k: usize| within.is_none_or(|within| within[k]);
     let on_rim = |k: usize| {
         let (x, y) = (k % width, k / width);
-        x < rim || y < rim || x + rim >= width || y + rim >= height
+        if x < rim || y < rim || x + rim >= width || y + rim >= height {
+            return counts(k);
+        }
+        // Of a part: what is near to where it ends.
+        within.is_some() && counts(k) && ![k - rim, k + rim, k - rim * width, k + rim * width].into_iter().all(counts)
     };
     let step = (pixels.len() / SAMPLES).max(1);
     // An odd stride that shares no divisor with the width walks over all columns.
-    let samples: Vec<usize> = (0..pixels.len()).step_by(step).collect();
+    let samples: Vec<usize> = (0..pixels.len()).step_by(step).filter(|&k| counts(k)).collect();
     let mut chosen: Vec<usize> = samples.iter().copied().filter(|&k| on_rim(k)).collect();
     if chosen.len() < 64 {
         chosen = (0..pixels.len()).filter(|&k| on_rim(k)).collect();
@@ -45,7 +57,8 @@ pub(super) fn difference(pixels: &[[f32; 4]], width: usize, height: usize) -> Ve
         surfaces = [r, g, b];
         near = (0.7 * near).max(NEAR);
     }
-    (0..pixels.len()).map(|k| distance(&pixels[k], &surfaces, &basis(k)) as f32).collect()
+    let away = |k: usize| if counts(k) { distance(&pixels[k], &surfaces, &basis(k)) as f32 } else { 0.0 };
+    Found { difference: (0..pixels.len()).map(away).collect(), colour: surfaces.map(|surface| surface[0]) }
 }
 
 fn median(pixels: &[[f32; 4]], chosen: &[usize], channel: usize) -> f64 {
@@ -108,7 +121,7 @@ mod tests {
                 pixels.push([if ink { 0.15 } else { light }; 4]);
             }
         }
-        let ink = difference(&pixels, width, height);
+        let ink = find(&pixels, width, height, None).difference;
         for y in 0..height {
             for x in 0..width {
                 let inside = (30..90).contains(&x) && (20..60).contains(&y);

@@ -1,6 +1,6 @@
 //! What a mask lets through.
 
-use super::Walk;
+use super::walk::Walk;
 use crate::outline::OutlineError;
 use crate::outline::regions::{self, Shapes};
 use usvg::{Group, Mask, MaskType, Node, Paint, Transform};
@@ -44,7 +44,7 @@ impl Walk {
             match node {
                 Node::Group(child) if child.clip_path().is_some() || child.mask().is_some() => {
                     // What is cut inside a mask is taken to be of one kind: the rare case, read the simple way.
-                    let area = regions::union(self.painted(child, place)?)?;
+                    let area = self.area(child, place)?;
                     *open = regions::union([std::mem::take(open), area].concat())?;
                 }
                 Node::Group(child) => self.show(child, place, opacity, luminance, open)?,

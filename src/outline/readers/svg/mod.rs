@@ -1,45 +1,40 @@
 //! A silhouette from an SVG file: the union of all that is painted.
 //!
-//! `usvg` resolves styles, units, shapes, transforms, text and references to plain paths in px (96 to the inch) with y
-//! down. Fills count under their own fill rule, strokes as the area they cover (dashes too), clips and masks cut. Colour
-//! does not matter, so white counts as painted; what is fully transparent or hidden does not. A rectangle below
-//! everything else that fills the page is paper, not plushie. Filters (shadows, blurs) and embedded pictures are left
-//! out. What was left out or read in a special way is noted.
+//! `usvg` resolves styles, units, shapes, transforms, text and references to plain paths in px with y down; what it does not follow of
+//! style sheets is written into the elements before (`style/`). Fills count under their own fill rule, strokes as the area they cover
+//! (dashes too), clips and masks cut. Colour does not matter, so white counts as painted; what is hardly opaque or hidden does not, unless
+//! there is nothing else. What lies below everything else is judged by `super::ground`. Filters (shadows, blurs) and embedded pictures
+//! are left out. What was left out or read in a special way is noted.
 
 mod expansion;
 mod flatten;
 mod layers;
 mod mask;
 mod render;
+mod size;
+mod style;
 mod tree;
+mod walk;
 
 use super::finish::finish;
+use super::ground::{self, Mark};
 use super::{OutlineReader, Painting, ReadingOption};
-use crate::outline::regions::{self, Shapes};
-use crate::outline::{Background, Import, Imported, Note, Outline, OutlineError, Point, polygon};
-use flatten::flatten;
-use i_overlay::core::fill_rule::FillRule;
+use crate::outline::regions;
+use crate::outline::{Aside, Import, Imported, Note, Outline, OutlineError, Point, Why};
 use image::RgbaImage;
-use tree::tree;
-use usvg::tiny_skia_path::PathStroker;
-use usvg::{Group, ImageKind, Node, Paint, Transform, Tree};
+use tree::Parsed;
+use usvg::{Group, Node, Transform, Tree};
+use walk::Walk;
 
-/// Millimetres in a CSS px.
-const MM_PER_PX: f64 = 25.4 / 96.0;
 /// Farthest that a flattened curve may lie from the true one, as a fraction of the drawing's longer side: 6 um on
 /// 300 mm, below the simplification that follows.
 const FLATTEN_FRACTION: f64 = 2e-5;
-/// A rectangle is page-sized if it reaches every edge of the page within this part of the page's side.
-const PAGE_FRACTION: f64 = 0.01;
-/// Groups and paths that are visited at most: clips and masks may refer to each other, which multiplies them.
-const MAX_VISITS: usize = 400_000;
-/// Clips and masks that are cut with at most, and how deep they may be clipped and masked themselves.
-const MAX_CUTS: usize = 10_000;
-const MAX_CUT_DEPTH: usize = 6;
-/// Points of all flattened curves together.
-const MAX_POINTS: usize = 3_000_000;
 /// Parts of the drawing beyond the page that are worth a note, as a part of the drawing's box.
 const OFF_PAGE_FRACTION: f64 = 0.01;
+/// Paint whose most opaque place is below this is a shadow or a tint, and no body.
+const FAINT: f32 = 0.4;
+/// Faint paint that changes the silhouette by less than this part of it is not worth a note.
+const FAINT_FRACTION: f64 = 1e-3;
 
 pub(super) struct Svg;
 
@@ -49,17 +44,18 @@ impl OutlineReader for Svg {
     }
 
     fn extensions(&self) -> &'static [&'static str] {
-        &["svg"]
+        &["svg", "svgz"]
     }
 
     /// An angle bracket, and before it at most a byte order mark and blanks.
     fn can_read(&self, head: &[u8]) -> bool {
         let head = head.trim_ascii_start();
-        head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head).trim_ascii_start().starts_with(b"<")
+        let utf16 = head.starts_with(b"\xff\xfe<\0") || head.starts_with(b"\xfe\xff\0<");
+        utf16 || head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head).trim_ascii_start().starts_with(b"<")
     }
 
     fn options(&self) -> &'static [ReadingOption] {
-        &[ReadingOption::Layers, ReadingOption::Background]
+        &[ReadingOption::Layers, ReadingOption::Background, ReadingOption::Unit, ReadingOption::Threshold]
     }
 
     fn read(&self, bytes: &[u8], import: &Import) -> Result<Imported, OutlineError> {
@@ -86,40 +82,58 @@ pub fn read(svg: &[u8], height_mm: Option<f64>) -> Result<Outline, OutlineError>
 
 /// All that is painted, in px with y up.
 fn painting(svg: &[u8], import: &Import) -> Result<Painting, OutlineError> {
-    let tree = tree(svg, &import.layers)?;
+    let Parsed { tree, size, mut notes } = tree::parsed(svg, import)?;
     let bounds = tree.root().abs_stroke_bounding_box();
     let longer = f64::from(bounds.width().max(bounds.height()));
-    let page = [f64::from(tree.size().width()), f64::from(tree.size().height())];
     if !(longer.is_finite() && longer > 0.0) {
         return Err(nothing(&tree));
     }
-    let mut walk = Walk {
-        tolerance: FLATTEN_FRACTION * longer,
-        page,
-        keep_background: import.background == Background::Keep,
-        visits: 0,
-        cuts: 0,
-        cut_depth: 0,
-        points: 0,
-        background: Shapes::new(),
-        begun: false,
-        pictures: 0,
-        filters: 0,
-        texts: Vec::new(),
-    };
-    let mut shapes = walk.painted(tree.root(), Transform::identity())?;
-    let mut notes = Vec::new();
-    if shapes.is_empty() {
-        // Nothing lies on the rectangle: it is the silhouette.
-        shapes = std::mem::take(&mut walk.background);
-    } else if !walk.background.is_empty() {
-        notes.push(Note::Background);
-    }
+    let page = [f64::from(tree.size().width()), f64::from(tree.size().height())];
+    let mut walk = Walk::new(longer, import.smooth_mm != Some(0.0));
+    let marks = walk.painted(tree.root(), Transform::identity(), 1.0)?;
+    let least = import.threshold.map_or(FAINT, |level| f32::from(level) / 255.0);
+    let (faint, marks): (Vec<Mark>, Vec<Mark>) = marks.into_iter().partition(|mark| mark.opacity < least);
+    // Where all is faint, all counts.
+    let (faint, marks) = if marks.is_empty() { (marks, faint) } else { (faint, marks) };
+    let (figure, below, more) = ground::part(marks, Some([[0.0, -page[1]], [page[0], 0.0]]), import.background)?;
+    let shapes: Vec<_> = figure.into_iter().flat_map(|mark| mark.area).collect();
     if shapes.is_empty() {
         return Err(nothing(&tree));
     }
-    walk.describe(&mut notes, longer, &shapes)?;
-    Ok(Painting { shapes, unit_mm: MM_PER_PX, notes })
+    let mut painting = Painting { shapes, unit_mm: size.mm_per_px, evened: walk.evened, ..Painting::default() };
+    painting.notes = more;
+    if !below.is_empty() {
+        painting.asides.push(Aside { why: Why::Background, areas: below });
+    }
+    put_aside(faint, least, &mut painting)?;
+    walk.describe(&mut painting.notes);
+    painting.notes.append(&mut notes);
+    let (low, high) = regions::bounding_box(&painting.shapes);
+    let off = (-low[0]).max(high[0] - page[0]).max(high[1]).max(-low[1] - page[1]);
+    if off > OFF_PAGE_FRACTION * longer {
+        painting.notes.push(Note::OffPage);
+    }
+    if let Some(sizing) = size.sizing.filter(|_| import.height_mm.is_none()) {
+        painting.notes.push(Note::Size(sizing));
+    }
+    Ok(painting)
+}
+
+/// Tells of paint that is hardly seen, where it would have made a difference.
+fn put_aside(faint: Vec<Mark>, least: f32, painting: &mut Painting) -> Result<(), OutlineError> {
+    let count = faint.len();
+    if count == 0 {
+        return Ok(());
+    }
+    let faint = regions::union(faint.into_iter().flat_map(|mark| mark.area).collect())?;
+    let shapes = regions::union(std::mem::take(&mut painting.shapes))?;
+    let more = regions::difference(&faint, &shapes);
+    if regions::area(&more) > FAINT_FRACTION * regions::area(&shapes) {
+        painting.notes.push(Note::Faint { count, opacity: f64::from(least) });
+        painting.asides.push(Aside { why: Why::Faint, areas: more });
+    }
+    painting.shapes = shapes;
+    Ok(())
 }
 
 /// Nothing is painted: says so, and whether there is something that cannot count.
@@ -134,214 +148,6 @@ fn nothing(tree: &Tree) -> OutlineError {
         return OutlineError::NothingPainted("the SVG has embedded pictures alone; save the picture as PNG or JPEG");
     }
     OutlineError::NothingPainted("the SVG has no fill or stroke with an area")
-}
-
-/// What is gathered while the tree is walked.
-struct Walk {
-    /// Farthest that a polygon may lie from its curve, px.
-    tolerance: f64,
-    /// Width and height of the page, px.
-    page: [f64; 2],
-    keep_background: bool,
-    visits: usize,
-    cuts: usize,
-    cut_depth: usize,
-    points: usize,
-    /// Page-sized rectangles below everything else.
-    background: Shapes,
-    /// Whether something else was painted.
-    begun: bool,
-    pictures: usize,
-    filters: usize,
-    texts: Vec<String>,
-}
-
-impl Walk {
-    /// The regions painted by a group, in px with y up. `place` comes after the group's own absolute transform (it is
-    /// the identity but inside clips and masks, whose content has a coordinate system of its own).
-    fn painted(&mut self, group: &Group, place: Transform) -> Result<Shapes, OutlineError> {
-        if group.opacity().get() == 0.0 {
-            return Ok(Shapes::new());
-        }
-        self.visit()?;
-        self.filters += group.filters().len();
-        let mut shapes = Shapes::new();
-        for node in group.children() {
-            match node {
-                Node::Group(child) => shapes.extend(self.painted(child, place)?),
-                Node::Path(path) if path.is_visible() => shapes.extend(self.painted_path(path, place)?),
-                Node::Path(_) => {}
-                Node::Text(text) => {
-                    self.text(text)?;
-                    shapes.extend(self.painted(text.flattened(), place)?);
-                }
-                Node::Image(image) => match image.kind() {
-                    // A nested drawing; its own page is the picture's box.
-                    ImageKind::SVG(tree) if image.is_visible() => {
-                        let to_page = place.pre_concat(image.abs_transform());
-                        shapes.extend(self.painted(tree.root(), to_page)?);
-                    }
-                    _ => self.pictures += 1,
-                },
-            }
-        }
-        self.cut(shapes, group, place)
-    }
-
-    /// What the clips and masks of a group leave of its regions.
-    fn cut(&mut self, mut shapes: Shapes, group: &Group, place: Transform) -> Result<Shapes, OutlineError> {
-        let mut clip = group.clip_path();
-        while let Some(path) = clip.filter(|_| !shapes.is_empty()) {
-            let to_page = place.pre_concat(group.abs_transform()).pre_concat(path.transform());
-            let window = self.aside(|walk| walk.painted(path.root(), to_page))?;
-            shapes = regions::intersection(&regions::union(shapes)?, &regions::union(window)?);
-            clip = path.clip_path();
-        }
-        let mut mask = group.mask();
-        while let Some(cover) = mask.filter(|_| !shapes.is_empty()) {
-            let to_page = place.pre_concat(group.abs_transform());
-            let window = self.aside(|walk| walk.shown(cover, to_page))?;
-            shapes = regions::intersection(&regions::union(shapes)?, &window);
-            mask = cover.mask();
-        }
-        Ok(shapes)
-    }
-
-    /// Reads something that is not painted itself: it is neither background nor below anything.
-    fn aside<T>(&mut self, f: impl FnOnce(&mut Self) -> Result<T, OutlineError>) -> Result<T, OutlineError> {
-        self.cuts += 1;
-        if self.cuts > MAX_CUTS || self.cut_depth >= MAX_CUT_DEPTH {
-            return Err(OutlineError::TooComplex("has too many clips and masks within each other"));
-        }
-        self.cut_depth += 1;
-        let begun = std::mem::replace(&mut self.begun, true);
-        let result = f(self);
-        self.begun = begun;
-        self.cut_depth -= 1;
-        result
-    }
-
-    fn visit(&mut self) -> Result<(), OutlineError> {
-        self.visits += 1;
-        if self.visits > MAX_VISITS { Err(OutlineError::TooComplex("has more than 400 000 parts")) } else { Ok(()) }
-    }
-
-    /// The regions of a path's fill and stroke.
-    fn painted_path(&mut self, path: &usvg::Path, place: Transform) -> Result<Shapes, OutlineError> {
-        self.visit()?;
-        let mut shapes = Shapes::new();
-        if path.fill().is_some_and(|fill| fill.opacity().get() > 0.0 && shows(fill.paint())) {
-            let area = self.fill(path, place)?;
-            if !self.begun && !self.keep_background && is_page(&area, self.page) {
-                self.background.extend(area);
-                return Ok(shapes);
-            }
-            shapes.extend(area);
-        }
-        if path.stroke().is_some_and(|stroke| stroke.opacity().get() > 0.0 && shows(stroke.paint())) {
-            shapes.extend(self.stroke(path, place)?);
-        }
-        self.begun |= !shapes.is_empty();
-        Ok(shapes)
-    }
-
-    fn fill(&mut self, path: &usvg::Path, place: Transform) -> Result<Shapes, OutlineError> {
-        let rule = match path.fill().map(usvg::Fill::rule) {
-            Some(usvg::FillRule::EvenOdd) => FillRule::EvenOdd,
-            _ => FillRule::NonZero,
-        };
-        let contours = self.flat(path.data(), place.pre_concat(path.abs_transform()))?;
-        regions::resolve(&contours, rule)
-    }
-
-    fn stroke(&mut self, path: &usvg::Path, place: Transform) -> Result<Shapes, OutlineError> {
-        let Some(stroke) = path.stroke() else { return Ok(Shapes::new()) };
-        let transform = place.pre_concat(path.abs_transform());
-        // The stroker is accurate to about a quarter px at a given scale: let it see `tolerance` as that.
-        let scale = PathStroker::compute_resolution_scale(&transform) * (0.25 / self.tolerance) as f32;
-        let stroke = stroke.to_tiny_skia();
-        let dashed = stroke.dash.as_ref().and_then(|dash| path.data().dash(dash, scale));
-        match dashed.as_ref().unwrap_or(path.data()).stroke(&stroke, scale) {
-            Some(area) => {
-                let contours = self.flat(&area, transform)?;
-                regions::resolve(&contours, FillRule::NonZero)
-            }
-            None => Ok(Shapes::new()),
-        }
-    }
-
-    fn flat(
-        &mut self,
-        path: &usvg::tiny_skia_path::Path,
-        transform: Transform,
-    ) -> Result<Vec<Vec<Point>>, OutlineError> {
-        let contours = flatten(path, transform, self.tolerance);
-        self.points += contours.iter().map(Vec::len).sum::<usize>();
-        if self.points > MAX_POINTS {
-            return Err(OutlineError::TooComplex("has more than three million points"));
-        }
-        Ok(contours)
-    }
-
-    /// Notes the text, and refuses what the bundled fonts cannot write.
-    fn text(&mut self, text: &usvg::Text) -> Result<(), OutlineError> {
-        let written: String = text.chunks().iter().map(|chunk| chunk.text()).collect();
-        let glyphs = text.layouted().iter().flat_map(|span| &span.positioned_glyphs);
-        if glyphs.into_iter().any(|glyph| glyph.id.0 == 0) {
-            return Err(OutlineError::NoFont(shortened(&written)));
-        }
-        if !written.trim().is_empty() {
-            self.texts.push(shortened(&written));
-        }
-        Ok(())
-    }
-
-    fn describe(&self, notes: &mut Vec<Note>, longer: f64, shapes: &Shapes) -> Result<(), OutlineError> {
-        if !self.texts.is_empty() {
-            notes.push(Note::Text(self.texts.iter().take(3).cloned().collect()));
-        }
-        if self.pictures > 0 {
-            notes.push(Note::EmbeddedPictures(self.pictures));
-        }
-        if self.filters > 0 {
-            notes.push(Note::Filters);
-        }
-        let (low, high) = regions::bounding_box(shapes);
-        let off = (-low[0]).max(high[0] - self.page[0]).max(high[1]).max(-low[1] - self.page[1]);
-        if off > OFF_PAGE_FRACTION * longer {
-            notes.push(Note::OffPage);
-        }
-        Ok(())
-    }
-}
-
-fn shortened(text: &str) -> String {
-    const SHOWN: usize = 24;
-    let plain: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).take(SHOWN).collect();
-    if text.chars().count() > SHOWN { plain + "..." } else { plain }
-}
-
-/// Whether a paint has any opaque part.
-fn shows(paint: &Paint) -> bool {
-    let any = |stops: &[usvg::Stop]| stops.iter().any(|stop| stop.opacity().get() > 0.0);
-    match paint {
-        Paint::Color(_) | Paint::Pattern(_) => true,
-        Paint::LinearGradient(gradient) => any(gradient.stops()),
-        Paint::RadialGradient(gradient) => any(gradient.stops()),
-    }
-}
-
-/// Whether an area is one upright rectangle that covers the page.
-fn is_page(area: &Shapes, page: [f64; 2]) -> bool {
-    let [rings] = area.as_slice() else { return false };
-    let [ring] = rings.as_slice() else { return false };
-    let (low, high) = polygon::bounding_box(ring);
-    let slack = page.map(|side| PAGE_FRACTION * side);
-    // The page has y from -height to 0 here.
-    let covers =
-        low[0] <= slack[0] && high[0] >= page[0] - slack[0] && low[1] <= slack[1] - page[1] && high[1] >= -slack[1];
-    let boxed = (high[0] - low[0]) * (high[1] - low[1]);
-    covers && ring.len() == 4 && polygon::signed_area(ring) > (1.0 - 1e-6) * boxed
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! A drawing as a picture.
 
-use super::tree::tree;
+use super::tree::parsed;
 use crate::outline::resample::{MAX_TEXTURE_PX, fitted};
 use crate::outline::{Import, OutlineError, Point};
 use image::RgbaImage;
@@ -23,7 +23,7 @@ const LEAST_PX: f64 = 64.0;
 
 /// The picture of the drawing between the corners of a box (px, y up), with fewer pixels the more lies over each other.
 pub(super) fn texture(svg: &[u8], import: &Import, [low, high]: [Point; 2]) -> Result<RgbaImage, OutlineError> {
-    let tree = tree(svg, &import.layers)?;
+    let tree = parsed(svg, import)?.tree;
     let size = [high[0] - low[0], high[1] - low[1]];
     let window = Rect::from_xywh(low[0] as f32, -high[1] as f32, size[0] as f32, size[1] as f32)
         .ok_or(OutlineError::Degenerate)?;

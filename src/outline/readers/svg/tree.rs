@@ -1,25 +1,49 @@
 //! The elements of an SVG file, everything resolved.
 
-use super::{expansion, layers};
-use crate::outline::OutlineError;
+use super::size::{self, Size};
+use super::{expansion, layers, style};
+use crate::outline::readers::encoding;
+use crate::outline::{Import, Note, OutlineError};
 use std::sync::{Arc, LazyLock};
+use usvg::roxmltree::Document;
 use usvg::{ImageHrefResolver, Tree};
 
+/// A drawing as it was read.
+pub(super) struct Parsed {
+    pub tree: Tree,
+    pub size: Size,
+    /// What is not followed.
+    pub notes: Vec<Note>,
+}
+
 /// The drawing with everything resolved, or the chosen layers of it.
-pub(super) fn tree(svg: &[u8], layers: &[String]) -> Result<Tree, OutlineError> {
-    let unreadable = |reason: String| OutlineError::Unreadable { format: "SVG", reason };
-    let text = std::str::from_utf8(svg).map_err(|error| unreadable(error.to_string()))?;
-    let document = expansion::parse(text).map_err(|error| unreadable(error.to_string()))?;
+pub(super) fn parsed(svg: &[u8], import: &Import) -> Result<Parsed, OutlineError> {
+    let text = encoding::xml(svg).map_err(unreadable)?;
+    let document = document(&text)?;
     expansion::check(&document)?;
-    let chosen;
-    let document = if layers.is_empty() {
-        document
-    } else {
-        chosen = layers::chosen(&document, layers)?;
-        drop(document);
-        expansion::parse(&chosen).map_err(|error| unreadable(error.to_string()))?
-    };
-    Tree::from_xmltree(&document, &options()).map_err(|error| unreadable(error.to_string()))
+    let flowed = document.descendants().filter(|node| node.tag_name().name() == "flowRoot").count();
+    let mut notes = Vec::new();
+    if flowed > 0 {
+        notes.push(Note::FlowedText(flowed));
+    }
+    let styled = style::written(&document, &options(), &mut notes)?;
+    let document = styled.as_deref().map_or(Ok(document), self::document)?;
+    if styled.is_some() {
+        expansion::check(&document)?;
+    }
+    let chosen = if import.layers.is_empty() { None } else { Some(layers::chosen(&document, &import.layers)?) };
+    let document = chosen.as_deref().map_or(Ok(document), self::document)?;
+    let tree = Tree::from_xmltree(&document, &options()).map_err(|error| unreadable(error.to_string()))?;
+    let size = size::of(&document, &tree, import.unit_mm);
+    Ok(Parsed { tree, size, notes })
+}
+
+fn document(text: &str) -> Result<Document<'_>, OutlineError> {
+    expansion::parse(text).map_err(|error| unreadable(error.to_string()))
+}
+
+fn unreadable(reason: String) -> OutlineError {
+    OutlineError::Unreadable { format: "SVG", reason }
 }
 
 /// The bundled fonts: text is set in the first one, whatever the drawing asks for, so that it looks the same everywhere.
