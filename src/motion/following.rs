@@ -1,7 +1,6 @@
 //! How closely drives follow what they are told: simulated trapezoids against the trajectory.
 
 use super::drive::{Drive, TICK_S};
-use super::families::classic::FOLLOWING;
 use super::machine::Machine;
 use super::plan::Plan;
 use super::schedule::Beat;
@@ -69,7 +68,7 @@ impl Following {
 
     fn add(&mut self, machine: &Machine, orders: &[Order], track: impl Fn(f64) -> f64, [begin, end]: [f64; 2]) {
         let resolution = f64::from(machine.resolution());
-        let following = f64::from(FOLLOWING) * resolution;
+        let following = f64::from(machine.controller.drives.following_acceleration) * resolution;
         let mut drive = Drive::new(0.0, following);
         let scale = machine.counts_per_mm;
         drive.position = (scale * track(begin)).round();

@@ -243,6 +243,10 @@ fn drives(ui: &mut Ui, d: &mut DriveSettings) {
     count(ui, "Current limit", "mA", tip, &mut d.current_ma, 0..=50_000);
     let tip = "Unit of DELAY in programs stored in them; believed to be 0.01 s";
     number(ui, "DELAY unit", "s", tip, &mut d.delay_unit_s, 0.0001..=1.0);
+    let tip = "Unit of DELAY in scripts of the V3 family; believed to be 0.001 s";
+    number(ui, "Script DELAY unit", "s", tip, &mut d.script_delay_unit_s, 0.0001..=1.0);
+    let tip = "Largest acceleration that Faulhaber controllers take: set while they follow a motion";
+    count(ui, "Following", "rev/s²", tip, &mut d.following_acceleration, 1..=30_000);
     number(ui, "Servo range", "°", "How far a hobby servo turns", &mut d.servo_degrees, 10.0..=3600.0);
     let tip = "Pulse of a hobby servo at the beginning of its range, the cable just slack";
     count(ui, "Servo at rest", "µs", tip, &mut d.servo_low_us, 100..=10_000);
