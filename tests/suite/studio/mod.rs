@@ -7,4 +7,5 @@ mod networks;
 mod outline;
 mod posing;
 mod tendons;
+mod timeline;
 mod winding;
