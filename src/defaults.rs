@@ -123,3 +123,7 @@ pub const SERVO_PULSES_US: [u32; 2] = [500, 2500];
 pub const STEPS_PER_TURN: f64 = 3200.0;
 /// Seconds between keyframes where the tool lays them out itself.
 pub const KEYFRAME_SPACING_S: f64 = 1.0;
+/// Thickness of the line that winches wind, mm: braided fishing line of about 20 kg.
+pub const CABLE_MM: f64 = 0.5;
+/// Opening in the felt at a winch, mm: all of its cables leave there, and a finger feels the spool.
+pub const WINCH_OPENING_MM: f64 = 8.0;

@@ -23,7 +23,7 @@
 //! | [`rigging`] | finds winches and tendons: generators of candidates, criteria that judge them, the search |
 //! | [`motion`] | what motors are told: trajectories of winches, families of controllers, programs |
 //! | [`live`] | motors that are told live: serial ports, the player, simulated controllers |
-//! | [`fabrication`] | the blueprint: products (patterns, routings, tracks, programs) and the writers of their files |
+//! | [`fabrication`] | the blueprint: products (patterns, routings, winches, tracks, programs, guide) and the writers of their files |
 //! | [`picture`] | pictures of both plushies in layers, rasterised without a graphics adapter |
 //! | [`operations`] | every use case once: new, remesh, reshape, pose, propose, rig, explore, key, check, export, render |
 //! | [`bench`](mod@bench) | whole studies of the solvers, repeatable from a seed |

@@ -58,6 +58,12 @@ pub fn unexported(design: &Path, error: ExportError) -> CommandError {
     match error {
         ExportError::Folder(error) => refused_folder(error),
         ExportError::Motion(error) => unplanned(design, &error),
+        ExportError::WinchesCollide { .. } => CommandError::input(
+            design,
+            format!(
+                "{error}; move one of them (`plushwright network move`) or take a smaller spool (fabrication.spool_radius_mm)"
+            ),
+        ),
         ExportError::NoNetworks => CommandError::input(design, format!("{error}; run `plushwright rig` first")),
         error => CommandError::input(design, error),
     }

@@ -1,9 +1,11 @@
 //! The files of a blueprint: every product by every writer, in memory and on the disk.
 
+use super::buildable;
 use super::error::ExportError;
 use super::options::Options;
-use super::product::{Section, Source};
+use super::product::{Section, Shared, Source};
 use super::products::PRODUCTS;
+use super::stuffing::compensated;
 use super::writers;
 use crate::design::Design;
 use crate::files::folder::{self, FolderError, Listed, MANIFEST};
@@ -60,14 +62,31 @@ pub fn blueprint(design: &Design, options: &Options) -> Result<(Vec<File>, Manif
     if design.networks.is_empty() {
         return Err(ExportError::NoNetworks);
     }
+    buildable::refuse(design)?;
     let trajectory = Trajectory::of(design, options.too_fast)?;
+    let shared = Shared::default();
+    let cut = options.compensate.then(|| compensated(design));
+    let skin = cut.as_ref().and_then(|cut| cut.as_ref().ok()).unwrap_or(design);
+    let uncompensated = cut.as_ref().and_then(|cut| cut.as_ref().err());
     let (mut files, mut sections, mut remarks) = (Vec::new(), Vec::new(), Vec::new());
     let off: Vec<&str> = all.muted_names().collect();
     if !off.is_empty() {
         remarks.push(format!("Switched off and left out: {}.", off.join(", ")));
     }
-    for make in PRODUCTS {
-        let source = Source { design, trajectory: &trajectory, options, sections: &sections, remarks: &remarks };
+    for (topic, make) in PRODUCTS {
+        if topic.is_some_and(|topic| !options.only.has(topic)) {
+            continue;
+        }
+        let source = Source {
+            design,
+            skin,
+            uncompensated,
+            trajectory: &trajectory,
+            options,
+            sections: &sections,
+            remarks: &remarks,
+            shared: &shared,
+        };
         let part = make(&source)?;
         let written: Vec<File> = part.products.iter().flat_map(writers::written).map(File::from).collect();
         sections.push(Section { files: written.iter().map(|file| file.name.clone()).collect(), guide: part.guide });

@@ -10,6 +10,11 @@ use thiserror::Error;
 pub enum ExportError {
     #[error("the design has no winch-tendon networks yet")]
     NoNetworks,
+    /// Their spools would overlap.
+    #[error(
+        "winches {one:?} and {other:?} are {distance_mm:.1} mm apart, and their spools need {least_mm:.1} mm: they would be in one hole"
+    )]
+    WinchesCollide { one: String, other: String, distance_mm: f64, least_mm: f64 },
     #[error(transparent)]
     Invalid(#[from] DesignError),
     #[error(transparent)]

@@ -1,12 +1,17 @@
 //! Products of a blueprint: their inputs and their kinds.
 
+use super::demand::{Demand, demands};
 use super::error::ExportError;
+use super::guide::Guide;
 use super::options::Options;
+use super::piece::Piece;
 use super::sheet::Sheet;
 use super::solid::Solid;
+use super::stuffing::{Impossible, Stuffed, stuffed};
 use super::table::Table;
 use crate::design::Design;
 use crate::motion::{Program, Trajectory};
+use std::cell::OnceCell;
 
 /// A product by its name: that of its files, without an extension.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,8 +23,14 @@ pub struct Product {
 /// The kinds of products; each writer knows some of them.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Content {
-    /// Something flat, to be cut, sewn or looked at.
+    /// Something flat, to be looked at.
     Sheet(Sheet),
+    /// Something flat, to be cut by a machine.
+    Cut(Sheet),
+    /// Pages to be printed, in order.
+    Book(Vec<Sheet>),
+    /// Words and pictures.
+    Guide(Guide),
     /// Something to be printed or milled.
     Solid(Solid),
     /// Figures.
@@ -37,12 +48,43 @@ pub enum Content {
 pub struct Source<'a> {
     /// Sound, with one network at least.
     pub design: &'a Design,
+    /// The same as it is cut: its pattern may be compensated for stuffing.
+    pub skin: &'a Design,
+    /// Why it is not, although that was asked for.
+    pub uncompensated: Option<&'a Impossible>,
     pub trajectory: &'a Trajectory,
     pub options: &'a Options,
     /// The parts before this one in the table of products.
     pub sections: &'a [Section],
     /// Their remarks.
     pub remarks: &'a [String],
+    /// What several products need, worked out when the first one asks.
+    pub shared: &'a Shared,
+}
+
+/// What several products need.
+#[derive(Clone, Debug, Default)]
+pub struct Shared {
+    piece: OnceCell<Piece>,
+    demands: OnceCell<Vec<Demand>>,
+    stuffed: OnceCell<Stuffed>,
+}
+
+impl Source<'_> {
+    /// The front of the skin.
+    pub fn piece(&self) -> &Piece {
+        self.shared.piece.get_or_init(|| Piece::front(self.skin, &self.options.cutting))
+    }
+
+    /// What each winch asks of its motor.
+    pub fn demands(&self) -> &[Demand] {
+        self.shared.demands.get_or_init(|| demands(self.design, self.trajectory))
+    }
+
+    /// The body as it is when it is stuffed.
+    pub fn stuffed(&self) -> &Stuffed {
+        self.shared.stuffed.get_or_init(|| stuffed(self.skin))
+    }
 }
 
 /// A part of the blueprint: products that belong together.

@@ -147,6 +147,9 @@ pub fn unexported(error: &ExportError) -> String {
         ExportError::Motion(MotionError::TooFast { .. }) => {
             format!("{error}; move the keyframes apart, or choose “{STRETCH}” in the dialog of the export")
         }
+        ExportError::WinchesCollide { .. } => {
+            format!("{error}; move one of them with the tendon tool, or take a smaller spool in the settings")
+        }
         error => error.to_string(),
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::support::{Random, rectangle, rigged};
 use plushwright::design::{Design, Easing, Keyframe, MaterialPoint, Network, Tendon, animation};
-use plushwright::fabrication::{self, ExportError, Manifest, Options, blueprint, export};
+use plushwright::fabrication::{self, ExportError, Manifest, Options, SheetSize, Topic, blueprint, export};
 use plushwright::files::folder::FolderError;
 use plushwright::motion::{MotionError, Plan, TooFast, winch_labels};
 use roxmltree::{Document, Node};
@@ -35,6 +35,17 @@ fn path(node: Node) -> (Vec<[f64; 2]>, bool) {
     (numbers.chunks(2).map(|p| [p[0], p[1]]).collect(), d.ends_with('Z'))
 }
 
+/// The elements of a layer of all pieces.
+fn layer<'a>(svg: &'a Document, name: &str) -> Vec<Node<'a, 'a>> {
+    let ids = ["front", "back"].map(|piece| format!("{piece}-{name}"));
+    let of_layer = |n: &Node| n.attribute("id").is_some_and(|id| ids.iter().any(|own| own == id));
+    svg.descendants().filter(of_layer).flat_map(|group| group.children().filter(Node::is_element)).collect()
+}
+
+fn lines(elements: Vec<Node>) -> Vec<(Vec<[f64; 2]>, bool)> {
+    elements.into_iter().filter(|n| n.has_tag_name("path")).map(path).collect()
+}
+
 fn paths(group: Node) -> Vec<(Vec<[f64; 2]>, bool)> {
     group.children().filter(|n| n.has_tag_name("path")).map(path).collect()
 }
@@ -54,7 +65,7 @@ fn words(group: Node) -> String {
 
 #[test]
 fn sheets_are_in_mm_with_a_reference_line() {
-    for name in ["pattern.svg", "routing.svg"] {
+    for name in ["pattern.svg", "routing-front.svg", "routing-back.svg", "stuffed.svg", "winch-1.svg"] {
         let xml = text(&rigged(), name);
         let svg = Document::parse(&xml).expect("XML");
         let root = svg.root_element();
@@ -88,20 +99,29 @@ fn the_pattern_has_two_pieces_in_the_order_of_the_laser() {
     let svg = Document::parse(&xml).expect("XML");
     let groups: Vec<_> =
         svg.root_element().children().filter(|n| n.has_tag_name("g")).filter_map(|n| n.attribute("id")).collect();
-    assert_eq!(groups, ["cut", "stitch", "note", "reference"]);
-    let cut = group(&svg, "cut");
-    assert_eq!((cut.attribute("stroke"), cut.attribute("fill")), (Some("#FF0000"), Some("none")));
-    assert_eq!(figure(cut, "stroke-width"), 0.01);
-    assert_eq!(group(&svg, "stitch").attribute("stroke"), Some("#0000FF"));
-
-    // Seven nodes carry cables, on both faces; every hole is cut before any outline.
-    let kinds: Vec<_> = cut.children().filter(Node::is_element).map(|n| n.tag_name().name()).collect();
-    assert_eq!(kinds, [["circle"; 14].as_slice(), &["path"; 2]].concat());
-    let holes: Vec<Node> = cut.children().filter(|n| n.has_tag_name("circle")).collect();
-    assert!(holes.iter().all(|h| figure(*h, "r") == 0.75));
+    assert_eq!(groups, ["front", "back", "reference"], "a group a piece");
+    for piece in ["front", "back"] {
+        let own = group(&svg, piece);
+        let layers: Vec<_> = own.children().filter_map(|n| n.attribute("id")).collect();
+        assert_eq!(layers[..3], ["holes", "cut", "stitch"].map(|layer| format!("{piece}-{layer}")));
+        let cut = group(&svg, &format!("{piece}-cut"));
+        assert_eq!((cut.attribute("stroke"), cut.attribute("fill")), (Some("#FF0000"), Some("none")));
+        assert_eq!(figure(cut, "stroke-width"), 0.01);
+        assert_eq!(group(&svg, &format!("{piece}-stitch")).attribute("stroke"), Some("#0000FF"));
+        // Seven nodes carry cables; two of them are winches, with openings. Every hole is cut before the rim.
+        let kinds: Vec<_> = group(&svg, &format!("{piece}-holes"))
+            .children()
+            .filter(Node::is_element)
+            .map(|n| (n.tag_name().name(), figure(n, "r")))
+            .collect();
+        assert_eq!(kinds.iter().filter(|k| **k == ("circle", 0.75)).count(), 5);
+        assert_eq!((kinds.iter().filter(|k| **k == ("circle", 4.0)).count(), kinds.len()), (2, 7));
+    }
+    let holes: Vec<Node> = layer(&svg, "holes").into_iter().filter(|n| n.has_tag_name("circle")).collect();
 
     // The outline grows by Steiner's formula: A + P a + pi a^2.
-    let outlines = paths(cut);
+    let outlines = lines(layer(&svg, "cut"));
+    assert_eq!(outlines.len(), 2);
     let allowance = design.fabrication.seam_allowance_mm;
     let grown = 120.0 * 80.0 + 400.0 * allowance + PI * allowance * allowance;
     for (points, closed) in &outlines {
@@ -109,7 +129,7 @@ fn the_pattern_has_two_pieces_in_the_order_of_the_laser() {
     }
 
     // The seam is the silhouette itself, less the turning gap.
-    let seams = paths(group(&svg, "stitch"));
+    let seams = lines(layer(&svg, "stitch"));
     assert_eq!(seams.len(), 2);
     for (points, closed) in &seams {
         assert!(!closed && (length(points) - 350.0).abs() < 0.01, "{}", length(points));
@@ -129,7 +149,7 @@ fn the_pattern_has_two_pieces_in_the_order_of_the_laser() {
         assert!((high(front, 1) - figure(a, "cy") - y).abs() < 1e-3);
         assert_eq!(figure(a, "cy"), figure(b, "cy"));
     }
-    let words = words(group(&svg, "note"));
+    let words = words(group(&svg, "front-note")) + &words(group(&svg, "back-note"));
     for word in ["FRONT", "BACK (mirrored)", "pin 1", "leave 50 mm open", "7"] {
         assert!(words.contains(word), "{words}");
     }
@@ -141,10 +161,14 @@ fn inner_holes_are_sewn_and_cut_smaller_before_the_outline() {
     design.outline.holes = vec![vec![[40.0, 20.0], [40.0, 60.0], [80.0, 60.0], [80.0, 20.0]]];
     let xml = text(&design, "pattern.svg");
     let svg = Document::parse(&xml).expect("XML");
-    let areas: Vec<f64> = paths(group(&svg, "cut")).iter().map(|(p, _)| area(p)).collect();
-    assert_eq!(areas.len(), 4);
-    assert!((areas[0] - 24.0 * 24.0).abs() < 0.01 && (areas[1] - 24.0 * 24.0).abs() < 0.01 && areas[2] > 12800.0);
-    assert_eq!(paths(group(&svg, "stitch")).iter().filter(|(p, closed)| *closed && area(p) == 1600.0).count(), 2);
+    let cut_outs: Vec<f64> = lines(layer(&svg, "cut-outs")).iter().map(|(p, _)| area(p)).collect();
+    let rims: Vec<f64> = lines(layer(&svg, "cut")).iter().map(|(p, _)| area(p)).collect();
+    assert_eq!((cut_outs.len(), rims.len()), (2, 2));
+    assert!(cut_outs.iter().all(|a| (a - 24.0 * 24.0).abs() < 0.01) && rims.iter().all(|a| *a > 12800.0));
+    let order: Vec<_> = group(&svg, "front").children().filter_map(|n| n.attribute("id")).collect();
+    let at = |id: &str| order.iter().position(|o| *o == id).expect(id);
+    assert!(at("front-cut-outs") < at("front-cut"));
+    assert_eq!(lines(layer(&svg, "stitch")).iter().filter(|(p, closed)| *closed && area(p) == 1600.0).count(), 2);
 }
 
 #[test]
@@ -167,6 +191,10 @@ fn a_narrow_notch_is_remarked() {
     ];
     let (_, manifest) = blueprint(&design, &Options::default()).expect("a blueprint");
     assert!(manifest.remarks.iter().any(|r| r.contains("narrow notch")), "{:?}", manifest.remarks);
+    // And snipped, on both pieces; what is left of the slot's end is cut out, as it is wider than 2 mm.
+    let xml = text(&design, "pattern.svg");
+    let svg = Document::parse(&xml).expect("XML");
+    assert!(lines(layer(&svg, "snips")).len() >= 2);
 }
 
 #[test]
@@ -178,6 +206,23 @@ fn holes_on_the_seam_are_remarked() {
     let (_, manifest) = blueprint(&design, &Options::default()).expect("a blueprint");
     let told = |r: &&String| r.contains("tendon 1: hole 1 from the winch is 0.0 mm from the seam");
     assert_eq!(manifest.remarks.iter().filter(told).count(), 1, "{:?}", manifest.remarks);
+    // Such a hole is marked, not cut.
+    assert!(manifest.remarks.iter().any(|r| r.starts_with("Marked, not cut")), "{:?}", manifest.remarks);
+    let xml = text(&design, "pattern.svg");
+    let svg = Document::parse(&xml).expect("XML");
+    let seams = lines(layer(&svg, "stitch"));
+    for hole in layer(&svg, "holes") {
+        let at = [figure(hole, "cx"), figure(hole, "cy")];
+        let near = seams.iter().flat_map(|(line, _)| line.windows(2)).map(|s| away(s[0], s[1], at));
+        assert!(near.fold(f64::INFINITY, f64::min) - figure(hole, "r") >= 3.0 - 1e-3);
+    }
+}
+
+/// Distance of a point from a segment.
+fn away(a: [f64; 2], b: [f64; 2], p: [f64; 2]) -> f64 {
+    let (d, w) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
+    let t = ((d[0] * w[0] + d[1] * w[1]) / (d[0] * d[0] + d[1] * d[1])).clamp(0.0, 1.0);
+    (w[0] - t * d[0]).hypot(w[1] - t * d[1])
 }
 
 #[test]
@@ -225,7 +270,7 @@ fn routings_are_drawn_and_tabled() {
         assert!((length(&points) + slack - f[2].parse::<f64>().expect("a length")).abs() < 1e-5);
     }
 
-    let xml = text(&design, "routing.svg");
+    let xml = text(&design, "routing-front.svg");
     let svg = Document::parse(&xml).expect("XML");
     let tendons = ["tendon-1-1", "tendon-1-2", "tendon-2-1"].map(|id| group(&svg, id));
     let mut colors: Vec<_> = tendons.iter().filter_map(|g| g.attribute("stroke")).collect();
@@ -426,12 +471,13 @@ fn winch_names_cannot_break_a_table() {
         .map(|name| Network::new(name, vec![tendon.clone()]))
         .to_vec();
     design.keyframes.clear();
+    design.sewing.housing_mm = 0.0;
     let labels = winch_labels(&design);
     assert_eq!(labels, ["left", "left (2)", "a_b_c_d__é", "winch 4", "1_cmd", "left (2) (2)"]);
     let (_, header, rows) = tracks(&text(&design, "tracks.csv"));
     assert_eq!((header.len(), rows[0].len()), (13, 13));
     design.name = "</svg> & \"friends\"".into();
-    for name in ["pattern.svg", "routing.svg"] {
+    for name in ["pattern.svg", "routing-front.svg", "routing-back.svg"] {
         Document::parse(&text(&design, name)).expect("names are escaped");
     }
 }
@@ -459,6 +505,7 @@ fn what_cannot_be_made_is_refused() {
     let many = fails(&|d| {
         d.keyframes.clear();
         d.networks = vec![d.networks[0].clone(); 256];
+        d.sewing.housing_mm = 0.0;
     });
     assert!(matches!(many, ExportError::Motion(MotionError::TooManyWinches { winches: 256 })));
 }
@@ -489,7 +536,16 @@ fn the_manifest_lists_every_other_file() {
     }
     listed.sort();
     assert_eq!(listing(&dir), listed);
-    for name in ["pattern.svg", "routing.svg", "routing.csv", "tracks.csv", "controller-ascii-motion.txt"] {
+    for name in [
+        "pattern.svg",
+        "pattern.dxf",
+        "pattern-a4.pdf",
+        "routing-front.svg",
+        "routing-back.svg",
+        "routing.csv",
+        "tracks.csv",
+        "controller-ascii-motion.txt",
+    ] {
         assert!(listed.contains(&name.to_string()), "{name} is missing");
     }
     // The check value of the SHA-256 standard (FIPS 180-2, "abc").
@@ -544,6 +600,8 @@ fn any_valid_design_makes_a_blueprint() {
         design.fabrication.seam_allowance_mm = random.between(0.0, 0.1 * size);
         design.fabrication.turning_gap_mm = random.between(0.0, 200.0);
         design.networks = (0..1 + random.below(6)).map(|_| random.network(&design.mesh)).collect();
+        // Winches at random may be in one place.
+        design.sewing.housing_mm = 0.0;
         design.keyframes = (0..random.below(4))
             .map(|i| {
                 let activations_mm = design.networks.iter().map(|_| random.between(0.0, 50.0)).collect();
@@ -555,7 +613,7 @@ fn any_valid_design_makes_a_blueprint() {
                 }
             })
             .collect();
-        for name in ["pattern.svg", "routing.svg"] {
+        for name in ["pattern.svg", "routing-front.svg", "routing-back.svg"] {
             let xml = text(&design, name);
             assert!(!xml.contains("NaN") && !xml.contains("inf"), "{name}");
             Document::parse(&xml).expect("XML");
@@ -572,12 +630,13 @@ fn the_bundled_outlines_make_good_patterns() {
         let mut design = Design::new(name, outline, mesh);
         let mut random = Random(5);
         design.networks = vec![random.network(&design.mesh), random.network(&design.mesh)];
+        design.sewing.housing_mm = 0.0;
         let xml = text(&design, "pattern.svg");
         let svg = Document::parse(&xml).expect("XML");
-        let outlines = paths(group(&svg, "cut"));
+        let outlines = lines(layer(&svg, "cut"));
         let largest = outlines.iter().map(|(p, _)| area(p)).fold(0.0, f64::max);
         assert!(largest > design.outline.area(), "{name}");
-        let seams = paths(group(&svg, "stitch"));
+        let seams = lines(layer(&svg, "stitch"));
         let (first, last) = (seams[0].0[0], *seams[0].0.last().expect("points"));
         let opening = (last[0] - first[0]).hypot(last[1] - first[1]);
         assert!((49.0..50.001).contains(&opening), "{name}: the gap's ends are {opening} mm apart");
@@ -585,4 +644,50 @@ fn the_bundled_outlines_make_good_patterns() {
             export(&design, &Path::new(&dir).join(name), &Options::default()).expect("exported");
         }
     }
+}
+
+#[test]
+fn two_winches_in_one_hole_are_refused_by_name() {
+    let mut design = rigged();
+    design.networks[1].tendons[0].routing = MaterialPoint::through([10, 11, 18]);
+    let refused = blueprint(&design, &Options::default()).expect_err("one hole").to_string();
+    assert!(refused.contains("\"left\" and \"right\" are 0.0 mm apart"), "{refused}");
+    // Cables that are pulled by hand have no housings.
+    design.sewing.housing_mm = 0.0;
+    blueprint(&design, &Options::default()).expect("pulled by hand");
+}
+
+#[test]
+fn parts_are_chosen_and_the_readme_is_always_there() {
+    let only = |topics: Vec<Topic>| {
+        let options = Options { only: topics.into(), ..Options::default() };
+        let (files, manifest) = blueprint(&rigged(), &options).expect("a blueprint");
+        assert_eq!(manifest.files.len() + 1, files.len());
+        files.into_iter().map(|f| f.name).collect::<Vec<_>>()
+    };
+    assert_eq!(only(vec![]), ["README.txt", "manifest.json"]);
+    let laser = only(vec![Topic::Laser]);
+    assert!(laser.contains(&"pattern.dxf".to_owned()) && !laser.iter().any(|n| n.starts_with("routing")), "{laser:?}");
+    let winches = only(vec![Topic::Winches]);
+    for name in ["winch-1-spool.stl", "winch-2-spool.3mf", "winch-housing.stl", "winch-1.pdf", "motors.csv"] {
+        assert!(winches.contains(&name.to_owned()), "{winches:?}");
+    }
+    assert!(only(vec![Topic::Guide]).contains(&"assembly.html".to_owned()));
+    assert!(only(vec![Topic::Print]).contains(&"pattern-letter.pdf".to_owned()));
+}
+
+#[test]
+fn sheets_are_as_large_as_asked_for_and_pieces_share_them() {
+    let sheets = |size_mm| {
+        let options = Options { sheet: SheetSize { size_mm }, ..Options::default() };
+        let (files, manifest) = blueprint(&rigged(), &options).expect("a blueprint");
+        let names: Vec<String> = files.into_iter().map(|f| f.name).filter(|n| n.ends_with(".svg")).collect();
+        let patterns: Vec<String> = names.into_iter().filter(|n| n.starts_with("pattern")).collect();
+        (patterns, manifest.remarks.iter().any(|r| r.contains("does not fit on a sheet")))
+    };
+    // Pieces are 136 x 96 mm.
+    assert_eq!(sheets([229.0, 305.0]), (vec!["pattern.svg".to_owned()], false));
+    assert_eq!(sheets([165.0, 150.0]).0, ["pattern-1.svg", "pattern-2.svg"]);
+    assert_eq!(sheets([150.0, 150.0]), (vec!["pattern-1.svg".to_owned(), "pattern-2.svg".to_owned()], false));
+    assert!(sheets([150.0, 100.0]).1);
 }

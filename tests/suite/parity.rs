@@ -400,6 +400,22 @@ fn a_blueprint_is_the_same_both_ways() {
 }
 
 #[test]
+fn parts_and_sheets_of_a_blueprint_are_chosen_the_same_both_ways() {
+    let (folder, mut window) = rigged();
+    let options =
+        ["--cutter", "plotter", "--corners", "mitred", "--compensate", "--only", "laser,print,routing,winches,motors"];
+    run(folder.path(), &[&["export", "bar.plush", "-o", "cli"], &options[..]].concat());
+    export(&mut window, &folder.path().join("window"), |window| {
+        click(window, "Compensate for stuffing");
+        click(window, "Parts and sheets");
+        for control in ["Plotter", "Mitred corners", "Assembly guide"] {
+            click(window, control);
+        }
+    });
+    same_blueprint(folder.path(), "cli", "window");
+}
+
+#[test]
 fn what_is_too_quick_is_refused_or_stretched_the_same_both_ways() {
     let (folder, window) = rigged();
     let mut design = Design::clone(session(&window).design());

@@ -1,9 +1,14 @@
 //! The writers: how products become files. One file each, one line each in [`WRITERS`].
 
 mod csv;
+mod dxf;
+mod html;
+mod layout;
+mod pdf;
 mod stl;
 mod svg;
 mod text;
+mod threemf;
 
 use super::product::{Content, Product};
 
@@ -19,9 +24,13 @@ pub struct Writer {
 /// All formats. A product is written in each that knows its kind.
 pub const WRITERS: &[Writer] = &[
     Writer { extension: "svg", write: svg::write },
+    Writer { extension: "dxf", write: dxf::write },
+    Writer { extension: "pdf", write: pdf::write },
+    Writer { extension: "html", write: html::write },
     Writer { extension: "csv", write: csv::write },
     Writer { extension: "txt", write: text::write },
     Writer { extension: "stl", write: stl::write },
+    Writer { extension: "3mf", write: threemf::write },
 ];
 
 /// The files of a product: name and bytes.
@@ -36,6 +45,7 @@ pub fn written(product: &Product) -> impl Iterator<Item = (String, Vec<u8>)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fabrication::guide::Guide;
     use crate::fabrication::{Sheet, Solid, Table};
     use crate::motion::{Framing, Program};
 
@@ -43,8 +53,11 @@ mod tests {
     fn every_kind_is_written_and_no_two_files_have_one_name() {
         let kinds = [
             Content::Sheet(Sheet::default()),
+            Content::Cut(Sheet::default()),
+            Content::Book(vec![Sheet { width_mm: 10.0, height_mm: 10.0, ..Sheet::default() }]),
             Content::Solid(Solid::default()),
             Content::Table(Table::default()),
+            Content::Guide(Guide::default()),
             Content::Program { program: Program::new(Framing::Sdo), extension: "bin" },
             Content::Text { text: String::new(), extension: "ino" },
             Content::Page(String::new()),

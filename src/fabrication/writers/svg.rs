@@ -8,21 +8,34 @@ use std::fmt::Write as _;
 /// The bytes of an SVG file.
 pub(super) fn write(content: &Content) -> Option<Vec<u8>> {
     match content {
-        Content::Sheet(sheet) => Some(svg(sheet).into_bytes()),
+        Content::Sheet(sheet) | Content::Cut(sheet) => Some(svg(sheet).into_bytes()),
         _ => None,
     }
 }
 
 /// The text of a sheet. Coordinates are flipped (y down) and rounded to 0.1 micrometre.
 fn svg(sheet: &Sheet) -> String {
+    String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n") + &element(sheet)
+}
+
+/// The element `svg` of a sheet, for pages that hold it. Groups of one piece stand in a group with the piece's name.
+pub(super) fn element(sheet: &Sheet) -> String {
     let (w, h) = (number(sheet.width_mm), number(sheet.height_mm));
-    let mut svg = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
-    svg += &format!(
+    let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"0 0 {w} {h}\">\n"
     );
     svg += &format!("  <title>{}</title>\n", escaped(&sheet.title));
-    for group in &sheet.groups {
-        write_group(&mut svg, sheet.height_mm, group);
+    for groups in sheet.groups.chunk_by(|a, b| a.piece.is_some() && a.piece == b.piece) {
+        let piece = groups[0].piece.as_ref();
+        if let Some(piece) = piece {
+            svg += &format!("  <g id=\"{}\">\n", escaped(piece));
+        }
+        for group in groups {
+            write_group(&mut svg, sheet.height_mm, group);
+        }
+        if piece.is_some() {
+            svg += "  </g>\n";
+        }
     }
     svg += "</svg>\n";
     svg
@@ -30,6 +43,14 @@ fn svg(sheet: &Sheet) -> String {
 
 fn write_group(svg: &mut String, height: f64, group: &Group) {
     let style = &group.style;
+    if let Some([low, high]) = group.clip {
+        let (x, y) = (number(low[0]), number(height - high[1]));
+        let (w, h) = (number(high[0] - low[0]), number(high[1] - low[1]));
+        let name = escaped(&group.name);
+        *svg += &format!(
+            "  <clipPath id=\"{name}-clip\"><rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\"/></clipPath>\n"
+        );
+    }
     *svg += &format!(
         "  <g id=\"{}\" fill=\"{}\" stroke=\"{}\"",
         escaped(&group.name),
@@ -42,10 +63,21 @@ fn write_group(svg: &mut String, height: f64, group: &Group) {
             number(style.stroke_mm)
         );
     }
+    if style.stroke.is_some() && !style.dash.is_empty() {
+        let lengths: Vec<String> = style.dash.iter().map(|&v| number(v)).collect();
+        *svg += &format!(" stroke-dasharray=\"{}\"", lengths.join(" "));
+    }
+    if group.clip.is_some() {
+        *svg += &format!(" clip-path=\"url(#{}-clip)\"", escaped(&group.name));
+    }
     *svg += ">\n";
     for entity in &group.entities {
         match entity {
             Entity::Polygon(points) => *svg += &format!("    <path d=\"{}Z\"/>\n", path(points, height)),
+            // Lines have no inside.
+            Entity::Polyline(points) if style.fill.is_some() => {
+                *svg += &format!("    <path d=\"{}\" fill=\"none\"/>\n", path(points, height));
+            }
             Entity::Polyline(points) => *svg += &format!("    <path d=\"{}\"/>\n", path(points, height)),
             Entity::Circle { center, radius } => {
                 let (x, y) = (number(center[0]), number(height - center[1]));
@@ -59,7 +91,7 @@ fn write_group(svg: &mut String, height: f64, group: &Group) {
                     Anchor::Middle => "middle",
                 };
                 *svg += &format!(
-                    "    <text x=\"{x}\" y=\"{y}\" font-family=\"sans-serif\" font-size=\"{size}\" text-anchor=\"{anchor}\" \
+                    "    <text x=\"{x}\" y=\"{y}\" font-family=\"Ubuntu, sans-serif\" font-size=\"{size}\" text-anchor=\"{anchor}\" \
                      fill=\"{color}\" stroke=\"none\">{}</text>\n",
                     escaped(text)
                 );
@@ -80,7 +112,7 @@ fn path(points: &[Point], height: f64) -> String {
 }
 
 /// Four decimals at most, without trailing zeros.
-fn number(v: f64) -> String {
+pub(super) fn number(v: f64) -> String {
     let text = format!("{v:.4}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".into() } else { text.into() }
@@ -91,7 +123,7 @@ fn paint(color: Option<Color>) -> String {
 }
 
 /// Text as XML content or attribute; characters that XML has no way to hold become a question mark.
-fn escaped(text: &str) -> String {
+pub(super) fn escaped(text: &str) -> String {
     let mut out = String::new();
     for c in text.chars() {
         match c {
@@ -125,7 +157,7 @@ mod tests {
   <g id=\"cut\" fill=\"none\" stroke=\"#FF0000\" stroke-width=\"0.01\" stroke-linecap=\"round\" stroke-linejoin=\"round\">
     <path d=\"M0 20L30 20L0 0Z\"/>
     <circle cx=\"10.5\" cy=\"0\" r=\"0.75\"/>
-    <text x=\"1\" y=\"18\" font-family=\"sans-serif\" font-size=\"4\" text-anchor=\"middle\" fill=\"#FF0000\" \
+    <text x=\"1\" y=\"18\" font-family=\"Ubuntu, sans-serif\" font-size=\"4\" text-anchor=\"middle\" fill=\"#FF0000\" \
 stroke=\"none\">&lt;R &amp; D&gt; &quot;?&quot;</text>
   </g>
 </svg>

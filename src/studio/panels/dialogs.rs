@@ -1,5 +1,6 @@
 //! Dialogs over the window: unsaved changes, and paths where the desktop has no dialogs of its own.
 
+use super::blueprint_parts::parts_and_sheets;
 use super::widgets::primary;
 use crate::files::shown;
 use crate::mesh::MAX_FIBERS;
@@ -154,7 +155,7 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, actions: &mut Actio
     let is_wrong = !is_known && !path.is_dir() && !path.as_os_str().is_empty();
     let note = match dialog.purpose {
         Purpose::Export => {
-            "Pattern, routings, winch tracks and controller program. The folder appears whole or not at all."
+            "Patterns, routings, winches, programs for motors and a guide. The folder appears whole or not at all."
         }
         Purpose::SaveAs if path.is_file() && session.document.path.as_deref() != Some(path) => "This file exists.",
         Purpose::Open | Purpose::Import if is_wrong => "There is no such file.",
@@ -191,6 +192,7 @@ fn export_settings(ui: &mut Ui, options: &mut export::Options) {
     let tip = "Give the animation more time where its motors are too slow for it; otherwise it is refused";
     ui.checkbox(&mut stretch, words::STRETCH).on_hover_text(tip);
     options.too_fast = if stretch { TooFast::Stretch } else { TooFast::Refuse };
+    parts_and_sheets(ui, options);
     ui.collapsing("Controllers", |ui| {
         ui.label("Programs for these; none chosen: for all that can play the motion");
         for family in families::ALL {

@@ -3,6 +3,7 @@
 //! A panel of the inspector is a file, and a line in [`ALL`].
 
 pub mod accuracy;
+mod blueprint_parts;
 pub mod buttons;
 mod curve;
 pub mod dialogs;

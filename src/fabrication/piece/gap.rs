@@ -1,14 +1,12 @@
-//! The seam: where the felt is cut around it, and where it is left open to turn and stuff the body.
+//! The seam, and where it is left open to turn and stuff the body and to put the winches in.
 
+use super::access::Access;
 use crate::design::Design;
 use crate::fabrication::cables::holes;
+use crate::fabrication::winch;
+use crate::outline::Point;
 use crate::outline::polygon::{bounding_box, distance_to_segment, length, lerp};
-use crate::outline::{Outline, Point};
-use i_overlay::mesh::float::outline::offset::OutlineOffset;
-use i_overlay::mesh::float::style::{LineJoin, OutlineStyle};
 
-/// Length of a round join's chords over its radius, rad: at 8 mm of allowance they stay within 0.01 mm of the arc.
-const ROUND_JOIN: f64 = 0.1;
 /// Places at which the start of a turning gap is tried, around the outline.
 const GAP_CANDIDATES: usize = 1000;
 /// What bulging by its own length costs a turning gap, against lying at the top of the body instead of at its bottom. A
@@ -16,18 +14,15 @@ const GAP_CANDIDATES: usize = 1000;
 const GAP_STRAIGHTNESS: f64 = 5.0;
 /// What a hole or pin in its way costs a turning gap, on the same scale.
 const GAP_OBSTACLE: f64 = 0.5;
+/// What a way to the winches that is nothing as wide as it should be costs a turning gap, on the same scale: a tenth less is as bad as lying at
+/// the top.
+const GAP_ACCESS: f64 = 10.0;
+/// How wide the way should be, over what a housing needs: hands and stuffing go there too.
+const GAP_ROOM: f64 = 1.2;
+/// How far inside the gap the way begins, over what a housing needs: a gap in a limb is as wide as the limb.
+const GAP_REACH: f64 = 0.3;
 /// How near a hole or pin is in the way, mm: the width of a finger's grip on the seam.
 const GAP_CLEARANCE_MM: f64 = 4.0;
-
-/// The outline grown by a seam allowance, round at the corners. Each shape is an outer polygon (counter-clockwise)
-/// followed by what is cut out of it; the body's own holes shrink, and a notch narrower than twice the allowance closes.
-pub fn grown(outline: &Outline, allowance_mm: f64) -> Vec<Vec<Vec<Point>>> {
-    let contours: Vec<Vec<Point>> = outline.polygons().map(Vec::from).collect();
-    if allowance_mm <= 0.0 {
-        return vec![contours];
-    }
-    contours.outline(&OutlineStyle::new(allowance_mm).line_join(LineJoin::Round(ROUND_JOIN)))
-}
 
 /// The seam around the outer polygon, open at the turning gap.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,16 +34,48 @@ pub struct Seam {
     pub gap_mm: f64,
 }
 
-/// The seam of a design, its turning gap away from the holes of its cables and from its pins.
-pub fn of(design: &Design) -> Seam {
+/// The seam of a design: its turning gap away from the holes of its cables and from its pins, where a housing gets in to every winch.
+pub fn seam_of(design: &Design) -> Seam {
     let pins = design.pins.iter().map(|p| design.mesh.position(&p.at, &design.mesh.nodes));
     let obstacles: Vec<Point> = holes(design).into_iter().chain(pins).collect();
-    seam(&design.outline.outer, design.turning_gap_mm(), &obstacles)
+    let ways = Ways::of(design);
+    seam(&design.outline.outer, design.turning_gap_mm(), &obstacles, |stretch| ways.short_of(stretch))
 }
 
-/// Leaves `gap_mm` of the polygon open on the stretch that is straightest and nearest to the bottom, away from
-/// `obstacles`.
-fn seam(polygon: &[Point], gap_mm: f64, obstacles: &[Point]) -> Seam {
+/// How wide the body is on the way to its winches.
+pub struct Ways {
+    access: Access,
+    /// For each winch the widest way from every cell.
+    to: Vec<Vec<f64>>,
+    flat_mm: f64,
+}
+
+impl Ways {
+    pub fn of(design: &Design) -> Self {
+        let access = Access::new(&design.outline);
+        let flat_mm = winch::housing(design).flat_mm();
+        let winches = design.networks.iter().filter_map(|n| Some(n.winch()?.place(&design.mesh.nodes)));
+        let to = winches.map(|place| access.ways(place, 0.5 * flat_mm)).collect();
+        Self { access, to, flat_mm }
+    }
+
+    /// Flat width of the body on the widest way from a stretch of the seam to each winch, mm.
+    pub fn widths(&self, stretch: &[Point]) -> Vec<f64> {
+        let middle = stretch[stretch.len() / 2];
+        self.to.iter().map(|ways| self.access.to(ways, middle, GAP_REACH * self.flat_mm)).collect()
+    }
+
+    /// By which part the ways are short of what a housing needs, their mean: one winch that nothing gets to does not hide the others.
+    fn short_of(&self, stretch: &[Point]) -> f64 {
+        let wanted = (GAP_ROOM * self.flat_mm).max(f64::MIN_POSITIVE);
+        let short = self.widths(stretch).into_iter().map(|width| 1.0 - width.min(wanted) / wanted);
+        short.sum::<f64>() / self.to.len().max(1) as f64
+    }
+}
+
+/// Leaves `gap_mm` of the polygon open on the stretch that is straightest and nearest to the bottom, away from `obstacles`, where the ways
+/// inward are wide. `short_of` is by which part they are too narrow.
+fn seam(polygon: &[Point], gap_mm: f64, obstacles: &[Point], short_of: impl Fn(&[Point]) -> f64) -> Seam {
     let ring = Ring::new(polygon);
     let mut closed = polygon.to_vec();
     closed.extend(polygon.first());
@@ -56,7 +83,11 @@ fn seam(polygon: &[Point], gap_mm: f64, obstacles: &[Point]) -> Seam {
         return Seam { stitches: closed, gap: Vec::new(), gap_mm: 0.0 };
     }
     let step = ring.length() / GAP_CANDIDATES as f64;
-    let costs: Vec<f64> = (0..GAP_CANDIDATES).map(|i| gap_cost(&ring, i as f64 * step, gap_mm, obstacles)).collect();
+    let cost = |start: f64| {
+        let stretch = ring.stretch(start, gap_mm);
+        gap_cost(&ring, &stretch, gap_mm, obstacles) + GAP_ACCESS * short_of(&stretch)
+    };
+    let costs: Vec<f64> = (0..GAP_CANDIDATES).map(|i| cost(i as f64 * step)).collect();
     let start = middle_of_best(&costs) * step;
     let gap = ring.stretch(start, gap_mm);
     let mut stitches = ring.stretch(start + gap_mm, ring.length() - gap_mm);
@@ -67,8 +98,7 @@ fn seam(polygon: &[Point], gap_mm: f64, obstacles: &[Point]) -> Seam {
 }
 
 /// Bulge over the chord and mean height over the body, both relative, and a fine for obstacles.
-fn gap_cost(ring: &Ring, start: f64, gap_mm: f64, obstacles: &[Point]) -> f64 {
-    let stretch = ring.stretch(start, gap_mm);
+fn gap_cost(ring: &Ring, stretch: &[Point], gap_mm: f64, obstacles: &[Point]) -> f64 {
     let (a, b) = (stretch[0], stretch[stretch.len() - 1]);
     let bulge = stretch.iter().map(|p| distance_to_segment(a, b, *p)).fold(0.0, f64::max);
     let height = stretch.windows(2).map(|s| length(s[0], s[1]) * 0.5 * (s[0][1] + s[1][1])).sum::<f64>() / gap_mm;
@@ -145,7 +175,6 @@ impl<'a> Ring<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::outline::polygon::signed_area as area;
     use std::f64::consts::PI;
 
     fn square(side: f64) -> Vec<Point> {
@@ -156,32 +185,9 @@ mod tests {
         line.windows(2).map(|s| length(s[0], s[1])).sum()
     }
 
-    /// Steiner's formula: a convex polygon of area A and perimeter P grows by r to A + P r + pi r^2.
-    #[test]
-    fn growth_follows_steiners_formula() {
-        for allowance in [2.0, 8.0, 15.0] {
-            let shapes = grown(&Outline { outer: square(100.0), holes: vec![] }, allowance);
-            assert_eq!((shapes.len(), shapes[0].len()), (1, 1));
-            let expected = 100.0 * 100.0 + 400.0 * allowance + PI * allowance * allowance;
-            let missing = expected - area(&shapes[0][0]);
-            assert!((-0.05..0.005 * PI * allowance * allowance).contains(&missing), "{allowance} mm: {missing} mm^2");
-        }
-    }
-
-    #[test]
-    fn holes_shrink_and_close() {
-        let hole = vec![[30.0, 30.0], [30.0, 70.0], [70.0, 70.0], [70.0, 30.0]];
-        let outline = Outline { outer: square(100.0), holes: vec![hole] };
-        let shapes = grown(&outline, 8.0);
-        assert_eq!((shapes.len(), shapes[0].len()), (1, 2));
-        assert!((area(&shapes[0][1]) + 24.0 * 24.0).abs() < 1e-3, "{}", area(&shapes[0][1]));
-        assert_eq!(grown(&outline, 21.0)[0].len(), 1);
-        assert_eq!(grown(&outline, 0.0), vec![vec![outline.outer.clone(), outline.holes[0].clone()]]);
-    }
-
     #[test]
     fn the_gap_lies_in_the_middle_of_the_bottom() {
-        let seam = seam(&square(120.0), 50.0, &[]);
+        let seam = seam(&square(120.0), 50.0, &[], |_| 0.0);
         assert!((along(&seam.gap) - 50.0).abs() < 1e-9 && (along(&seam.stitches) - 430.0).abs() < 1e-9);
         let mid = 0.5 * (seam.gap[0][0] + seam.gap[1][0]);
         assert!(seam.gap.len() == 2 && (mid - 60.0).abs() < 0.5 && seam.gap[0][1].abs() < 1e-12, "{:?}", seam.gap);
@@ -191,10 +197,10 @@ mod tests {
 
     #[test]
     fn the_gap_keeps_away_from_obstacles_and_fits_small_bodies() {
-        let blocked = seam(&square(120.0), 50.0, &[[40.0, 0.0], [80.0, 0.0]]);
+        let blocked = seam(&square(120.0), 50.0, &[[40.0, 0.0], [80.0, 0.0]], |_| 0.0);
         let clear = |p: Point| blocked.gap.windows(2).all(|s| distance_to_segment(s[0], s[1], p) >= GAP_CLEARANCE_MM);
         assert!(clear([40.0, 0.0]) && clear([80.0, 0.0]), "{:?}", blocked.gap);
-        let closed = seam(&square(20.0), 0.0, &[]);
+        let closed = seam(&square(20.0), 0.0, &[], |_| 0.0);
         assert!(closed.gap.is_empty() && along(&closed.stitches) == 80.0);
     }
 
@@ -203,7 +209,7 @@ mod tests {
         // A half disc standing on its round side: its upper edge is straight, its bottom is flat enough.
         let arc: Vec<Point> =
             (0..=40).map(|i| PI * (1.0 + f64::from(i) / 40.0)).map(|t| [100.0 * t.cos(), 100.0 * t.sin()]).collect();
-        let seam = seam(&arc, 50.0, &[]);
+        let seam = seam(&arc, 50.0, &[], |_| 0.0);
         let height = seam.gap.iter().map(|p| p[1]).fold(f64::NEG_INFINITY, f64::max);
         assert!(height < -90.0, "{:?}", seam.gap);
     }

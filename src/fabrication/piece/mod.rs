@@ -1,0 +1,62 @@
+//! Pieces of felt: where they are cut, sewn, marked and left open, before they are laid on sheets.
+//!
+//! Coordinates are those of the design, mm; a [`Piece`] is the front as it is seen from the front. The back is its mirror image.
+
+mod access;
+mod allowance;
+mod clearance;
+mod gap;
+mod labels;
+mod marks;
+mod nest;
+mod snip;
+
+pub use access::Access;
+pub use allowance::{Corners, Cutting, grown, with_kerf};
+pub use clearance::{LEAST_FELT_MM, Passage, passages};
+pub use gap::{Seam, Ways, seam_of};
+pub use labels::Labels;
+pub use marks::match_marks;
+pub use nest::{Bed, Laid, nest};
+pub use snip::{Closed, closed_notches};
+
+use crate::design::Design;
+use crate::outline::Point;
+
+/// A piece of felt with all that is on it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Piece {
+    /// Rim (counter-clockwise) and what is cut out within it.
+    pub rim: Vec<Point>,
+    pub cut_outs: Vec<Vec<Point>>,
+    pub seam: Seam,
+    /// Seams around the body's own holes.
+    pub inner_seams: Vec<Vec<Point>>,
+    /// Where the allowances meet, and the line to snip along.
+    pub closed: Vec<Closed>,
+    /// Short lines across the allowance that meet those of the other piece.
+    pub notches: Vec<[Point; 2]>,
+    /// Places where cables or winches pass the felt.
+    pub passages: Vec<Passage>,
+    pub pins: Vec<Point>,
+}
+
+impl Piece {
+    /// The front of a design's skin.
+    pub fn front(design: &Design, cutting: &Cutting) -> Self {
+        let allowance_mm = design.fabrication.seam_allowance_mm;
+        let mut shapes = grown(&design.outline, allowance_mm, cutting.corners);
+        // The outline is one piece, and so is what is grown from it.
+        let mut shape = if shapes.is_empty() { vec![design.outline.outer.clone()] } else { shapes.swap_remove(0) };
+        let rim = shape.remove(0);
+        let closed = closed_notches(&design.outline, &rim, &shape, allowance_mm);
+        let seam = seam_of(design);
+        let notches = match_marks(&design.outline, &rim, &seam, allowance_mm);
+        let pins = design.pins.iter().map(|p| design.mesh.position(&p.at, &design.mesh.nodes)).collect();
+        let passages = passages(design);
+        let mut cut =
+            with_kerf(vec![std::iter::once(rim).chain(shape).collect()], cutting.kerf_mm).into_iter().flatten();
+        let (rim, shape) = (cut.next().unwrap_or_default(), cut.collect());
+        Self { rim, cut_outs: shape, seam, inner_seams: design.outline.holes.clone(), closed, notches, passages, pins }
+    }
+}

@@ -1,0 +1,187 @@
+//! A pattern that has the drawn silhouette when it is stuffed.
+
+use super::shape::{Shape, aligned, refined};
+use crate::design::Design;
+use crate::mesh::Mesh;
+use crate::outline::polygon::{distance_to_segment, length, nearest_parameter};
+use crate::outline::{Outline, Point};
+
+/// How near to the drawn silhouette the stuffed one comes, as a part of the body's length, and how near is aimed at.
+const WITHIN: f64 = 0.01;
+const AIM: f64 = 0.004;
+/// Most rounds of moving the rim by what is missing.
+const ROUNDS: usize = 30;
+/// The part of what is missing that the rim is moved by, how often the moves of neighbours are averaged, and the longest move over the body's length:
+/// all of it at once makes curved tubes swing from one side to the other.
+const PART: f64 = 0.7;
+const MEANS: usize = 1;
+const STEP: f64 = 0.05;
+/// Sweeps that spread a change of the rim over the inside.
+const SWEEPS: usize = 200;
+
+/// Why there is no such pattern.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Impossible {
+    /// Parts of the pattern would lie over each other.
+    Overlap(Point),
+    /// The stuffed silhouette stays this far from the drawn one, mm.
+    Off(f64),
+}
+
+/// A design of the same plushie whose outline is what has to be cut, so that the body is as drawn when it is stuffed: its rim is moved by what
+/// is missing, round by round. Everything that is fixed to the body moves along.
+///
+/// # Errors
+/// Parts of the pattern would overlap, or it cannot be done to a hundredth of the body's length.
+pub fn compensated(design: &Design) -> Result<Design, Impossible> {
+    let rim = design.mesh.boundary();
+    let drawn = design.outline.near();
+    let mut mesh = design.mesh.clone();
+    let mut before: Option<Vec<[f64; 3]>> = None;
+    let mut best: Option<(f64, Vec<Point>)> = None;
+    let size = design.mesh.body_length();
+    for _ in 0..ROUNDS {
+        let fine = refined(&mesh);
+        let shape = Shape::of(&fine, before.as_deref());
+        // The nodes of a mesh keep their numbers in a finer one.
+        let seen = over(&rim, &design.mesh.nodes, &shape.seen);
+        let on_rim = fine.boundary().into_iter().flatten();
+        let off = on_rim.map(|i| drawn.distance(seen[i])).fold(0.0, f64::max);
+        if best.as_ref().is_none_or(|b| off < b.0) {
+            best = Some((off, mesh.nodes.clone()));
+        }
+        if off <= AIM * size {
+            break;
+        }
+        spread(&mut mesh, &moves(&rim, &design.mesh.nodes, &seen, STEP * size));
+        if let Some(at) = overlap(&mesh, &rim) {
+            // What was reached before may do.
+            match &best {
+                Some((off, _)) if *off <= WITHIN * size => break,
+                _ => return Err(Impossible::Overlap(at)),
+            }
+        }
+        before = Some(shape.nodes);
+    }
+    let (off, nodes) = best.unwrap_or((f64::INFINITY, mesh.nodes.clone()));
+    if off > WITHIN * size {
+        return Err(Impossible::Off(off));
+    }
+    Ok(with_nodes(design, &rim, nodes))
+}
+
+/// The moves of the rim's nodes: a part of what is missing to the drawn places, the mean of neighbours, no longer than `longest`.
+fn moves(rim: &[Vec<usize>], drawn: &[Point], seen: &[Point], longest: f64) -> Vec<(usize, Point)> {
+    let mut moves = Vec::new();
+    for ring in rim {
+        let mut missing: Vec<Point> = ring.iter().map(|&i| [0, 1].map(|k| PART * (drawn[i][k] - seen[i][k]))).collect();
+        let n = missing.len();
+        for _ in 0..MEANS {
+            let own = missing.clone();
+            for k in 0..n {
+                let (a, b) = (own[(k + n - 1) % n], own[(k + 1) % n]);
+                missing[k] = [0, 1].map(|c| 0.25 * a[c] + 0.5 * own[k][c] + 0.25 * b[c]);
+            }
+        }
+        moves.extend(ring.iter().zip(missing).map(|(&i, d)| {
+            let whole = length(d, [0.0; 2]);
+            (i, if whole > longest { d.map(|v| v * longest / whole) } else { d })
+        }));
+    }
+    moves
+}
+
+/// Places moved as a whole so that the rim's mean is that of the drawn one.
+fn over(rim: &[Vec<usize>], drawn: &[Point], seen: &[Point]) -> Vec<Point> {
+    let nodes: Vec<[f64; 3]> = seen.iter().map(|p| [p[0], p[1], 0.0]).collect();
+    aligned(rim, drawn, &nodes)
+}
+
+/// Moves the rim, and the inside as a membrane that is fixed to it (every node by the mean of its neighbours).
+fn spread(mesh: &mut Mesh, moves: &[(usize, Point)]) {
+    let mut by = vec![[0.0; 2]; mesh.nodes.len()];
+    let mut is_fixed = vec![false; mesh.nodes.len()];
+    for &(node, d) in moves {
+        (by[node], is_fixed[node]) = (d, true);
+    }
+    let mut beside = vec![Vec::new(); mesh.nodes.len()];
+    for [a, b] in mesh.edges() {
+        beside[a].push(b);
+        beside[b].push(a);
+    }
+    for _ in 0..SWEEPS {
+        for node in (0..mesh.nodes.len()).filter(|&n| !is_fixed[n] && !beside[n].is_empty()) {
+            let count = beside[node].len() as f64;
+            by[node] = [0, 1].map(|k| beside[node].iter().map(|&n| by[n][k]).sum::<f64>() / count);
+        }
+    }
+    for (p, d) in mesh.nodes.iter_mut().zip(by) {
+        *p = [p[0] + d[0], p[1] + d[1]];
+    }
+}
+
+/// A place where a mesh folds over or its rim crosses itself.
+fn overlap(mesh: &Mesh, rim: &[Vec<usize>]) -> Option<Point> {
+    for t in &mesh.triangles {
+        let [a, b, c] = t.map(|n| mesh.nodes[n]);
+        if (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) <= 0.0 {
+            return Some(a);
+        }
+    }
+    let sides: Vec<[usize; 2]> =
+        rim.iter().flat_map(|ring| (0..ring.len()).map(move |i| [ring[i], ring[(i + 1) % ring.len()]])).collect();
+    for (i, s) in sides.iter().enumerate() {
+        for t in sides[i + 1..].iter().filter(|t| !s.iter().any(|n| t.contains(n))) {
+            let [a, b, c, d] = [s[0], s[1], t[0], t[1]].map(|n| mesh.nodes[n]);
+            let side = |p: Point, q: Point, r: Point| (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+            if side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0 {
+                return Some(a);
+            }
+        }
+    }
+    None
+}
+
+/// The design on moved nodes: points of its outline move as the rim of the mesh beside them does.
+fn with_nodes(design: &Design, rim: &[Vec<usize>], nodes: Vec<Point>) -> Design {
+    let sides: Vec<[usize; 2]> =
+        rim.iter().flat_map(|ring| (0..ring.len()).map(move |i| [ring[i], ring[(i + 1) % ring.len()]])).collect();
+    let old = &design.mesh.nodes;
+    let moved = |p: &Point| {
+        let side = sides.iter().min_by(|s, t| {
+            let away = |s: &[usize; 2]| distance_to_segment(old[s[0]], old[s[1]], *p);
+            away(s).total_cmp(&away(t))
+        });
+        let Some(&[a, b]) = side else { return *p };
+        let t = nearest_parameter(old[a], old[b], *p);
+        [0, 1].map(|k| p[k] + (1.0 - t) * (nodes[a][k] - old[a][k]) + t * (nodes[b][k] - old[b][k]))
+    };
+    let ring = |ring: &Vec<Point>| ring.iter().map(moved).collect();
+    let outline =
+        Outline { outer: ring(&design.outline.outer), holes: design.outline.holes.iter().map(ring).collect() };
+    let mut mesh = design.mesh.clone();
+    mesh.nodes = nodes;
+    Design { outline, mesh, ..design.clone() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fabrication::stuffing::stuffed;
+
+    #[test]
+    fn a_compensated_pattern_has_the_drawn_silhouette() {
+        let ring: Vec<Point> = (0..60)
+            .map(|i| std::f64::consts::TAU * f64::from(i) / 60.0)
+            .map(|a| [90.0 * a.cos(), 60.0 * a.sin()])
+            .collect();
+        let outline = Outline { outer: ring, holes: vec![] };
+        let mesh = crate::mesh::generate(&outline, 200).unwrap();
+        let design = Design::new("egg", outline, mesh);
+        let cut = compensated(&design).expect("an egg");
+        assert!(cut.outline.area() > 1.4 * design.outline.area());
+        let seen = stuffed(&cut);
+        let off = seen.rings[0].iter().map(|&p| design.outline.distance(p)).fold(0.0, f64::max);
+        assert!(off < 0.02 * design.mesh.body_length(), "{off}");
+    }
+}

@@ -1,0 +1,167 @@
+//! A sheet that wrinkles but hardly stretches, under the pressure of its stuffing.
+
+use crate::mesh::Mesh;
+use crate::outline::polygon::length;
+
+/// Strain that the pressure would cause in a sheet as wide as the body's deepest place, dimensionless. Larger: the sheet stretches (sizes are off by
+/// about as much); smaller: many more iterations.
+const STRAIN: f64 = 0.005;
+/// Height of the dome that the search starts from, over the distance to the rim.
+const START_SLOPE: f64 = 0.8;
+
+/// Energy per area `1/2 sum_i max(0, s_i - 1)^2` of the principal stretches `s_i` (the relaxed energy of a sheet that wrinkles), of unit
+/// stiffness, less pressure times half the volume.
+pub struct Membrane {
+    triangles: Vec<[usize; 3]>,
+    area: Vec<f64>,
+    /// Inverse of the matrix of the two sides at rest, row by row.
+    inverse: Vec<[f64; 4]>,
+    is_rim: Vec<bool>,
+    depth: Vec<f64>,
+    pressure: f64,
+}
+
+impl Membrane {
+    pub fn new(mesh: &Mesh, rim: &[Vec<usize>]) -> Self {
+        let mut is_rim = vec![false; mesh.nodes.len()];
+        rim.iter().flatten().for_each(|&node| is_rim[node] = true);
+        let on_rim: Vec<_> = rim.iter().flatten().map(|&node| mesh.nodes[node]).collect();
+        let depth: Vec<f64> =
+            mesh.nodes.iter().map(|&p| on_rim.iter().map(|&q| length(p, q)).fold(f64::INFINITY, f64::min)).collect();
+        let deepest = depth.iter().copied().fold(0.0, f64::max).max(f64::MIN_POSITIVE);
+        let (mut area, mut inverse, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
+        for &t in &mesh.triangles {
+            let [a, b, c] = t.map(|n| mesh.nodes[n]);
+            let (u, v) = ([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]);
+            let twice = u[0] * v[1] - u[1] * v[0];
+            if twice > 0.0 {
+                triangles.push(t);
+                area.push(0.5 * twice);
+                inverse.push([v[1] / twice, -v[0] / twice, -u[1] / twice, u[0] / twice]);
+            }
+        }
+        Self { triangles, area, inverse, is_rim, depth, pressure: STRAIN / deepest }
+    }
+
+    /// A start: every node raised by its distance to the rim.
+    pub fn dome(&self, mesh: &Mesh) -> Vec<[f64; 3]> {
+        let raised = |(p, depth): (&[f64; 2], &f64)| [p[0], p[1], START_SLOPE * depth];
+        let mut nodes: Vec<[f64; 3]> = mesh.nodes.iter().zip(&self.depth).map(raised).collect();
+        for (node, is_rim) in nodes.iter_mut().zip(&self.is_rim) {
+            if *is_rim {
+                node[2] = 0.0;
+            }
+        }
+        nodes
+    }
+
+    /// Volume between both sheets, mm^3.
+    pub fn volume(&self, x: &[[f64; 3]]) -> f64 {
+        2.0 * self.triangles.iter().map(|t| dot(x[t[0]], cross(x[t[1]], x[t[2]])) / 6.0).sum::<f64>()
+    }
+
+    /// The energy and its gradient, which is 0 across the plane of the rim.
+    pub fn energy(&self, x: &[[f64; 3]], gradient: &mut [[f64; 3]]) -> f64 {
+        gradient.fill([0.0; 3]);
+        let mut energy = 0.0;
+        for ((t, &area), d) in self.triangles.iter().zip(&self.area).zip(&self.inverse) {
+            let [a, b, c] = t.map(|n| x[n]);
+            let (u, v) = (minus(b, a), minus(c, a));
+            // Columns of the deformation gradient.
+            let f = [0, 1].map(|j| [0, 1, 2].map(|k| u[k] * d[j] + v[k] * d[2 + j]));
+            let (density, stress) = density(&f);
+            energy += area * density;
+            let gu = [0, 1, 2].map(|k| area * (stress[0][k] * d[0] + stress[1][k] * d[1]));
+            let gv = [0, 1, 2].map(|k| area * (stress[0][k] * d[2] + stress[1][k] * d[3]));
+            let p = self.pressure / 6.0;
+            let (bc, ca, ab) = (cross(b, c), cross(c, a), cross(a, b));
+            energy -= p * dot(a, bc);
+            for k in 0..3 {
+                gradient[t[0]][k] -= gu[k] + gv[k] + p * bc[k];
+                gradient[t[1]][k] += gu[k] - p * ca[k];
+                gradient[t[2]][k] += gv[k] - p * ab[k];
+            }
+        }
+        for (g, is_rim) in gradient.iter_mut().zip(&self.is_rim) {
+            if *is_rim {
+                g[2] = 0.0;
+            }
+        }
+        energy
+    }
+
+    /// A force that is large here: the pressure on the area around a node.
+    pub fn force_scale(&self) -> f64 {
+        let area: f64 = self.area.iter().sum();
+        self.pressure * area / self.is_rim.len().max(1) as f64
+    }
+}
+
+/// Energy per area and its derivative by the columns of the deformation gradient `f`.
+///
+/// With `C = F^T F`, its eigenvalues `s_i^2` and eigenvectors `n_i`, the derivative is `2 F dW/dC`, `dW/dC = sum_i max(0, s_i - 1) / (2 s_i) n_i n_i^T`.
+fn density(f: &[[f64; 3]; 2]) -> (f64, [[f64; 3]; 2]) {
+    let (c00, c11, c01) = (dot(f[0], f[0]), dot(f[1], f[1]), dot(f[0], f[1]));
+    let (mean, half) = (0.5 * (c00 + c11), 0.5 * (c00 - c11));
+    let r = half.hypot(c01);
+    let stretch = [mean + r, mean - r].map(|v| v.max(0.0).sqrt());
+    let over = stretch.map(|s| (s - 1.0).max(0.0));
+    let g = [0, 1].map(|i| if over[i] > 0.0 { 0.5 * over[i] / stretch[i] } else { 0.0 });
+    let (cosine, sine) = if r > 1e-14 * mean { (half / r, c01 / r) } else { (1.0, 0.0) };
+    let m00 = 0.5 * (g[0] * (1.0 + cosine) + g[1] * (1.0 - cosine));
+    let m11 = 0.5 * (g[0] * (1.0 - cosine) + g[1] * (1.0 + cosine));
+    let m01 = 0.5 * (g[0] - g[1]) * sine;
+    let column = |p: f64, q: f64| [0, 1, 2].map(|k| 2.0 * (f[0][k] * p + f[1][k] * q));
+    (0.5 * (over[0] * over[0] + over[1] * over[1]), [column(m00, m01), column(m01, m11)])
+}
+
+fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_gradient_is_that_of_the_energy() {
+        let outline =
+            crate::outline::Outline { outer: vec![[0.0, 0.0], [60.0, 0.0], [60.0, 40.0], [0.0, 40.0]], holes: vec![] };
+        let mesh = crate::mesh::generate(&outline, 80).unwrap();
+        let membrane = Membrane::new(&mesh, &mesh.boundary());
+        let mut x = membrane.dome(&mesh);
+        for (i, p) in x.iter_mut().enumerate() {
+            (p[0], p[1]) = (p[0] * 1.1 + (i as f64).sin(), p[1] + (1.7 * i as f64).sin());
+        }
+        let mut gradient = vec![[0.0; 3]; x.len()];
+        membrane.energy(&x, &mut gradient);
+        let direction: Vec<[f64; 3]> = (0..x.len())
+            .map(|i| {
+                [
+                    (i as f64).cos(),
+                    (2.0 * i as f64).sin(),
+                    if membrane.is_rim[i] { 0.0 } else { (3.0 * i as f64).cos() },
+                ]
+            })
+            .collect();
+        let expected: f64 = gradient.iter().zip(&direction).map(|(g, d)| dot(*g, *d)).sum();
+        let mut unused = gradient.clone();
+        let mut off = |h: f64| {
+            let moved = |s: f64| -> Vec<[f64; 3]> {
+                x.iter().zip(&direction).map(|(p, d)| [0, 1, 2].map(|k| p[k] + s * d[k])).collect()
+            };
+            let (up, down) = (membrane.energy(&moved(h), &mut unused), membrane.energy(&moved(-h), &mut unused));
+            ((up - down) / (2.0 * h) - expected).abs() / expected.abs()
+        };
+        let (coarse, fine) = (off(1e-3), off(1e-4));
+        assert!(fine < 1e-6 && fine < 0.1 * coarse.max(1e-9), "{coarse} {fine}");
+    }
+}
