@@ -65,6 +65,25 @@ fn a_motion_beyond_a_servo_is_refused_with_the_spool_that_would_do() {
     assert!(refused.contains("abacus") && refused.contains("grbl"), "{refused}");
 }
 
+#[test]
+fn a_motor_that_is_too_weak_is_told_or_refused_by_the_name_of_its_winch() {
+    let mut design = rigged();
+    design.controller.torque_nmm = 0.01;
+    let refused = blueprint(&design, &Options::default()).map(drop).expect_err("too weak").to_string();
+    assert!(refused.contains("winch \"") && refused.contains("controller.torque_nmm"), "{refused}");
+    design.controller.torque_nmm = 1e6;
+    let (_, manifest) = blueprint(&design, &Options::default()).expect("strong enough");
+    assert!(!manifest.remarks.iter().any(|remark| remark.contains("controller.torque_nmm")));
+    // The limit that is only assumed does not refuse what a stronger motor may do: torque grows with the spool.
+    let mut stiff = rigged();
+    stiff.fabrication.spool_radius_mm = 500.0;
+    let told = |design: &Design| {
+        let (_, manifest) = blueprint(design, &Options::default()).expect("a blueprint");
+        manifest.remarks.iter().filter(|remark| remark.starts_with("Assumed of the motors: winch")).count()
+    };
+    assert_eq!(told(&stiff), 1);
+}
+
 /// When the pulse of a channel ends, of 4096 parts of 20 ms, at given times, ms, of a sketch that is sent `setup` and `motion` at 100 and 1000.
 fn pulses(run: &mut Command, times_ms: &[u64]) -> Vec<(u64, Vec<f64>)> {
     let mut child = run.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().expect("it runs");
