@@ -1,7 +1,7 @@
 //! Programs for motor controllers, read back and run by others: a compiler, an interpreter, a parser, a drive written apart from the tool's own.
 
 use crate::support::rigged;
-use plushwright::design::{Design, bundled};
+use plushwright::design::{Design, Material, bundled};
 use plushwright::engine::{Setpoint, solve_once};
 use plushwright::fabrication::{Options, blueprint};
 use plushwright::motion::families::{bus, sdo};
@@ -74,9 +74,11 @@ fn a_motor_that_is_too_weak_is_told_or_refused_by_the_name_of_its_winch() {
     design.controller.torque_nmm = 1e6;
     let (_, manifest) = blueprint(&design, &Options::default()).expect("strong enough");
     assert!(!manifest.remarks.iter().any(|remark| remark.contains("controller.torque_nmm")));
-    // The limit that is only assumed does not refuse what a stronger motor may do: torque grows with the spool.
+    // The limit that is only assumed does not refuse what a stronger motor may do.
     let mut stiff = rigged();
-    stiff.fabrication.spool_radius_mm = 500.0;
+    let values: Vec<f64> = stiff.material.values().iter().map(|value| 100.0 * value).collect();
+    stiff.material = Material::new(stiff.material.kind(), &values);
+    stiff.tendons.stiffness *= 100.0;
     let told = |design: &Design| {
         let (_, manifest) = blueprint(design, &Options::default()).expect("a blueprint");
         manifest.remarks.iter().filter(|remark| remark.starts_with("Assumed of the motors: winch")).count()
