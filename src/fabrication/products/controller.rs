@@ -5,7 +5,8 @@ use crate::fabrication::error::ExportError;
 use crate::fabrication::product::{Content, Part, Product, Source};
 use crate::motion::families::{self, classic};
 use crate::motion::{
-    Family, Forecast, Machine, MotionError, Note, Plan, Sketch, Stream, Trajectory, commands_a_step, line, programs,
+    Family, Following, Forecast, Machine, MotionError, Note, Plan, Sketch, Stream, Trajectory, commands_a_step, line,
+    programs,
 };
 
 /// Programs of every family that was asked for, or of all that can play this motion: `controller-<family>-setup`, `-motion`, `-stop`.
@@ -93,9 +94,10 @@ fn followed(source: &Source<'_>, machine: &Machine) -> Result<String, MotionErro
     let plan = Plan::of(source.design, source.options.too_fast)?;
     let forecast = Forecast::of(&classic, &plan, source.trajectory);
     Ok(format!(
-        "  Simulated drives (trapezoids of speed) that get each step of the file at its time: {}.
+        "  Simulated drives (trapezoids of speed, up to {:.0} s of the motion) that get each step of the file at its time: {}.
   Played live at {} baud with replies after {:.0} ms, a winch every {:.3} s: {}.
 ",
+        Following::most_s(machine),
         words(forecast.file),
         machine.controller.drives.baud,
         1e3 * line::LATENCY_S,
