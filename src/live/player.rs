@@ -339,7 +339,7 @@ impl<'a> Player<'a> {
         let mut played = Played { slot_s, round_trip_s: self.round_trip_s, ..Played::default() };
         let mut began_s = None;
         let mut lengths_mm = plan.at(plan.span_s()[0]);
-        for Beat { due_s, moves } in beats(plan, self.stream, slot_s) {
+        for Beat { due_s, moves } in beats(plan, self.stream, slot_s, f64::INFINITY) {
             // Not earlier than needed: what is loaded may already count for the move before.
             let loads = moves.iter().map(|step| self.stream.load(step).len()).sum::<usize>();
             if let (Some(began_s), true) = (began_s, loads > 0) {

@@ -29,6 +29,11 @@ pub enum MotionError {
     BeyondTurn { winch: String, travel_mm: f64, degrees: f64, most: f64, motor: &'static str, radius_mm: f64 },
     #[error("there are no controllers {name:?}; there are {known}")]
     NoSuchFamily { name: String, known: String },
+    #[error(
+        "winch {winch:?} needs up to {needs_nmm:.0} N mm at its spool, more than the {has_nmm:.0} N mm of its motor (controller.torque_nmm): a smaller spool, \
+         a stronger motor or less pull would do"
+    )]
+    TooWeak { winch: String, needs_nmm: f64, has_nmm: f64 },
     #[error("controller.drives: servo_low_us and servo_high_us are both {us}: a servo needs two different ends")]
     NoPulses { us: u32 },
 }

@@ -24,10 +24,17 @@ struct Order {
     rpm: u32,
 }
 
+/// Time of all winches together that is simulated at most, s: what bounds the work on motions of hours.
+const MOST_S: f64 = 480.0;
 /// Time after the end in which drives still run, s.
 const AFTER_S: f64 = 0.5;
 
 impl Following {
+    /// How much of a motion is simulated, s.
+    pub fn most_s(machine: &Machine) -> f64 {
+        MOST_S / machine.winches.len().max(1) as f64
+    }
+
     /// Drives that are told every step of a trajectory at its time, one step ahead, as in the file of a host stream.
     pub fn of_file(machine: &Machine, trajectory: &Trajectory) -> Self {
         let (times, lengths) = (&trajectory.times_s, &trajectory.lengths_mm);
@@ -39,7 +46,7 @@ impl Following {
             };
             let orders: Vec<Order> = (0..times.len().saturating_sub(1)).map(order).collect();
             let track = |time_s: f64| interpolated(times, lengths, winch, time_s);
-            let span_s = [times[0], times[times.len() - 1]];
+            let span_s = [times[0], times[times.len() - 1].min(times[0] + Self::most_s(machine))];
             following.add(machine, &orders, track, span_s);
         }
         following
@@ -48,6 +55,7 @@ impl Following {
     /// Drives that are told the beats of a plan, each `late_s` after its time.
     pub fn of_beats(machine: &Machine, plan: &Plan, beats: &[Beat], late_s: f64) -> Self {
         let [begin, end] = plan.span_s();
+        let end = end.min(begin + Self::most_s(machine));
         let mut following = Self::default();
         for winch in 0..machine.winches.len() {
             let own = beats.iter().flat_map(|beat| beat.moves.iter().map(move |step| (beat.due_s, step)));
@@ -56,7 +64,7 @@ impl Following {
                 Order { time_s: begin + due_s + late_s, target: to, rpm: machine.rpm(to - from, step.duration_s) }
             };
             let orders: Vec<Order> = own.filter(|(_, step)| step.winch == winch).map(order).collect();
-            following.add(machine, &orders, |time_s| plan.at(time_s)[winch], [begin, end]);
+            following.add(machine, &orders, |time_s| plan.length_at(winch, time_s), [begin, end]);
         }
         following
     }

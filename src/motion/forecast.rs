@@ -24,7 +24,7 @@ impl Forecast {
         let machine = stream.machine();
         let least_s = 1.0 / machine.controller.track_rate_hz;
         let slot_s = slot_s(stream, line::round_trip_s(machine, stream), least_s);
-        let beats = beats(plan, stream, slot_s);
+        let beats = beats(plan, stream, slot_s, Following::most_s(machine));
         Self {
             file: Following::of_file(machine, trajectory).worst(),
             live: Following::of_beats(machine, plan, &beats, 0.0).worst(),

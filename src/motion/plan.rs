@@ -104,21 +104,25 @@ impl Plan {
 
     /// Lengths of all winches at a time, mm; before the beginning and after the end they stand still.
     pub fn at(&self, time_s: f64) -> Vec<f64> {
-        let next = self.times_s.partition_point(|&t| t <= time_s);
-        let section = next.saturating_sub(1).min(self.sections.len().saturating_sub(1));
-        match self.sections.get(section) {
-            None => self.still_mm.clone(),
-            Some(profiles) => {
-                let (from, to) = (self.times_s[section], self.times_s[section + 1]);
-                let t = (time_s - from).clamp(0.0, to - from);
-                profiles.iter().map(|profile| profile.at(t)).collect()
-            }
-        }
+        (0..self.still_mm.len()).map(|winch| self.length_at(winch, time_s)).collect()
     }
 
     /// Its beginning and its end, s.
     pub fn span_s(&self) -> [f64; 2] {
         [self.times_s.first(), self.times_s.last()].map(|time| time.copied().unwrap_or(0.0))
+    }
+
+    /// Length of one winch at a time, mm, as [`Plan::at`] has it.
+    pub fn length_at(&self, winch: usize, time_s: f64) -> f64 {
+        let next = self.times_s.partition_point(|&t| t <= time_s);
+        let section = next.saturating_sub(1).min(self.sections.len().saturating_sub(1));
+        match self.sections.get(section) {
+            None => self.still_mm[winch],
+            Some(profiles) => {
+                let (from, to) = (self.times_s[section], self.times_s[section + 1]);
+                profiles[winch].at((time_s - from).clamp(0.0, to - from))
+            }
+        }
     }
 
     /// The steps of a track of this rate: each section in equal steps of at most `1 / rate_hz`, so that every keyframe is one, s.

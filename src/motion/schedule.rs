@@ -45,9 +45,10 @@ fn commands(stream: &dyn Stream, winches: usize) -> usize {
     loads + if stream.moves_together() { 1 } else { stream.go(&steps).len() }
 }
 
-/// The beats of a plan in slots of `slot_s`, in the order of their times; the last moves end where the plan does.
-pub fn beats(plan: &Plan, stream: &dyn Stream, slot_s: f64) -> Vec<Beat> {
+/// The beats of a plan in slots of `slot_s`, in the order of their times; the last moves end where the plan does, or `most_s` after its beginning.
+pub fn beats(plan: &Plan, stream: &dyn Stream, slot_s: f64, most_s: f64) -> Vec<Beat> {
     let [begin, end] = plan.span_s();
+    let end = end.min(begin + most_s);
     let slots = ((end - begin) / slot_s).ceil() as usize;
     let times: Vec<f64> = (0..=slots).map(|k| (k as f64 * slot_s).min(end - begin)).collect();
     let lengths: Vec<Vec<f64>> = times.iter().map(|time| plan.at(begin + time)).collect();
@@ -144,7 +145,7 @@ mod tests {
     fn every_winch_runs_from_slot_to_slot_along_the_plan_and_those_that_rest_need_none() {
         let (stream, plan) = moving(&[&[0.0, 0.0, 0.0], &[8.0, 0.0, 5.0], &[8.0, 0.0, 0.0], &[0.0, 0.0, 0.0]]);
         let slot_s = 0.07;
-        let all = beats(&plan, &stream, slot_s);
+        let all = beats(&plan, &stream, slot_s, f64::INFINITY);
         let pairs = || all.windows(2);
         assert!(pairs().all(|pair| pair[1].due_s > pair[0].due_s + 0.99 * slot_s && pair[0].moves.len() == 1));
         for winch in 0..3 {

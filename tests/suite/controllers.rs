@@ -1,7 +1,7 @@
 //! Programs for motor controllers, read back and run by others: a compiler, an interpreter, a parser, a drive written apart from the tool's own.
 
 use crate::support::rigged;
-use plushwright::design::{Design, bundled};
+use plushwright::design::{Design, Material, bundled};
 use plushwright::engine::{Setpoint, solve_once};
 use plushwright::fabrication::{Options, blueprint};
 use plushwright::motion::families::{bus, sdo};
@@ -63,6 +63,27 @@ fn a_motion_beyond_a_servo_is_refused_with_the_spool_that_would_do() {
     let unknown = Options { controllers: vec!["abacus".into()], ..asked };
     let refused = blueprint(&design, &unknown).map(drop).expect_err("unknown").to_string();
     assert!(refused.contains("abacus") && refused.contains("grbl"), "{refused}");
+}
+
+#[test]
+fn a_motor_that_is_too_weak_is_told_or_refused_by_the_name_of_its_winch() {
+    let mut design = rigged();
+    design.controller.torque_nmm = 0.01;
+    let refused = blueprint(&design, &Options::default()).map(drop).expect_err("too weak").to_string();
+    assert!(refused.contains("winch \"") && refused.contains("controller.torque_nmm"), "{refused}");
+    design.controller.torque_nmm = 1e6;
+    let (_, manifest) = blueprint(&design, &Options::default()).expect("strong enough");
+    assert!(!manifest.remarks.iter().any(|remark| remark.contains("controller.torque_nmm")));
+    // The limit that is only assumed does not refuse what a stronger motor may do.
+    let mut stiff = rigged();
+    let values: Vec<f64> = stiff.material.values().iter().map(|value| 100.0 * value).collect();
+    stiff.material = Material::new(stiff.material.kind(), &values);
+    stiff.tendons.stiffness *= 100.0;
+    let told = |design: &Design| {
+        let (_, manifest) = blueprint(design, &Options::default()).expect("a blueprint");
+        manifest.remarks.iter().filter(|remark| remark.starts_with("Assumed of the motors: winch")).count()
+    };
+    assert_eq!(told(&stiff), 1);
 }
 
 /// When the pulse of a channel ends, of 4096 parts of 20 ms, at given times, ms, of a sketch that is sent `setup` and `motion` at 100 and 1000.

@@ -1,16 +1,19 @@
 //! The programs for motor controllers, family by family.
 
+use crate::defaults;
 use crate::fabrication::error::ExportError;
 use crate::fabrication::product::{Content, Part, Product, Source};
 use crate::motion::families::{self, classic};
 use crate::motion::{
-    Family, Forecast, Machine, MotionError, Note, Plan, Sketch, Stream, Trajectory, commands_a_step, line, programs,
+    Family, Following, Forecast, Machine, MotionError, Note, Plan, Sketch, Stream, Trajectory, commands_a_step, line,
+    programs,
 };
 
 /// Programs of every family that was asked for, or of all that can play this motion: `controller-<family>-setup`, `-motion`, `-stop`.
 pub(super) fn make(source: &Source<'_>) -> Result<Part, ExportError> {
     let machine = Machine::new(source.design, source.trajectory);
     let (mut products, mut guide, mut remarks) = (Vec::new(), how(), remarks(source));
+    remarks.extend(torque(source)?);
     guide += &followed(source, &machine)?;
     let mut left_out: Vec<(String, Vec<&str>)> = Vec::new();
     for family in chosen(source)? {
@@ -91,9 +94,10 @@ fn followed(source: &Source<'_>, machine: &Machine) -> Result<String, MotionErro
     let plan = Plan::of(source.design, source.options.too_fast)?;
     let forecast = Forecast::of(&classic, &plan, source.trajectory);
     Ok(format!(
-        "  Simulated drives (trapezoids of speed) that get each step of the file at its time: {}.
+        "  Simulated drives (trapezoids of speed, up to {:.0} s of the motion) that get each step of the file at its time: {}.
   Played live at {} baud with replies after {:.0} ms, a winch every {:.3} s: {}.
 ",
+        Following::most_s(machine),
         words(forecast.file),
         machine.controller.drives.baud,
         1e3 * line::LATENCY_S,
@@ -169,6 +173,20 @@ fn ascii(machine: &Machine) -> String {
 ",
         motor.speed_rpm, motor.acceleration
     )
+}
+
+/// Winches that ask for more torque than their motors have: told where that limit is only assumed, refused where the maker has set it.
+fn torque(source: &Source<'_>) -> Result<Option<String>, MotionError> {
+    let has_nmm = source.design.controller.torque_nmm;
+    let most =
+        source.trajectory.winches.iter().zip(source.demands()).max_by(|a, b| a.1.torque_nmm.total_cmp(&b.1.torque_nmm));
+    let Some((winch, demand)) = most.filter(|(_, demand)| demand.torque_nmm > has_nmm) else { return Ok(None) };
+    let error = MotionError::TooWeak { winch: winch.clone(), needs_nmm: demand.torque_nmm, has_nmm };
+    if has_nmm == defaults::MOTOR_TORQUE_NMM {
+        Ok(Some(format!("Assumed of the motors: {error}.")))
+    } else {
+        Err(error)
+    }
 }
 
 /// What became of the animation, and where the line is too slow for it.

@@ -75,7 +75,8 @@ class Servos:
         there = passed >= self.lasts
         for i in range(SERVOS):
             way = self.to[i] - self.begin[i]
-            self.at[i] = self.to[i] if there else self.begin[i] + way * passed // self.lasts
+            done = 0 if there else abs(way) * passed // self.lasts
+            self.at[i] = self.to[i] if there else self.begin[i] + (done if way > 0 else -done)
             if self.switched_on:
                 self.pulse(i, self.at[i])
         if not there or self.state == PLAYING and self.next_row():
