@@ -35,16 +35,7 @@
 //! multiplied in). Problem files alone are in SI (m, N, J); the physics itself only asks for consistent units.
 //! Coordinates have y up and their origin at the lower left corner of the rest silhouette's box.
 //!
-//! # Glossary
-//! *Contractile element*: a muscle fibre or a tendon, a unilateral spring whose rest length is `alpha = alpha_0 - alpha_c`.
-//! *Routing*: the mesh nodes an element runs through: attachment point, via points, attachment point.
-//! *Contraction* `alpha_c`: how much an element's rest length is shortened. *Activation* `beta`: how much cable a winch
-//! has wound; the contraction of its tendons is `Z beta` (*winch synergy*). *Tension* `tau = dU/dGamma`, with the
-//! *deformation* `Gamma = length - alpha`. *Idealized plushie*: a fibre on every mesh edge beside the accepted
-//! networks. *Realizable plushie*: the accepted winch-tendon networks alone. *Track* of a drawing: a line along which mesh edges
-//! run. *Trajectory* of a winch: its cable over time (the file `tracks.csv`). *Texture*: the picture on the felt, in a box of rest
-//! coordinates. *Sheet*: a page in mm to be cut or looked at. *Program*: timed commands to motors. *Stream*: the commands of a family of
-//! controllers that a host tells. *Link*: the line that carries them. *Player*: tells them live. *Layer*: a part of a picture, drawn from its own inputs.
+#![doc = include_str!("../docs/glossary.md")]
 //!
 //! # Invariants
 //! - The core never imports the window: `cargo build --no-default-features` builds everything but `studio`.

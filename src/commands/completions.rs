@@ -1,8 +1,7 @@
 //! `completions`: what a shell needs to complete commands and options.
 
-use super::Cli;
 use super::error::CommandError;
-use clap::{Args, CommandFactory};
+use clap::{Args, Command};
 use clap_complete::Shell;
 use std::io::Write;
 
@@ -17,9 +16,10 @@ pub struct Completions {
 }
 
 impl Completions {
-    pub fn run(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    /// `root`: the whole command line.
+    pub fn run(&self, mut root: Command, out: &mut dyn Write) -> Result<(), CommandError> {
         let mut text = Vec::new();
-        clap_complete::generate(self.shell, &mut Cli::command(), "plushwright", &mut text);
+        clap_complete::generate(self.shell, &mut root, "plushwright", &mut text);
         out.write_all(&text).map_err(CommandError::Print)
     }
 }

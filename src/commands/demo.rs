@@ -49,6 +49,8 @@ const FRAMES: usize = 5;
 const SIZE: (u32, u32) = (1280, 720);
 /// Format of the manifest by which a folder is known to be an earlier result that may be replaced.
 const FORMAT: &str = "plushwright-demo/1";
+/// Format of its figures.
+const FIGURES: &str = "plushwright-demo-figures/1";
 
 impl Demo {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
@@ -62,6 +64,7 @@ impl Demo {
 /// Everything `figures.json` holds.
 #[derive(Serialize)]
 struct Report<'a> {
+    format: &'static str,
     #[serde(flatten)]
     figures: &'a Figures,
     seconds: f64,
@@ -161,7 +164,8 @@ impl Tour<'_> {
         table::print(figures, &mut text)?;
         self.out.write_all(&text).map_err(CommandError::Print)?;
         self.files.push(("figures.txt".into(), text));
-        let report = Report { figures, seconds: self.clock.elapsed().as_secs_f64(), pictures: &self.pictures };
+        let report =
+            Report { format: FIGURES, figures, seconds: self.clock.elapsed().as_secs_f64(), pictures: &self.pictures };
         self.files.push(("figures.json".into(), (json(&report)? + "\n").into_bytes()));
         Ok(())
     }

@@ -1,10 +1,9 @@
 //! `man`: pages for the manual, from the same description as `--help`.
 
-use super::Cli;
 use super::error::CommandError;
 use super::output::write_folder;
 use super::usage;
-use clap::{Args, Command, CommandFactory};
+use clap::{Args, Command};
 use clap_mangen::Man;
 use std::io::Write;
 use std::path::PathBuf;
@@ -28,9 +27,10 @@ pub struct ManCommand {
 const FORMAT: &str = "plushwright-man/1";
 
 impl ManCommand {
-    pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
+    /// `root`: the whole command line.
+    pub fn run(&self, root: Command, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
         // Built, so that every command knows the options that all have.
-        let mut root = Cli::command().disable_help_subcommand(true);
+        let mut root = root.disable_help_subcommand(true);
         root.build();
         if let Some(folder) = &self.out {
             let mut files = vec![("plushwright.1".to_owned(), page(root.clone())?)];
@@ -41,7 +41,7 @@ impl ManCommand {
             None => root,
             Some(name) => {
                 let found = root.find_subcommand(name).cloned();
-                found.map(|command| titled(command, "plushwright")).ok_or_else(|| usage::unknown_word(name))?
+                found.map(|command| titled(command, "plushwright")).ok_or_else(|| usage::unknown_word(name, &root))?
             }
         };
         out.write_all(&page(command)?).map_err(CommandError::Print)

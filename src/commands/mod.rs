@@ -41,9 +41,8 @@ mod words;
 
 pub use error::{CommandError, ParseStop};
 pub use interrupt::is_keeping;
-pub use usage::unknown_word;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use std::ffi::OsString;
 use std::io::Write;
 use std::path::PathBuf;
@@ -135,14 +134,20 @@ impl Command {
 /// [`ParseStop`] with help, version, or what is wrong.
 pub fn parse(args: impl IntoIterator<Item = OsString>) -> Result<Cli, ParseStop> {
     let args: Vec<OsString> = args.into_iter().collect();
-    let cli = Cli::try_parse_from(&args).map_err(|error| usage::stop(error, &args))?;
+    let cli = Cli::try_parse_from(&args).map_err(|error| usage::stop(error, &args, &Cli::command()))?;
     if cli.verbose && cli.command.is_none() && cli.design.is_none() {
-        return Cli::try_parse_from(["plushwright", "--version"]).map_err(|error| usage::stop(error, &args));
+        return Cli::try_parse_from(["plushwright", "--version"])
+            .map_err(|error| usage::stop(error, &args, &Cli::command()));
     }
     if let (Some(_), Some(design)) = (&cli.command, &cli.design) {
-        return Err(ParseStop::Wrong(usage::command_late(design, &args)));
+        return Err(ParseStop::Wrong(usage::command_late(design, &args, &Cli::command())));
     }
     Ok(cli)
+}
+
+/// For a first word that is no command and no file: what it may have been meant for.
+pub fn unknown_word(word: &str) -> CommandError {
+    usage::unknown_word(word, &Cli::command())
 }
 
 /// Begins the log that was asked for, and keeps what a report of a breakdown needs.
@@ -178,7 +183,7 @@ pub fn run(command: &Command, out: &mut dyn Write, cancel: &AtomicBool) -> Resul
         Command::Solve(command) => command.run(out, cancel),
         Command::Discover(command) => command.run(out, cancel),
         Command::Bench(command) => command.run(out, cancel),
-        Command::Man(command) => command.run(out, cancel),
-        Command::Completions(command) => command.run(out),
+        Command::Man(command) => command.run(Cli::command(), out, cancel),
+        Command::Completions(command) => command.run(Cli::command(), out),
     }
 }

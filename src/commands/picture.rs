@@ -4,7 +4,7 @@ use super::error::CommandError;
 use crate::files::{marked_gif, marked_jpeg, shown};
 use image::codecs::gif::{GifEncoder, Repeat};
 use image::codecs::jpeg::JpegEncoder;
-use image::{Delay, DynamicImage, Frame, ImageError, ImageFormat};
+use image::{Delay, DynamicImage, Frame, ImageError, ImageFormat, Rgba, RgbaImage};
 use std::path::Path;
 use std::time::Duration;
 
@@ -61,9 +61,18 @@ pub fn moving(pngs: &[Vec<u8>], step: Duration) -> Result<Vec<u8>, CommandError>
     let mut bytes = Vec::new();
     let mut encoder = GifEncoder::new_with_speed(&mut bytes, GIF_SPEED);
     encoder.set_repeat(Repeat::Infinite).map_err(failed)?;
+    let mut before: Option<RgbaImage> = None;
     for png in pngs {
-        let frame = Frame::from_parts(decoded(png)?.to_rgba8(), 0, 0, Delay::from_saturating_duration(step));
+        let now = decoded(png)?.to_rgba8();
+        let mut changed = now.clone();
+        // What stays as it was need not be said again.
+        if let Some(before) = before.filter(|before| before.dimensions() == now.dimensions()) {
+            let pairs = changed.pixels_mut().zip(before.pixels());
+            pairs.filter(|(new, old)| **new == **old).for_each(|(new, _)| *new = Rgba([0; 4]));
+        }
+        let frame = Frame::from_parts(changed, 0, 0, Delay::from_saturating_duration(step));
         encoder.encode_frame(frame).map_err(failed)?;
+        before = Some(now);
     }
     drop(encoder);
     Ok(marked_gif(&bytes))

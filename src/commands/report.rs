@@ -15,16 +15,9 @@ const FOLDER: &str = "reports";
 /// Most reports that are kept: more say nothing new.
 const MOST: usize = 20;
 
-/// Libraries whose breakdowns are told by the window.
-const DISPLAY: [&str; 3] = ["/winit-", "\\winit-", "/x11-dl-"];
-
 /// Has every breakdown leave a report, and say in a line where it is.
 pub fn on_breakdown() {
     std::panic::set_hook(Box::new(|info| {
-        // Where a library of the display is missing winit breaks down, which the window takes for what it is.
-        if info.location().is_some_and(|place| DISPLAY.iter().any(|library| place.file().contains(library))) {
-            return;
-        }
         let text = text(info, &Backtrace::force_capture());
         let place =
             info.location().map_or("an unknown place".into(), |place| format!("{}:{}", place.file(), place.line()));

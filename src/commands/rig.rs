@@ -173,7 +173,7 @@ impl Rig {
             }
         };
         let mut context = Context::telling(cancel, &mut progress);
-        let rigged = rig::run(&mut design, &options, &mut context).map_err(|error| failed(&self.design, error))?;
+        let rigged = rig::run(&mut design, &options, &mut context).map_err(|error| self.failed(error))?;
         printed?;
         let path = if rigged.interrupted {
             edit.save_interrupted(&design, self.fresh)?
@@ -285,7 +285,7 @@ impl Rig {
             let path = edit.save_interrupted(&design, self.fresh)?;
             return Err(interrupted(&path, &Told::default()));
         }
-        let points = found.map_err(|error| failed(&self.design, error))?;
+        let points = found.map_err(|error| self.failed(error))?;
         files.tell(&points, out, cancel)?;
         if let Some(best) = best(&points) {
             put(best, &mut design)?;
@@ -302,6 +302,19 @@ fn best(points: &[Arc<explore::Point>]) -> Option<&Arc<explore::Point>> {
 
 fn put(point: &explore::Point, design: &mut Design) -> Result<(), CommandError> {
     point.rigged.clone().apply(design).map(drop).map_err(|error| CommandError::Failed(error.to_string()))
+}
+
+impl Rig {
+    /// Why there is no rig; what was interrupted before it found one leaves all as it was.
+    fn failed(&self, error: Error) -> CommandError {
+        match error {
+            Error::Cancelled(_) => CommandError::Interrupted(format!(
+                "nothing was found yet, {} is as it was; the same command begins anew",
+                shown(self.target.path(&self.design))
+            )),
+            error => failed(&self.design, error),
+        }
+    }
 }
 
 /// What an interrupted search leaves, and how to go on.

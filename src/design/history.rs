@@ -55,6 +55,16 @@ impl History {
         Ok(result)
     }
 
+    /// Changes the document as part of the step before: what follows from it is taken back with it. On an error nothing has happened.
+    /// A running gesture is committed first.
+    ///
+    /// # Errors
+    /// What the change or the validation says.
+    pub fn amend<T>(&mut self, change: impl FnOnce(&mut Design) -> Result<T, EditError>) -> Result<T, EditError> {
+        self.commit();
+        self.change(change)
+    }
+
     /// Begins a gesture. A running one is committed first.
     pub fn begin(&mut self, label: impl Into<String>) {
         self.commit();
@@ -178,6 +188,19 @@ mod tests {
 
     fn move_first_target(to: [f64; 2]) -> impl FnOnce(&mut Design) -> Result<(), EditError> {
         move |design| edit::move_target(design, 0, 0, to)
+    }
+
+    #[test]
+    fn what_follows_from_a_step_is_taken_back_and_repeated_with_it() {
+        let mut history = History::new(sample());
+        let start = history.current().clone();
+        history.edit("Move target", move_first_target([1.0, 3.0])).unwrap();
+        history.amend(move_first_target([2.0, 3.0])).unwrap();
+        let end = history.current().clone();
+        assert_eq!(history.undo().as_deref(), Some("Move target"));
+        assert!(Arc::ptr_eq(history.current(), &start));
+        history.redo();
+        assert!(Arc::ptr_eq(history.current(), &end) && history.redo().is_none());
     }
 
     #[test]

@@ -3,8 +3,8 @@
 use super::posing::{self, solve};
 use super::{Cancelled, Context, NoSuchPose, Unbalanced};
 use crate::design::edit::{self, EditError};
-use crate::design::{Design, Easing, Keyframe};
-use crate::engine::Setpoint;
+use crate::design::{Design, Easing, Keyframe, Pose};
+use crate::engine::{BodySpec, Setpoint};
 use serde::{Deserialize, Serialize};
 
 /// The pose that is put on the timeline, and when.
@@ -99,6 +99,46 @@ pub fn run(design: &mut Design, options: &Options, context: &Context) -> Result<
     Ok(keyed)
 }
 
+/// Names of the poses on the timeline that `before` had other winches, another body or other targets for: what their keyframes wind is old.
+pub fn outdated(before: &Design, now: &Design) -> Vec<String> {
+    let targets = |design: &Design, name: &str| {
+        design.poses.iter().find(|pose| pose.name == name).map(|pose| pose.targets.clone()).unwrap_or_default()
+    };
+    let same_body = BodySpec::of(before) == BodySpec::of(now);
+    let old = |name: &String| !same_body || targets(before, name) != targets(now, name);
+    on_timeline(now).into_iter().filter(old).collect()
+}
+
+/// Names of the poses that keyframes are made from, each once; without those that ask for nothing.
+pub fn on_timeline(design: &Design) -> Vec<String> {
+    if design.networks.is_empty() {
+        return Vec::new();
+    }
+    let keyed =
+        |pose: &&Pose| !pose.targets.is_empty() && design.keyframes.iter().any(|k| k.pose.as_ref() == Some(&pose.name));
+    design.poses.iter().filter(keyed).map(|pose| pose.name.clone()).collect()
+}
+
+/// Works out the keyframes of these poses again, each pose once; times and easings stay.
+///
+/// # Errors
+/// As [`prepare`].
+pub fn again(design: &Design, poses: &[String], context: &Context) -> Result<Vec<Keyed>, Error> {
+    let mut out = Vec::new();
+    for pose in poses {
+        let keyed = prepare(design, &Options { pose: Some(pose.clone()), ..Options::default() }, context)?;
+        context.check()?;
+        let of_pose = design.keyframes.iter().filter(|keyframe| keyframe.pose.as_ref() == Some(pose));
+        for (k, keyframe) in of_pose.enumerate() {
+            let activations_mm = keyed.keyframe.activations_mm.clone();
+            // A pose that does not balance is told once.
+            let notes = if k == 0 { keyed.notes.clone() } else { Vec::new() };
+            out.push(Keyed { keyframe: Keyframe { activations_mm, ..keyframe.clone() }, notes });
+        }
+    }
+    Ok(out)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -122,6 +162,35 @@ mod tests {
         run(&mut design, &at(None, 2.0), &context).unwrap();
         assert_eq!(design.keyframes.len(), 2);
         assert!(design.keyframes[1].activations_mm.iter().all(|mm| *mm == 0.0));
+    }
+
+    #[test]
+    fn keyframes_of_poses_are_worked_out_again_for_other_winches() {
+        let mut design = testing::sample();
+        design.keyframes.clear();
+        let pose = design.poses[0].name.clone();
+        let go = AtomicBool::new(false);
+        let context = Context::new(&go);
+        run(&mut design, &at(None, 0.0), &context).unwrap();
+        run(&mut design, &at(Some(&pose), 1.0), &context).unwrap();
+        run(&mut design, &at(Some(&pose), 3.0), &context).unwrap();
+        assert_eq!(outdated(&design, &design), [""; 0]);
+        let mut strung = design.clone();
+        strung.networks[0].tendons[0].ratio = 0.5;
+        strung.networks[0].name.push('x');
+        assert_eq!(outdated(&design, &strung), [pose.clone()]);
+        let mut free = strung.clone();
+        free.keyframes.iter_mut().for_each(|keyframe| keyframe.pose = None);
+        assert_eq!(outdated(&design, &free), [""; 0]);
+        let keyed = again(&strung, &on_timeline(&strung), &context).unwrap();
+        assert_eq!(keyed.iter().map(|keyed| keyed.keyframe.time_s).collect::<Vec<_>>(), [1.0, 3.0]);
+        let fresh = run(&mut strung.clone(), &at(Some(&pose), 1.0), &context).unwrap();
+        for keyed in keyed {
+            assert_eq!(keyed.keyframe.activations_mm, fresh.keyframe.activations_mm);
+            keyed.apply(&mut strung).unwrap();
+        }
+        assert_ne!(strung.keyframes[1], design.keyframes[1]);
+        assert_eq!((strung.keyframes.len(), &strung.keyframes[0]), (3, &design.keyframes[0]));
     }
 
     #[test]

@@ -49,6 +49,8 @@ pub enum Change {
         time_s: f64,
     },
     EaseKeyframe(usize, Easing),
+    /// What it winds stays, whatever becomes of its pose.
+    FixKeyframe(usize),
     RemoveKeyframe(usize),
     Rename(String),
     Material(Material),
@@ -96,6 +98,7 @@ impl Change {
             Self::SetKeyframe(_) => "Set keyframe",
             Self::MoveKeyframe { .. } => "Move keyframe",
             Self::EaseKeyframe(..) => "Keyframe easing",
+            Self::FixKeyframe(_) => "Fix keyframe",
             Self::RemoveKeyframe(_) => "Delete keyframe",
             Self::Rename(_) => "Rename plushie",
             Self::Material(_) => "Body settings",
@@ -149,6 +152,10 @@ impl Change {
             Self::MoveKeyframe { index, time_s } => Made::Keyframe(edit::move_keyframe(design, index, time_s)?),
             Self::EaseKeyframe(index, easing) => match design.keyframes.get(index).cloned() {
                 Some(keyframe) => Made::Keyframe(edit::set_keyframe(design, Keyframe { easing, ..keyframe })?),
+                None => Made::Nothing,
+            },
+            Self::FixKeyframe(index) => match design.keyframes.get(index).cloned() {
+                Some(keyframe) => Made::Keyframe(edit::set_keyframe(design, Keyframe { pose: None, ..keyframe })?),
                 None => Made::Nothing,
             },
             Self::RemoveKeyframe(index) => nothing(edit::remove_keyframe(design, index)?),

@@ -38,6 +38,7 @@ pub enum Outcome {
     Rigged(Result<Box<Rigged>, rig::Error>),
     Explored(Result<Vec<Arc<Point>>, rig::Error>),
     Keyed(Result<Keyed, key::Error>),
+    Followed(Result<Vec<Keyed>, key::Error>),
     Judged(Box<Judgement>),
     Imported(Result<Box<New>, Box<Refused>>),
     Exported {

@@ -1,6 +1,7 @@
 //! Keys that run commands, and files dropped on the window.
 
 use super::action::{Action, FileAction};
+use super::canvas;
 use super::commands::{self, Command};
 use super::session::Session;
 use eframe::egui::{Context, Event, Key, Popup};
@@ -14,7 +15,7 @@ pub fn collect(ctx: &Context, session: &Session, actions: &mut Vec<Action>) {
         return;
     }
     let typing = ctx.text_edit_focused();
-    let focused = ctx.memory(|m| m.focused()).is_some();
+    let focused = ctx.memory(|m| m.focused()).is_some() && !canvas::has_focus(ctx);
     let popup = Popup::is_any_open(ctx);
     let free = |command: &Command, key: Key| match key {
         // A focused button is pressed by them.

@@ -89,6 +89,7 @@ pub fn run(design: Option<Design>, path: Option<PathBuf>) -> Result<(), StudioEr
         viewport: egui::ViewportBuilder::default()
             .with_title(format!("Plushwright - {}", design.name))
             .with_app_id("plushwright")
+            .with_icon(icon())
             .with_inner_size(size)
             .with_min_inner_size(LEAST_SIZE),
         persist_window: false,
@@ -109,6 +110,7 @@ pub fn run(design: Option<Design>, path: Option<PathBuf>) -> Result<(), StudioEr
         end_when_asked(context.egui_ctx.clone());
         Ok(Box::new(studio))
     });
+    quiet_about_the_display();
     // winit panics where an X library is missing; what it says then is the user's only clue.
     match catch_unwind(AssertUnwindSafe(|| eframe::run_native("plushwright", options, create))) {
         Ok(outcome) => outcome.map_err(from_eframe),
@@ -118,6 +120,25 @@ pub fn run(design: Option<Design>, path: Option<PathBuf>) -> Result<(), StudioEr
             Err(StudioError::WindowSystem(text.unwrap_or_else(|| "it panicked".to_owned())))
         }
     }
+}
+
+/// What breaks down in the libraries of the display is told by [`run`] in a line, and is no fault of ours to report.
+fn quiet_about_the_display() {
+    /// Parts of the paths of their sources.
+    const DISPLAY: [&str; 2] = ["winit-", "x11-dl-"];
+    let report = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |info| {
+        if !info.location().is_some_and(|place| DISPLAY.iter().any(|library| place.file().contains(library))) {
+            report(info);
+        }
+    }));
+}
+
+/// What the desktop shows for the window; an empty one is the desktop's own.
+fn icon() -> egui::IconData {
+    const PNG: &[u8] = include_bytes!("../../assets/icon/128/plushwright.png");
+    let picture = image::load_from_memory(PNG).map(|picture| picture.to_rgba8()).unwrap_or_default();
+    egui::IconData { width: picture.width(), height: picture.height(), rgba: picture.into_raw() }
 }
 
 /// The real engine and exporter.

@@ -38,7 +38,7 @@ pub fn add_keyframe(session: &mut Session) {
     if session.design().networks.is_empty() {
         return session.messages.warning(words::unkeyed(&Error::NoNetworks));
     }
-    let time_s = free_time(session);
+    let time_s = key_time(session);
     match session.picked.mode {
         Mode::Pose => start_keying(session, time_s),
         Mode::Animation | Mode::Winding => {
@@ -54,12 +54,14 @@ pub fn add_keyframe(session: &mut Session) {
     }
 }
 
-/// The playhead, or a step after the last keyframe where the playhead has one already.
-fn free_time(session: &Session) -> f64 {
-    match edits::keyframe_at(session.design(), session.playback.time_s) {
-        Some(_) => animation::duration_s(session.design()) + defaults::KEYFRAME_SPACING_S,
-        None => session.playback.time_s,
-    }
+/// The playhead. A keyframe that it has already is replaced, but not by another pose: poses that are added without a look at the timeline
+/// come one after the other.
+fn key_time(session: &Session) -> f64 {
+    let (design, time_s) = (session.design(), session.playback.time_s);
+    let Some(there) = edits::keyframe_at(design, time_s) else { return time_s };
+    let pose = session.picked.pose.and_then(|pose| design.poses.get(pose)).map(|pose| &pose.name);
+    let other = session.picked.mode == Mode::Pose && design.keyframes[there].pose.as_ref() != pose;
+    if other { animation::duration_s(design) + defaults::KEYFRAME_SPACING_S } else { time_s }
 }
 
 fn start_keying(session: &mut Session, time_s: f64) {

@@ -87,6 +87,7 @@ fn travel(session: &mut Session, done: &str, step: impl FnOnce(&mut History) -> 
         session.messages.info(format!("{done}: {label}"));
     }
     session.discovery.shown = None;
+    super::follow::travelled(session);
     clamp(session);
 }
 

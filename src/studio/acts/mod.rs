@@ -8,6 +8,7 @@ pub mod discover;
 pub mod edit;
 pub mod escape;
 pub mod filing;
+pub mod follow;
 pub mod import;
 pub mod judge;
 pub mod keep;

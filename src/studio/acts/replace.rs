@@ -2,7 +2,7 @@
 
 use crate::design::Design;
 use crate::studio::jobs;
-use crate::studio::session::{Curve, Document, Picked, Session, Sketching, Texturing};
+use crate::studio::session::{Curve, Document, Following, Picked, Session, Sketching, Texturing};
 use std::path::PathBuf;
 
 /// Replaces the document; undo starts anew.
@@ -13,6 +13,7 @@ pub fn open(session: &mut Session, design: Design, path: Option<PathBuf>) {
     session.rigging.curve = Curve::default();
     session.tasks.cancel();
     jobs::cancel(&mut session.keying);
+    session.following = Following::default();
     session.meshing.wanted = None;
     session.renaming = None;
     session.sketching = Sketching::default();

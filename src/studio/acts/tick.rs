@@ -1,6 +1,6 @@
 //! Once a frame: what the threads report, the playhead, what should be seen next.
 
-use super::{animate, discover, edit, filing, judge, mesh, motors, rig, sheet, texture};
+use super::{animate, discover, edit, filing, follow, judge, mesh, motors, rig, sheet, texture};
 use crate::design::animation;
 use crate::engine::Setpoint;
 use crate::studio::canvas::Plushie;
@@ -27,6 +27,7 @@ pub fn tick(session: &mut Session, now_s: f64, passed_s: f64, hands_off: bool) {
     discover::follow(session);
     session.rigging.curve.follow(session.document.design());
     texture::follow_texture(session);
+    follow::follow(session, hands_off);
     // Nobody sees the plushies while the outline is drawn.
     if !session.sketching.open {
         ask(session);
@@ -61,6 +62,7 @@ fn take(session: &mut Session, Finished { serial, outcome }: Finished) {
         Outcome::Rigged(rigged) => rig::take_rig(session, serial, rigged),
         Outcome::Explored(points) => rig::take_curve(session, serial, points),
         Outcome::Keyed(keyed) => animate::take_key(session, serial, keyed),
+        Outcome::Followed(keyed) => follow::take(session, serial, keyed),
         Outcome::Judged(judgement) => session.judging.take(serial, *judgement),
         Outcome::Imported(result) => filing::take_import(session, result),
         Outcome::Exported { folder, result } => filing::take_export(session, &folder, result),
@@ -87,6 +89,10 @@ fn break_off(session: &mut Session, serial: u64) {
         if Running::is(running.as_ref(), serial) {
             *running = None;
         }
+    }
+    if session.following.running.as_ref().is_some_and(|(running, _)| running.serial == serial) {
+        let design = session.document.design().clone();
+        session.following.settle(&design);
     }
     session.judging.break_off(serial);
     // As if there were none: a path can be typed.

@@ -15,7 +15,7 @@ pub use camera::Camera;
 pub use ground::{Canvas, Ground};
 pub use hit::Hit;
 pub use plushie::Plushie;
-pub use pointer::{act, navigate};
+pub use pointer::{act, has_focus, navigate};
 pub use sheet::{State, show};
 pub use strokes::{HANDLE, closed, open, track};
 pub use surface::Surface;

@@ -4,10 +4,19 @@ use super::ground::Canvas;
 use crate::outline::Point;
 use crate::studio::action::Actions;
 use crate::studio::tools::Tool;
-use eframe::egui::{Event, PointerButton, Response, Ui};
+use eframe::egui::{Context, Event, Id, PointerButton, Response, Ui};
 
 /// Logical pixels of scrolling that double the scale.
 const SCROLL_TO_DOUBLE: f32 = 260.0;
+
+/// Where the canvas that was clicked last is known.
+const CLICKED_CANVAS: &str = "canvas that was clicked last";
+
+/// Whether a canvas has the focus: there Space and Enter press nothing.
+pub fn has_focus(ctx: &Context) -> bool {
+    let clicked = ctx.data(|data| data.get_temp::<Id>(Id::unique(CLICKED_CANVAS)));
+    clicked.is_some() && ctx.memory(|memory| memory.focused()) == clicked
+}
 
 /// Tells the tool what the hand does.
 pub fn act(ui: &mut Ui, canvas: &Canvas<'_>, tool: &mut dyn Tool, response: &Response, actions: &mut Actions) {
@@ -33,6 +42,7 @@ pub fn act(ui: &mut Ui, canvas: &Canvas<'_>, tool: &mut dyn Tool, response: &Res
     }
     if let Some(at) = pointer.filter(|_| response.clicked()) {
         response.request_focus();
+        ui.data_mut(|data| data.insert_temp(Id::unique(CLICKED_CANVAS), response.id));
         tool.click(canvas, at, response.double_clicked(), actions);
     }
     if let Some(at) = response.hover_pos() {

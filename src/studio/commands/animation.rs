@@ -37,5 +37,10 @@ pub static ADD_KEYFRAME: Command = Command {
     keys: &[Keys::plain(Key::K)],
     scope: Scope::Views,
     run: &|session, _| acts::animate::add_keyframe(session),
-    ..Command::new("animation.key", "Add keyframe", "Put what the realizable plushie shows on the timeline")
+    ..Command::new(
+        "animation.key",
+        "Add keyframe",
+        "Put what the realizable plushie shows on the timeline, in the place of a keyframe that the playhead is on; another pose comes \
+         after the end",
+    )
 };

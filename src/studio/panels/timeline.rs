@@ -1,7 +1,7 @@
 //! Keyframes in time: play, scrub, drag, ease. The curves are the winches' activations.
 
 use super::buttons;
-use crate::design::{Easing, animation};
+use crate::design::{Easing, Keyframe, animation};
 use crate::picture::palette::Palette;
 use crate::studio::action::{Action, Actions};
 use crate::studio::change::Change;
@@ -68,8 +68,19 @@ fn selected_keyframe(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     if easing != keyframe.easing {
         actions.push(Action::Change(Change::EaseKeyframe(index, easing)));
     }
-    let pose = keyframe.pose.as_deref().unwrap_or("free");
-    ui.label(RichText::new(format!("Keyframe {} at {:.2} s ({pose})", index + 1, keyframe.time_s)).weak());
+    if keyframe.pose.is_some() {
+        let tip = "What this keyframe winds stays; otherwise it is worked out again where winches or its pose change";
+        if ui.button("Fix").on_hover_text(tip).clicked() {
+            actions.push(Action::Change(Change::FixKeyframe(index)));
+        }
+    }
+    let pose = follows(keyframe);
+    ui.label(RichText::new(format!("Keyframe {} at {:.2} s, {pose}", index + 1, keyframe.time_s)).weak());
+}
+
+/// The pose that a keyframe follows.
+fn follows(keyframe: &Keyframe) -> String {
+    keyframe.pose.as_ref().map_or_else(|| "fixed".into(), |pose| format!("follows {pose}"))
 }
 
 fn name(easing: Easing) -> &'static str {
@@ -219,9 +230,11 @@ fn keyframes(ui: &mut Ui, session: &Session, axis: &Axis, state: &mut State, act
         }
         if response.clicked() {
             busy = true;
+            // A quick click is over before the frame in which it began.
+            actions.push(Action::Select(Selection::Keyframe(index)));
             actions.push(Action::Scrub(keyframe.time_s));
         }
-        let tip = format!("{:.2} s, {}", keyframe.time_s, keyframe.pose.as_deref().unwrap_or("free"));
+        let tip = format!("{:.2} s, {}", keyframe.time_s, follows(keyframe));
         response.on_hover_text(tip);
     }
     if let Some(pointer) = pointer.filter(|_| state.held && !pressed) {

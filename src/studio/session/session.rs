@@ -3,6 +3,7 @@
 use super::discovery::Discovery;
 use super::document::Document;
 use super::files::Files;
+use super::following::Following;
 use super::judging::Judging;
 use super::look::Look;
 use super::meshing::{Meshing, Resolution};
@@ -67,6 +68,7 @@ pub struct Session {
     pub(crate) motors: Motors,
     pub(crate) sketching: Sketching,
     pub(crate) texturing: Texturing,
+    pub(crate) following: Following,
     /// A keyframe that is worked out.
     pub(crate) keying: Option<Running>,
     pub(crate) messages: Messages,
@@ -106,6 +108,7 @@ impl Session {
             motors: Motors::default(),
             sketching: Sketching::default(),
             texturing: Texturing::default(),
+            following: Following::default(),
             keying: None,
             messages: Messages::default(),
             files: Files::default(),
@@ -228,7 +231,8 @@ impl Session {
         let keying = self.keying.is_some().then_some("Working out the keyframe");
         let rigging = self.rigging.running.is_some() || self.rigging.curve.running.is_some();
         let rigging = rigging.then_some("Looking for winches and tendons");
-        self.files.working.or(rigging).or(keying)
+        let following = self.following.is_running().then_some("Working out keyframes again");
+        self.files.working.or(rigging).or(keying).or(following)
     }
 
     /// Whether the window is about to close.

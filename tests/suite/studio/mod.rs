@@ -2,8 +2,10 @@
 
 mod files;
 mod looks;
+mod motors;
 mod networks;
 mod outline;
 mod posing;
 mod tendons;
+mod timeline;
 mod winding;
