@@ -9,8 +9,12 @@ use crate::sewing::turning;
 use std::f64::consts::PI;
 use std::sync::atomic::AtomicBool;
 
-/// Most different keyframes that are simulated, those that wind the most: what bounds the time of an export.
+/// Most different keyframes that are simulated, those that wind the most, and most triangles of all of them together, of one at least: what bounds
+/// the time of an export.
 const MOST_KEYFRAMES: usize = 8;
+const MOST_TRIANGLES: usize = 6000;
+/// Bodies of more triangles than this are not simulated at all.
+pub const TOO_FINE: usize = 60_000;
 
 /// The demand of one winch.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -62,6 +66,8 @@ fn wound(design: &Design) -> Vec<Vec<f64>> {
     all.retain(|a| a.iter().any(|&v| v > 0.0));
     all.sort_by(|a, b| sum(b).total_cmp(&sum(a)));
     all.dedup();
-    all.truncate(MOST_KEYFRAMES);
+    let triangles = design.mesh.triangles.len().max(1);
+    let count = if triangles > TOO_FINE { 0 } else { (MOST_TRIANGLES / triangles).clamp(1, MOST_KEYFRAMES) };
+    all.truncate(count);
     all
 }

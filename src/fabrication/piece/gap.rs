@@ -12,6 +12,9 @@ const GAP_CANDIDATES: usize = 1000;
 /// What bulging by its own length costs a turning gap, against lying at the top of the body instead of at its bottom. A
 /// gap that bulges by 5 % of its length may be a quarter of the body lower than a straight one.
 const GAP_STRAIGHTNESS: f64 = 5.0;
+/// Least distance of a gap's ends over its length, and what falling short of that costs: a hundredth is worse than anything else.
+const GAP_CHORD: f64 = 0.98;
+const GAP_BENT: f64 = 1000.0;
 /// What a hole or pin in its way costs a turning gap, on the same scale.
 const GAP_OBSTACLE: f64 = 0.5;
 /// What a way to the winches that is nothing as wide as it should be costs a turning gap, on the same scale: a tenth less is as bad as lying at
@@ -54,7 +57,9 @@ impl Ways {
     pub fn of(design: &Design) -> Self {
         let access = Access::new(&design.outline);
         let flat_mm = winch::housing(design).flat_mm();
-        let winches = design.networks.iter().filter_map(|n| Some(n.winch()?.place(&design.mesh.nodes)));
+        // Cables pulled by hand have no housings.
+        let housed = if design.sewing.housing_mm > 0.0 { design.networks.as_slice() } else { &[] };
+        let winches = housed.iter().filter_map(|n| Some(n.winch()?.place(&design.mesh.nodes)));
         let to = winches.map(|place| access.ways(place, 0.5 * flat_mm)).collect();
         Self { access, to, flat_mm }
     }
@@ -104,7 +109,9 @@ fn gap_cost(ring: &Ring, stretch: &[Point], gap_mm: f64, obstacles: &[Point]) ->
     let height = stretch.windows(2).map(|s| length(s[0], s[1]) * 0.5 * (s[0][1] + s[1][1])).sum::<f64>() / gap_mm;
     let blocked =
         obstacles.iter().any(|o| stretch.windows(2).any(|s| distance_to_segment(s[0], s[1], *o) < GAP_CLEARANCE_MM));
+    let bent = (GAP_CHORD - length(a, b) / gap_mm).max(0.0);
     GAP_STRAIGHTNESS * bulge / gap_mm
+        + GAP_BENT * bent
         + (height - ring.bottom) / (ring.top - ring.bottom)
         + if blocked { GAP_OBSTACLE } else { 0.0 }
 }

@@ -265,16 +265,16 @@ mod tests {
 
     #[test]
     fn legs_that_are_webbed_together_are_snipped_down_the_middle() {
-        // A notch 10 mm wide and 60 mm deep.
+        // A notch 10 mm wide and 60 mm deep, far from the other sides.
         let legs = vec![
             [0.0, 0.0],
-            [40.0, 0.0],
-            [40.0, 60.0],
-            [50.0, 60.0],
-            [50.0, 0.0],
             [90.0, 0.0],
-            [90.0, 100.0],
-            [0.0, 100.0],
+            [90.0, 60.0],
+            [100.0, 60.0],
+            [100.0, 0.0],
+            [190.0, 0.0],
+            [190.0, 200.0],
+            [0.0, 200.0],
         ];
         let found = judged(legs, 8.0);
         let [notch] = &found[..] else { panic!("{found:?}") };
@@ -285,7 +285,7 @@ mod tests {
         let snip = &notch.snips[0];
         let (first, last) = (snip[0], snip[snip.len() - 1]);
         assert!((first[1] - mouth).abs() < 0.3 && (last[1] - 58.5).abs() < 1.0, "{snip:?}");
-        assert!(snip[..snip.len() - 1].iter().all(|p| (p[0] - 45.0).abs() < 1.5), "{snip:?}");
+        assert!(snip[..snip.len() - 1].iter().all(|p| (p[0] - 95.0).abs() < 1.5), "{snip:?}");
         // Both corners of the bottom.
         assert_eq!(notch.snips.len(), 2);
     }

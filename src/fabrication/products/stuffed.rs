@@ -53,6 +53,9 @@ fn uncompensated(source: &Source<'_>, why: &Impossible) -> String {
             p[0] - from[0],
             p[1] - from[1]
         ),
+        Impossible::TooFine => {
+            "The pattern is not compensated for stuffing: the mesh is too fine for that. Take a coarser one (plushwright remesh).".into()
+        }
         Impossible::Off(mm) => format!(
             "The pattern is not compensated for stuffing: {mm:.1} mm of difference to the drawn silhouette would be left, more than a hundredth of the body."
         ),

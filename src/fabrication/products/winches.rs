@@ -2,7 +2,7 @@
 
 use crate::defaults::CABLE_MM;
 use crate::fabrication::catalogue::{Fit, Motor};
-use crate::fabrication::demand::Demand;
+use crate::fabrication::demand::{Demand, TOO_FINE};
 use crate::fabrication::error::ExportError;
 use crate::fabrication::product::{Content, Part, Product, Source};
 use crate::fabrication::sheet::Sheet;
@@ -117,6 +117,11 @@ fn remarks(source: &Source<'_>, names: &[String], housing: &Housing) -> Vec<Stri
                 demand.torque_nmm, demand.speed_rpm
             ));
         }
+    }
+    if source.design.mesh.triangles.len() > TOO_FINE {
+        remarks.push(
+            "The mesh is too fine to simulate the pull of the cables here: the torques of motors.csv are 0.".into(),
+        );
     }
     let crowded = source.design.networks.iter().zip(names).filter(|(n, _)| 2 * n.tendons.len() > MOST_GROOVES);
     let crowded: Vec<&str> = crowded.map(|(_, name)| name.as_str()).collect();

@@ -6,6 +6,8 @@ use crate::mesh::Mesh;
 use crate::outline::polygon::{distance_to_segment, length, nearest_parameter};
 use crate::outline::{Outline, Point};
 
+/// Most triangles of a body whose pattern is compensated.
+const MOST_TRIANGLES: usize = 4000;
 /// How near to the drawn silhouette the stuffed one comes, as a part of the body's length, and how near is aimed at.
 const WITHIN: f64 = 0.01;
 const AIM: f64 = 0.004;
@@ -26,6 +28,8 @@ pub enum Impossible {
     Overlap(Point),
     /// The stuffed silhouette stays this far from the drawn one, mm.
     Off(f64),
+    /// The body has too many triangles to be solved again and again.
+    TooFine,
 }
 
 /// A design of the same plushie whose outline is what has to be cut, so that the body is as drawn when it is stuffed: its rim is moved by what
@@ -34,6 +38,9 @@ pub enum Impossible {
 /// # Errors
 /// Parts of the pattern would overlap, or it cannot be done to a hundredth of the body's length.
 pub fn compensated(design: &Design) -> Result<Design, Impossible> {
+    if design.mesh.triangles.len() > MOST_TRIANGLES {
+        return Err(Impossible::TooFine);
+    }
     let rim = design.mesh.boundary();
     let drawn = design.outline.near();
     let mut mesh = design.mesh.clone();

@@ -90,6 +90,11 @@ impl Membrane {
         energy
     }
 
+    /// Number of triangles.
+    pub fn size(&self) -> usize {
+        self.triangles.len()
+    }
+
     /// A force that is large here: the pressure on the area around a node.
     pub fn force_scale(&self) -> f64 {
         let area: f64 = self.area.iter().sum();

@@ -18,6 +18,10 @@ use crate::design::Design;
 use crate::outline::Point;
 use shape::{Shape, refined, rings};
 
+/// Most triangles that a body is solved with; one of more gets another mesh of so many fibres for that. They bound the time of an export.
+const MOST_TRIANGLES: usize = 4000;
+const COARSE_FIBERS: usize = 1500;
+
 /// A stuffed body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stuffed {
@@ -32,7 +36,10 @@ pub struct Stuffed {
 
 /// The stuffed body of a design.
 pub fn stuffed(design: &Design) -> Stuffed {
-    let fine = refined(&design.mesh);
+    // A finer mesh tells no more of a silhouette.
+    let coarse =
+        (design.mesh.triangles.len() > MOST_TRIANGLES).then(|| crate::mesh::generate(&design.outline, COARSE_FIBERS));
+    let fine = refined(coarse.as_ref().and_then(|mesh| mesh.as_ref().ok()).unwrap_or(&design.mesh));
     let shape = Shape::of(&fine, None);
     let flat: Vec<Vec<Point>> = rings(&fine, &fine.nodes);
     Stuffed {

@@ -6,6 +6,8 @@ use super::membrane::Membrane;
 const MEMORY: usize = 12;
 /// Most iterations: a body of 1500 triangles takes a few hundred.
 const MOST_ITERATIONS: usize = 700;
+/// Most work, in energies of a triangle: what bounds the time where there is no coarser mesh.
+const MOST_WORK: usize = 6_000_000;
 /// Largest force that is left, over the pressure on the area around a node, dimensionless: sizes are right to a hundredth well before.
 const FORCE: f64 = 2e-3;
 /// Sufficient decrease, and the most halvings of a step (Armijo).
@@ -23,7 +25,7 @@ pub fn relaxed(membrane: &Membrane, start: Nodes) -> Nodes {
     let mut energy = membrane.energy(&x, &mut gradient);
     let enough = FORCE * membrane.force_scale();
     let mut memory: Vec<Pair> = Vec::new();
-    for _ in 0..MOST_ITERATIONS {
+    for _ in 0..MOST_ITERATIONS.min(MOST_WORK / membrane.size().max(1)) {
         let largest = gradient.iter().flatten().map(|g| g.abs()).fold(0.0, f64::max);
         if largest <= enough {
             break;
