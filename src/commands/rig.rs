@@ -174,13 +174,14 @@ impl Rig {
         };
         let mut context = Context::telling(cancel, &mut progress);
         let rigged = rig::run(&mut design, &options, &mut context).map_err(|error| self.failed(error))?;
-        printed?;
         let path = if rigged.interrupted {
             edit.save_interrupted(&design, self.fresh)?
         } else {
             edit.save(&design, cancel)?;
             self.target.path(&self.design).to_owned()
         };
+        // What cannot be told is found all the same.
+        printed?;
         self.tell(out, &design, &path, &told, rigged.interrupted)?;
         for note in rigged.notes.iter().filter(|note| matches!(note, Note::AtRest { .. })) {
             if !self.json {
