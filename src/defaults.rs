@@ -115,6 +115,10 @@ pub const BAUD: u32 = 9600;
 pub const MOTOR_CURRENT_MA: u32 = 500;
 /// Unit of `DELAY` in their stored programs, s. Unconfirmed.
 pub const DELAY_UNIT_S: f64 = 0.01;
+/// Unit of `DELAY` in scripts of the V3 family, s. Unconfirmed.
+pub const SCRIPT_DELAY_UNIT_S: f64 = 1e-3;
+/// Largest acceleration that Faulhaber controllers take, rev/s^2. Confirmed for the V3 family, unconfirmed for the classic one.
+pub const FOLLOWING_ACCELERATION: u32 = 30_000;
 /// Range of a hobby servo, degrees.
 pub const SERVO_DEGREES: f64 = 180.0;
 /// Pulses at the ends of that range, microseconds. Unconfirmed: many servos reach a stop before.

@@ -90,10 +90,10 @@ impl Play {
             say(
                 out,
                 &format!(
-                    "{}: {:.1} s in steps of {:.3} s, {starts} starts, 95 % at most {:.1} ms late, the worst {:.1} ms; motors off",
+                    "{}: {:.1} s in slots of {:.3} s, {starts} starts, 95 % at most {:.1} ms late, the worst {:.1} ms; motors off",
                     shown(&self.design),
                     played.lasted_s,
-                    played.step_s,
+                    played.slot_s,
                     1e3 * late_p95_s,
                     1e3 * late_worst_s
                 ),

@@ -49,6 +49,8 @@ ranges! {
     BAUD: "controller.drives.baud", "baud", 600.0, 115200.0, "what the controllers take";
     CURRENT: "controller.drives.current_ma", "mA", 0.0, 50000.0, "0 leaves what the controller has";
     DELAY_UNIT: "controller.drives.delay_unit_s", "s", 1e-4, 1.0, "believed 0.01";
+    SCRIPT_DELAY_UNIT: "controller.drives.script_delay_unit_s", "s", 1e-4, 1.0, "believed 0.001";
+    FOLLOWING: "controller.drives.following_acceleration", "rev/s^2", 1.0, 30000.0, "what the controllers take";
     SERVO_DEGREES: "controller.drives.servo_degrees", "degrees", 10.0, 3600.0, "sail winches turn ten times";
     SERVO_LOW: "controller.drives.servo_low_us", "us", 100.0, 10000.0, "half of a period at 50 Hz";
     SERVO_HIGH: "controller.drives.servo_high_us", "us", 100.0, 10000.0, "as the other end";

@@ -100,6 +100,10 @@ pub struct DriveSettings {
     pub current_ma: u32,
     /// Unit of `DELAY` in their stored programs, s.
     pub delay_unit_s: f64,
+    /// Unit of `DELAY` in scripts of the V3 family, s.
+    pub script_delay_unit_s: f64,
+    /// Largest acceleration and deceleration that Faulhaber controllers take, rev/s^2: set while they follow a motion, so that they do not trail.
+    pub following_acceleration: u32,
     /// Range of a hobby servo, degrees.
     pub servo_degrees: f64,
     /// Pulse that holds its horn at the beginning of the range, the cable just slack, microseconds.
@@ -195,6 +199,8 @@ impl Default for DriveSettings {
             baud: defaults::BAUD,
             current_ma: defaults::MOTOR_CURRENT_MA,
             delay_unit_s: defaults::DELAY_UNIT_S,
+            script_delay_unit_s: defaults::SCRIPT_DELAY_UNIT_S,
+            following_acceleration: defaults::FOLLOWING_ACCELERATION,
             servo_degrees: defaults::SERVO_DEGREES,
             servo_low_us: defaults::SERVO_PULSES_US[0],
             servo_high_us: defaults::SERVO_PULSES_US[1],

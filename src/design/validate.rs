@@ -169,6 +169,9 @@ fn drives(drives: &DriveSettings) -> Check {
     ranges::BAUD.check("controller.drives.baud", f64::from(drives.baud))?;
     ranges::CURRENT.check("controller.drives.current_ma", f64::from(drives.current_ma))?;
     ranges::DELAY_UNIT.check("controller.drives.delay_unit_s", drives.delay_unit_s)?;
+    ranges::SCRIPT_DELAY_UNIT.check("controller.drives.script_delay_unit_s", drives.script_delay_unit_s)?;
+    let following = f64::from(drives.following_acceleration);
+    ranges::FOLLOWING.check("controller.drives.following_acceleration", following)?;
     ranges::SERVO_DEGREES.check("controller.drives.servo_degrees", drives.servo_degrees)?;
     ranges::SERVO_LOW.check("controller.drives.servo_low_us", f64::from(drives.servo_low_us))?;
     ranges::SERVO_HIGH.check("controller.drives.servo_high_us", f64::from(drives.servo_high_us))?;

@@ -34,8 +34,8 @@ pub enum Cause {
     Asked { who: String, asked_mm: f64, travel_mm: f64 },
     #[error("{who} did not come back to zero within {within_s:.0} s: it stands at {at_mm:.1} mm")]
     NotHome { who: String, at_mm: f64, within_s: f64 },
-    #[error("the line is too slow: a step of {step_s:.3} s began {late_s:.2} s late")]
-    TooSlow { step_s: f64, late_s: f64 },
+    #[error("the line is too slow: a move that was to be sent within {slot_s:.3} s was {late_s:.2} s late")]
+    TooSlow { slot_s: f64, late_s: f64 },
 }
 
 /// How the motors were left.

@@ -5,7 +5,7 @@
 use super::error::{Cause, End, LiveError};
 use super::link::Link;
 use super::report::Played;
-use crate::motion::{Beat, Move, Plan, Schedule, Stream, step_s};
+use crate::motion::{Beat, Move, Plan, Stream, beats, slot_s};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Motors on a line.
@@ -48,6 +48,8 @@ const HOME_TOLERANCE_MM: f64 = 0.3;
 const HOMING_LOOK_S: f64 = 0.1;
 /// A start that is this late is not the line's jitter: it cannot keep up, s.
 const TOO_LATE_S: f64 = 1.0;
+/// Moves are loaded this many times before their time that loading takes: some replies come late.
+const LOAD_MARGIN: f64 = 1.5;
 /// Questions where winches are, of which the slowest reply counts.
 const PROBES: usize = 3;
 
@@ -102,9 +104,7 @@ impl<'a> Player<'a> {
         self.guard(|player| {
             // Some families find zero with their motors on.
             player.on = true;
-            player.tell_all(player.stream.setup())?;
-            player.on = false;
-            Ok(())
+            player.tell_all(player.stream.setup())
         })
     }
 
@@ -116,15 +116,15 @@ impl<'a> Player<'a> {
         self.guard(|player| player.go_home())
     }
 
-    /// Winds back to zero, plays a plan in steps of at least `least_step_s`, winds back again, and switches the motors off.
+    /// Winds back to zero, plays a plan in slots of at least `least_slot_s`, winds back again, and switches the motors off.
     ///
     /// # Errors
     /// [`LiveError`]; motors are switched off.
-    pub fn play(&mut self, plan: &Plan, least_step_s: f64, tell: &mut dyn FnMut(Stage)) -> Result<Played, LiveError> {
+    pub fn play(&mut self, plan: &Plan, least_slot_s: f64, tell: &mut dyn FnMut(Stage)) -> Result<Played, LiveError> {
         self.guard(|player| {
             tell(Stage::Homing);
             player.go_home()?;
-            let played = player.play_beats(plan, least_step_s, tell)?;
+            let played = player.play_beats(plan, least_slot_s, tell)?;
             tell(Stage::Homing);
             player.go_home()?;
             player.rest()?;
@@ -332,14 +332,19 @@ impl<'a> Player<'a> {
         self.check_cancel()
     }
 
-    fn play_beats(&mut self, plan: &Plan, least_step_s: f64, tell: &mut dyn FnMut(Stage)) -> Result<Played, Cause> {
+    fn play_beats(&mut self, plan: &Plan, least_slot_s: f64, tell: &mut dyn FnMut(Stage)) -> Result<Played, Cause> {
         self.switch_on()?;
-        let step_s = step_s(self.stream, self.round_trip_s, least_step_s);
-        let early_s = self.stream.queued() as f64 * step_s;
-        let mut played = Played { step_s, round_trip_s: self.round_trip_s, ..Played::default() };
+        let slot_s = slot_s(self.stream, self.round_trip_s, least_slot_s);
+        let early_s = self.stream.queued() as f64 * slot_s;
+        let mut played = Played { slot_s, round_trip_s: self.round_trip_s, ..Played::default() };
         let mut began_s = None;
         let mut lengths_mm = plan.at(plan.span_s()[0]);
-        for Beat { due_s, moves } in Schedule::new(plan, self.stream, step_s).beats() {
+        for Beat { due_s, moves } in beats(plan, self.stream, slot_s) {
+            // Not earlier than needed: what is loaded may already count for the move before.
+            let loads = moves.iter().map(|step| self.stream.load(step).len()).sum::<usize>();
+            if let (Some(began_s), true) = (began_s, loads > 0) {
+                self.wait_until(began_s + due_s - early_s - LOAD_MARGIN * loads as f64 * self.round_trip_s)?;
+            }
             for step in &moves {
                 self.tell_all(self.stream.load(step))?;
             }
@@ -349,17 +354,18 @@ impl<'a> Player<'a> {
             self.wait_until(due_s - early_s)?;
             let late_s = (self.link.now_s() - due_s).max(0.0);
             if late_s > TOO_LATE_S {
-                return Err(Cause::TooSlow { step_s, late_s });
+                return Err(Cause::TooSlow { slot_s, late_s });
             }
             played.late.push(late_s);
-            played.lasted_s = due_s - began_s.unwrap_or(due_s);
             moves.iter().for_each(|step| lengths_mm[step.winch] = step.to_mm);
             self.tell_all(self.stream.go(&moves))?;
-            tell(Stage::Playing { time_s: played.lasted_s, lengths_mm: lengths_mm.clone() });
+            tell(Stage::Playing { time_s: due_s - began_s.unwrap_or(due_s), lengths_mm: lengths_mm.clone() });
         }
         // The last moves are still on their way.
-        let last_s = self.link.now_s() + step_s + early_s;
-        self.wait_until(last_s)?;
+        let [begin, end] = plan.span_s();
+        let began_s = began_s.unwrap_or(self.link.now_s());
+        self.wait_until(began_s + end - begin)?;
+        played.lasted_s = self.link.now_s() - began_s;
         Ok(played)
     }
 

@@ -72,7 +72,7 @@ impl Remote {
         open: Open,
         stream: Box<dyn Stream>,
         plan: Plan,
-        least_step_s: f64,
+        least_slot_s: f64,
         wake: impl Fn() + Send + Sync + 'static,
     ) -> Self {
         let shared = Arc::new(Shared {
@@ -84,7 +84,7 @@ impl Remote {
             wake: Box::new(wake),
         });
         let (own, watch) = (shared.clone(), shared.clone());
-        let player = std::thread::spawn(move || own.run(open, &*stream, &plan, least_step_s));
+        let player = std::thread::spawn(move || own.run(open, &*stream, &plan, least_slot_s));
         let watcher = std::thread::spawn(move || watch.watch());
         Self { shared, threads: vec![player, watcher] }
     }
@@ -145,9 +145,9 @@ impl Shared {
         }
     }
 
-    fn run(&self, open: Open, stream: &dyn Stream, plan: &Plan, least_step_s: f64) {
+    fn run(&self, open: Open, stream: &dyn Stream, plan: &Plan, least_slot_s: f64) {
         let outcome = open().map_err(|e| LiveError { cause: Cause::Port(e), end: End::Off });
-        let outcome = outcome.and_then(|mut link| self.serve(&mut *link, stream, plan, least_step_s));
+        let outcome = outcome.and_then(|mut link| self.serve(&mut *link, stream, plan, least_slot_s));
         let error = match outcome {
             Err(error) => error,
             Ok(()) => LiveError { cause: Cause::Cancelled, end: End::Off },
@@ -156,7 +156,7 @@ impl Shared {
         self.tell(Status::Ended { why: error.to_string(), wanted });
     }
 
-    fn serve(&self, link: &mut dyn Link, stream: &dyn Stream, plan: &Plan, least_step_s: f64) -> Result<(), LiveError> {
+    fn serve(&self, link: &mut dyn Link, stream: &dyn Stream, plan: &Plan, least_slot_s: f64) -> Result<(), LiveError> {
         // Zero may have to be set first: beyond the travel, everything else is refused when it is asked for.
         let mut player = Player::found(stream, link, &self.cancel)?;
         let mut told_mm = player.places_mm()?;
@@ -169,7 +169,7 @@ impl Shared {
                 }
                 Some(Order::SetZero) => player.set_zero()?,
                 Some(Order::Play) => {
-                    drop(player.play(plan, least_step_s, &mut |stage| self.tell(Status::from(stage)))?)
+                    drop(player.play(plan, least_slot_s, &mut |stage| self.tell(Status::from(stage)))?)
                 }
                 Some(Order::Home) => {
                     self.tell(Status::Homing);

@@ -5,11 +5,11 @@ use serde::Serialize;
 /// The outcome of a motion that was played.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Played {
-    /// Step of each winch, s.
-    pub step_s: f64,
+    /// Time in which one winch is told, or all where they move together, s.
+    pub slot_s: f64,
     /// A command and its reply on this line, s.
     pub round_trip_s: f64,
-    /// From the first start to the last, s.
+    /// From the first start to the end of the motion, s.
     pub lasted_s: f64,
     /// How late each start was sent, s, in order.
     #[serde(skip)]

@@ -1,6 +1,5 @@
 //! The errors of motion.
 
-use super::families;
 use super::limits::{MAX_COUNTS, MAX_NODES, MAX_RESOLUTION, MAX_STEPS};
 use thiserror::Error;
 
@@ -28,13 +27,8 @@ pub enum MotionError {
          radius would do"
     )]
     BeyondTurn { winch: String, travel_mm: f64, degrees: f64, most: f64, motor: &'static str, radius_mm: f64 },
-    #[error("there are no controllers {name:?}; there are {}", names())]
-    NoSuchFamily { name: String },
+    #[error("there are no controllers {name:?}; there are {known}")]
+    NoSuchFamily { name: String, known: String },
     #[error("controller.drives: servo_low_us and servo_high_us are both {us}: a servo needs two different ends")]
     NoPulses { us: u32 },
-}
-
-/// All families, for people.
-fn names() -> String {
-    families::ALL.iter().map(|family| family.name).collect::<Vec<_>>().join(", ")
 }

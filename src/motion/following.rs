@@ -1,7 +1,6 @@
 //! How closely drives follow what they are told: simulated trapezoids against the trajectory.
 
 use super::drive::{Drive, TICK_S};
-use super::families::classic::FOLLOWING;
 use super::machine::Machine;
 use super::plan::Plan;
 use super::schedule::Beat;
@@ -25,7 +24,7 @@ struct Order {
     rpm: u32,
 }
 
-/// Time after the last order in which drives still run, s.
+/// Time after the end in which drives still run, s.
 const AFTER_S: f64 = 0.5;
 
 impl Following {
@@ -40,14 +39,15 @@ impl Following {
             };
             let orders: Vec<Order> = (0..times.len().saturating_sub(1)).map(order).collect();
             let track = |time_s: f64| interpolated(times, lengths, winch, time_s);
-            following.add(machine, &orders, track);
+            let span_s = [times[0], times[times.len() - 1]];
+            following.add(machine, &orders, track, span_s);
         }
         following
     }
 
     /// Drives that are told the beats of a plan, each `late_s` after its time.
     pub fn of_beats(machine: &Machine, plan: &Plan, beats: &[Beat], late_s: f64) -> Self {
-        let begin = plan.span_s()[0];
+        let [begin, end] = plan.span_s();
         let mut following = Self::default();
         for winch in 0..machine.winches.len() {
             let own = beats.iter().flat_map(|beat| beat.moves.iter().map(move |step| (beat.due_s, step)));
@@ -56,7 +56,7 @@ impl Following {
                 Order { time_s: begin + due_s + late_s, target: to, rpm: machine.rpm(to - from, step.duration_s) }
             };
             let orders: Vec<Order> = own.filter(|(_, step)| step.winch == winch).map(order).collect();
-            following.add(machine, &orders, |time_s| plan.at(time_s)[winch]);
+            following.add(machine, &orders, |time_s| plan.at(time_s)[winch], [begin, end]);
         }
         following
     }
@@ -66,21 +66,17 @@ impl Following {
         [&self.lag_mm, &self.ripple].map(|values| values.iter().copied().fold(0.0, f64::max))
     }
 
-    fn add(&mut self, machine: &Machine, orders: &[Order], track: impl Fn(f64) -> f64) {
+    fn add(&mut self, machine: &Machine, orders: &[Order], track: impl Fn(f64) -> f64, [begin, end]: [f64; 2]) {
         let resolution = f64::from(machine.resolution());
-        let following = f64::from(FOLLOWING) * resolution;
+        let following = f64::from(machine.controller.drives.following_acceleration) * resolution;
         let mut drive = Drive::new(0.0, following);
-        let (Some(first), Some(last)) = (orders.first(), orders.last()) else {
-            self.lag_mm.push(0.0);
-            return self.ripple.push(0.0);
-        };
         let scale = machine.counts_per_mm;
-        drive.position = (scale * track(first.time_s)).round();
+        drive.position = (scale * track(begin)).round();
         drive.target = drive.position;
         let (mut lag, mut squares, mut fastest, mut samples) = (0.0_f64, 0.0_f64, 0.0_f64, 0_u64);
-        let (mut time_s, mut next) = (first.time_s, 0);
+        let (mut time_s, mut next) = (begin, 0);
         let mut before = track(time_s);
-        while time_s < last.time_s + AFTER_S {
+        while time_s < end + AFTER_S {
             while orders.get(next).is_some_and(|order| order.time_s <= time_s + 1e-9) {
                 (drive.target, drive.speed) =
                     (orders[next].target as f64, f64::from(orders[next].rpm) / 60.0 * resolution);

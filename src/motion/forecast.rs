@@ -3,7 +3,7 @@
 use super::following::Following;
 use super::line;
 use super::plan::Plan;
-use super::schedule::{Beat, Schedule, step_s};
+use super::schedule::{beats, slot_s};
 use super::stream::Stream;
 use super::trajectory::Trajectory;
 
@@ -14,8 +14,8 @@ pub struct Forecast {
     pub file: [f64; 2],
     /// Live, on a line with replies after [`line::LATENCY_S`].
     pub live: [f64; 2],
-    /// Step of a live drive, s.
-    pub step_s: f64,
+    /// Time in which a live drive tells one winch, or all where they move together, s.
+    pub slot_s: f64,
 }
 
 impl Forecast {
@@ -23,12 +23,12 @@ impl Forecast {
     pub fn of(stream: &dyn Stream, plan: &Plan, trajectory: &Trajectory) -> Self {
         let machine = stream.machine();
         let least_s = 1.0 / machine.controller.track_rate_hz;
-        let step_s = step_s(stream, line::round_trip_s(machine, stream), least_s);
-        let beats: Vec<Beat> = Schedule::new(plan, stream, step_s).beats().collect();
+        let slot_s = slot_s(stream, line::round_trip_s(machine, stream), least_s);
+        let beats = beats(plan, stream, slot_s);
         Self {
             file: Following::of_file(machine, trajectory).worst(),
             live: Following::of_beats(machine, plan, &beats, 0.0).worst(),
-            step_s,
+            slot_s,
         }
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! A [`Plan`] makes of the animation what motors can follow. A [`Trajectory`] samples it: cable wound by each winch, in mm and encoder counts. A [`Machine`] is
 //! what the [`families`] of controllers need of a design: a family makes either [`Program`]s of timed commands for a host (a [`Stream`]), or sketches that play by
-//! themselves. A [`Schedule`] says when a live drive tells which winch what; [`Following`] simulates how closely drives follow.
+//! themselves. [`beats`] say when a live drive tells which winch what; [`Following`] simulates how closely drives follow.
 //!
 //! ```
 //! use plushwright::design::{Easing, Keyframe, bundled};
@@ -51,7 +51,7 @@ pub use limits::Limits;
 pub use machine::Machine;
 pub use plan::{Note, Plan, TooFast, smooth_s};
 pub use program::Program;
-pub use schedule::{Beat, Schedule, commands_a_step, step_s};
+pub use schedule::{Beat, beats, commands_a_step, slot_s};
 pub use stream::{Move, Programs, Stream, programs};
 pub use trajectory::{Trajectory, check};
 pub use winches::counts_per_mm;

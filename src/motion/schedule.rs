@@ -1,8 +1,9 @@
 //! Schedules: when a live drive tells which winch what, so that a line with slow replies keeps the time.
 //!
-//! A line carries one command after the other, and waits for each reply. Winches that are all told at the ends of common steps would start one reply
-//! after the other; so every winch has steps of its own, shifted by a part of a step against the others, and each start falls on its own time. A
-//! target is where the plan is at that time, not later: shifted winches do not trail. Families that move all winches by one command need no shift.
+//! A line carries one command after the other, and waits for each reply: it has room for one move in so many tens of milliseconds, a *slot*. Families that
+//! move all winches by one command get one in every slot. Others have a slot for a single winch. A winch runs straight from its slot to its next one,
+//! both where the plan is at that time; so each slot goes to the winch whose straight line would be the farthest from the plan by the next slot. Those that
+//! stand still, or run evenly, need none.
 
 use super::plan::Plan;
 use super::stream::{Move, Stream};
@@ -15,56 +16,166 @@ pub struct Beat {
     pub moves: Vec<Move>,
 }
 
-/// The beats of a plan in the order of their times.
-#[derive(Clone, Copy, Debug)]
-pub struct Schedule<'a> {
-    plan: &'a Plan,
-    winches: usize,
-    together: bool,
-    step_s: f64,
-}
-
-/// The line is busy for no more than this part of a step: the rest is for replies that come late.
+/// The line is busy for no more than this part of a slot: the rest is for replies that come late.
 const BUSY: f64 = 0.85;
+/// A straight line that is nearer to the plan needs no slot, mm: below what any drive does.
+const NEAR_MM: f64 = 1e-3;
+/// At most so many places of a straight line are compared with the plan: what bounds the work on winches that stand still for long.
+const PLACES: usize = 12;
 
-/// Shortest step in which a line with such a round trip of a command and its reply, s, tells all winches of a stream; at least `least_s`.
-pub fn step_s(stream: &dyn Stream, round_trip_s: f64, least_s: f64) -> f64 {
-    (commands_a_step(stream) as f64 * round_trip_s / BUSY).max(least_s)
+/// Shortest slot on a line with such a round trip of a command and its reply, s; at least `least_s`.
+pub fn slot_s(stream: &dyn Stream, round_trip_s: f64, least_s: f64) -> f64 {
+    (commands_a_slot(stream) as f64 * round_trip_s / BUSY).max(least_s)
 }
 
-/// Commands of a step of all winches.
+/// Commands of a move of all winches.
 pub fn commands_a_step(stream: &dyn Stream) -> usize {
+    commands(stream, stream.machine().winches.len())
+}
+
+/// Commands in a slot: of all winches where they move together, of one where not.
+fn commands_a_slot(stream: &dyn Stream) -> usize {
+    commands(stream, if stream.moves_together() { stream.machine().winches.len() } else { 1 })
+}
+
+fn commands(stream: &dyn Stream, winches: usize) -> usize {
     let step = |winch| Move { winch, from_mm: 0.0, to_mm: 0.0, duration_s: 1.0 };
-    let steps: Vec<Move> = (0..stream.machine().winches.len()).map(step).collect();
+    let steps: Vec<Move> = (0..winches).map(step).collect();
     let loads: usize = steps.iter().map(|step| stream.load(step).len()).sum();
     loads + if stream.moves_together() { 1 } else { stream.go(&steps).len() }
 }
 
-impl<'a> Schedule<'a> {
-    /// The schedule of a plan in steps of `step_s`.
-    pub fn new(plan: &'a Plan, stream: &dyn Stream, step_s: f64) -> Self {
-        Self { plan, winches: stream.machine().winches.len(), together: stream.moves_together(), step_s }
+/// The beats of a plan in slots of `slot_s`, in the order of their times; the last moves end where the plan does.
+pub fn beats(plan: &Plan, stream: &dyn Stream, slot_s: f64) -> Vec<Beat> {
+    let [begin, end] = plan.span_s();
+    let slots = ((end - begin) / slot_s).ceil() as usize;
+    let times: Vec<f64> = (0..=slots).map(|k| (k as f64 * slot_s).min(end - begin)).collect();
+    let lengths: Vec<Vec<f64>> = times.iter().map(|time| plan.at(begin + time)).collect();
+    let winches = stream.machine().winches.len();
+    let one = |winch: usize, from: usize, at: usize, to: usize| Move {
+        winch,
+        from_mm: lengths[from][winch],
+        to_mm: lengths[to][winch],
+        duration_s: times[to] - times[at],
+    };
+    if stream.moves_together() {
+        let all = |k: usize| (0..winches).map(|winch| one(winch, k, k, k + 1)).collect();
+        return (0..slots).map(|k| Beat { due_s: times[k], moves: all(k) }).collect();
+    }
+    let owners = owners(&lengths, winches);
+    let firsts: Vec<Option<usize>> =
+        (0..winches).map(|winch| owners.iter().position(|owner| *owner == Some(winch))).collect();
+    let mut next = vec![slots; winches];
+    let mut beats = Vec::new();
+    for (k, owner) in owners.iter().enumerate().rev() {
+        let Some(winch) = *owner else { continue };
+        // Until its first slot a winch stands where the plan begins.
+        let from = if firsts[winch] == Some(k) { 0 } else { k };
+        let step = one(winch, from, k, next[winch]);
+        next[winch] = k;
+        beats.push(Beat { due_s: times[k], moves: vec![step] });
+    }
+    beats.reverse();
+    beats
+}
+
+/// The winch that each slot goes to, if any.
+fn owners(lengths: &[Vec<f64>], winches: usize) -> Vec<Option<usize>> {
+    let mut last: Vec<Option<usize>> = vec![None; winches];
+    let slots = lengths.len().saturating_sub(1);
+    (0..slots)
+        .map(|k| {
+            let mut most = (NEAR_MM, None);
+            for (winch, last) in last.iter().enumerate() {
+                let off = off_mm(lengths, winch, *last, k + 1);
+                if off > most.0 {
+                    most = (off, Some(winch));
+                }
+            }
+            if let Some(winch) = most.1 {
+                last[winch] = Some(k);
+            }
+            most.1
+        })
+        .collect()
+}
+
+/// The largest distance, mm, of a winch's plan from the straight line between its last slot and a slot to come; from standing still where it had none.
+fn off_mm(lengths: &[Vec<f64>], winch: usize, last: Option<usize>, to: usize) -> f64 {
+    let from = last.unwrap_or(0);
+    let (a, b) = (lengths[from][winch], lengths[to][winch]);
+    let Some(_) = last else { return (b - a).abs() };
+    let count = to - from;
+    let places = count.min(PLACES);
+    let off = |place: usize| {
+        let at = from + count * place / places;
+        let part = (at - from) as f64 / count as f64;
+        (lengths[at][winch] - a - (b - a) * part).abs()
+    };
+    (1..places).map(off).fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::{Design, Easing, Keyframe, testing};
+    use crate::motion::families::classic::Classic;
+    use crate::motion::{Machine, TooFast, Trajectory};
+
+    /// The sample with as many winches as there are rows of keyframe values, a second apart.
+    fn moving(rows: &[&[f64]]) -> (Classic, Plan) {
+        let mut design: Design = testing::sample();
+        let network = design.networks[0].clone();
+        design.networks =
+            (0..rows[0].len()).map(|k| crate::design::Network { name: format!("{k}"), ..network.clone() }).collect();
+        let key = |(k, row): (usize, &&[f64])| Keyframe {
+            time_s: k as f64,
+            activations_mm: row.to_vec(),
+            pose: None,
+            easing: Easing::Smooth,
+        };
+        design.keyframes = rows.iter().enumerate().map(key).collect();
+        let trajectory = Trajectory::of(&design, TooFast::Refuse).expect("slow enough");
+        let machine = Machine::new(&design, &trajectory);
+        (Classic::new(&machine).expect("it fits"), Plan::of(&design, TooFast::Refuse).expect("slow enough"))
     }
 
-    /// Beats, first to last; the last ones end where the plan does.
-    pub fn beats(&self) -> impl Iterator<Item = Beat> + use<'a> {
-        let Self { plan, winches, together, step_s } = *self;
-        let [begin, end] = plan.span_s();
-        let steps = ((end - begin) / step_s).ceil() as u64;
-        let parts = if together { 1 } else { winches as u64 };
-        let shift = step_s / parts.max(1) as f64;
-        // A winch that is shifted needs one step more to get to the end.
-        (0..(steps + u64::from(!together)) * parts).filter_map(move |number| {
-            let (k, part) = (number / parts, number % parts);
-            let due_s = k as f64 * step_s + part as f64 * shift;
-            // The first step of a shifted winch is longer by the shift, so that none jumps.
-            let from_s = (begin + if k == 0 { 0.0 } else { due_s }).min(end);
-            let to_s = (begin + due_s + step_s).min(end);
-            let (from, to) = (plan.at(from_s), plan.at(to_s));
-            let duration_s = (to_s - begin - due_s).max(0.0);
-            let one = |winch: usize| Move { winch, from_mm: from[winch], to_mm: to[winch], duration_s };
-            let moves = if together { (0..winches).map(one).collect() } else { vec![one(part as usize)] };
-            (duration_s > 0.0).then_some(Beat { due_s, moves })
-        })
+    #[test]
+    fn every_winch_runs_from_slot_to_slot_along_the_plan_and_those_that_rest_need_none() {
+        let (stream, plan) = moving(&[&[0.0, 0.0, 0.0], &[8.0, 0.0, 5.0], &[8.0, 0.0, 0.0], &[0.0, 0.0, 0.0]]);
+        let slot_s = 0.07;
+        let all = beats(&plan, &stream, slot_s);
+        let pairs = || all.windows(2);
+        assert!(pairs().all(|pair| pair[1].due_s > pair[0].due_s + 0.99 * slot_s && pair[0].moves.len() == 1));
+        for winch in 0..3 {
+            let own: Vec<(f64, Move)> =
+                all.iter().filter(|b| b.moves[0].winch == winch).map(|b| (b.due_s, b.moves[0])).collect();
+            if winch == 1 {
+                assert_eq!(own, []);
+                continue;
+            }
+            assert_eq!(own[0].1.from_mm, 0.0);
+            for pair in own.windows(2) {
+                let ((due_s, step), (next_s, next)) = (pair[0], pair[1]);
+                assert!((due_s + step.duration_s - next_s).abs() < 1e-9 && step.to_mm == next.from_mm);
+                assert_eq!(step.to_mm, plan.at(next_s)[winch]);
+            }
+            let (due_s, last) = own[own.len() - 1];
+            assert!((due_s + last.duration_s - 3.0).abs() < 1e-9 && last.to_mm == 0.0);
+        }
+        // The third rests from the second second on, the first in the middle one: then the other has the line for itself.
+        let within = |from_s: f64, to_s: f64| all.iter().filter(move |b| b.due_s > from_s && b.due_s < to_s);
+        assert!(
+            within(1.2, 1.8).all(|beat| beat.moves[0].winch == 2)
+                && within(2.2, 2.9).all(|beat| beat.moves[0].winch == 0)
+        );
+    }
+
+    #[test]
+    fn slots_are_as_long_as_the_line_needs() {
+        let (stream, _) = moving(&[&[0.0; 3], &[5.0; 3]]);
+        assert_eq!(commands_a_step(&stream), 9);
+        assert!((slot_s(&stream, 0.0255, 0.02) - 0.09).abs() < 1e-12);
+        assert_eq!(slot_s(&stream, 0.001, 0.02), 0.02);
     }
 }

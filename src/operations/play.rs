@@ -74,8 +74,8 @@ pub struct Prepared {
     pub family: &'static Family,
     pub stream: Box<dyn Stream>,
     pub plan: Plan,
-    /// No step is shorter, s.
-    pub least_step_s: f64,
+    /// No slot is shorter, s.
+    pub least_slot_s: f64,
     /// Speed of the line, baud.
     pub baud: u32,
 }
@@ -124,7 +124,7 @@ pub fn prepare(design: &Design, options: &Options) -> Result<Prepared, Error> {
         _ => BAUD,
     });
     let plan = Plan::of(design, options.too_fast)?;
-    Ok(Prepared { family, stream, plan, least_step_s: 1.0 / design.controller.track_rate_hz, baud })
+    Ok(Prepared { family, stream, plan, least_slot_s: 1.0 / design.controller.track_rate_hz, baud })
 }
 
 /// Drives motors; how they kept the time, for each time that the motion was played. `tell` is given what they do.
@@ -170,7 +170,7 @@ fn act(
         Player::connect(stream, link, cancel)?
     };
     match &options.action {
-        Action::Play(times) => (0..*times).map(|_| player.play(&prepared.plan, prepared.least_step_s, tell)).collect(),
+        Action::Play(times) => (0..*times).map(|_| player.play(&prepared.plan, prepared.least_slot_s, tell)).collect(),
         Action::Home => player.finish().map(|()| Vec::new()),
         Action::Wind { lengths_mm, hold_s } => {
             player.home()?;
@@ -212,7 +212,7 @@ pub fn remote(design: &Design, options: &Options, wake: impl Fn() + Send + Sync 
         Some(simulation) => Ok(Box::new(SimulatedLink::paced(simulation)) as Box<dyn Link>),
         None => Ok(Box::new(SerialLink::open(&port, baud)?)),
     });
-    Ok(Remote::start(open, prepared.stream, prepared.plan, prepared.least_step_s, wake))
+    Ok(Remote::start(open, prepared.stream, prepared.plan, prepared.least_slot_s, wake))
 }
 
 /// Time until a simulated reply, s: that of a USB adapter.

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-const COMMANDS: [&str; 18] = [
+const COMMANDS: [&str; 20] = [
     "demo",
     "new",
     "mesh",
@@ -17,6 +17,8 @@ const COMMANDS: [&str; 18] = [
     "key",
     "check",
     "export",
+    "play",
+    "simulate-controller",
     "render",
     "solve",
     "discover",

@@ -2,13 +2,15 @@
 
 use crate::support::rigged;
 use plushwright::design::{Design, bundled};
+use plushwright::engine::{Setpoint, solve_once};
 use plushwright::fabrication::{Options, blueprint};
 use plushwright::motion::families::{bus, sdo};
-use plushwright::motion::{Framing, TooFast, hex};
+use plushwright::motion::{Framing, Plan, TooFast, counts_per_mm, hex};
 use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Stdio};
+use std::sync::atomic::AtomicBool;
 
 /// All files of a blueprint by name.
 fn files(design: &Design) -> BTreeMap<String, Vec<u8>> {
@@ -58,7 +60,7 @@ fn a_motion_beyond_a_servo_is_refused_with_the_spool_that_would_do() {
     let names: Vec<&str> =
         files.iter().map(|f| f.name.as_str()).filter(|name| name.starts_with("controller")).collect();
     assert_eq!(names, ["controller-servo-arduino.ino"]);
-    let unknown = Options { controllers: vec!["abacus".into()], ..Options::default() };
+    let unknown = Options { controllers: vec!["abacus".into()], ..asked };
     let refused = blueprint(&design, &unknown).map(drop).expect_err("unknown").to_string();
     assert!(refused.contains("abacus") && refused.contains("grbl"), "{refused}");
 }
@@ -74,7 +76,7 @@ fn pulses(run: &mut Command, times_ms: &[u64]) -> Vec<(u64, Vec<f64>)> {
     assert!(output.status.success() && told.contains("ok"), "{told}");
     let line = |line: &str| {
         let mut figures = line.strip_prefix('@')?.split(' ').map(|v| v.parse::<f64>().expect("a figure"));
-        Some((figures.next()? as u64 - 1000, figures.map(|off| off * 20_000.0 / 4096.0).collect()))
+        Some(((figures.next()? - 1000.0).max(0.0) as u64, figures.map(|off| off * 20_000.0 / 4096.0).collect()))
     };
     told.lines().filter_map(line).skip(2).collect()
 }
@@ -160,6 +162,81 @@ fn another_parser_reads_the_g_code_and_its_moves_are_the_track() {
             let program = text(&files, &format!("controller-grbl-{part}.gcode"));
             assert!(program.lines().all(|line| line.len() <= 80 || line.starts_with('(')), "GRBL takes 80 letters");
             assert_eq!(program.contains("G10"), part == "setup", "zero is set once");
+        }
+    }
+}
+
+/// Counts of every drive of the classic family over time while the motion is played: a trapezoid of speed with SP, AC and DEC, planned anew at every
+/// M. Written apart from the tool's own, in steps of a tenth of a millisecond; a sample every 50 ms.
+fn driven(motion: &str, times_s: &[f64], nodes: usize, resolution: f64) -> Vec<(f64, Vec<f64>)> {
+    const DT: f64 = 1e-4;
+    #[derive(Clone, Default)]
+    struct Own {
+        loaded: [f64; 4],
+        plan: [f64; 4],
+        x: f64,
+        v: f64,
+    }
+    let mut drives = vec![Own::default(); nodes];
+    let (mut samples, mut step, mut time_s) = (Vec::new(), 0, times_s[0]);
+    let commands = stored(motion);
+    let mut rest = commands.as_slice();
+    let last = times_s[times_s.len() - 1] + 1.0;
+    while time_s < last {
+        // A step ends with the start of its last node.
+        while !rest.is_empty() && step < times_s.len() && times_s[step] <= time_s + 1e-9 {
+            let ((node, name, value), tail) = (&rest[0], &rest[1..]);
+            let own = &mut drives[node - 1];
+            let figure = value.unwrap_or(0.0);
+            match name.as_str() {
+                "SP" => own.loaded[0] = figure / 60.0 * resolution,
+                "AC" => own.loaded[1] = figure * resolution,
+                "DEC" => own.loaded[2] = figure * resolution,
+                "LA" => own.loaded[3] = figure,
+                "M" => own.plan = own.loaded,
+                _ => {}
+            }
+            step += usize::from(name == "M" && *node == nodes);
+            rest = tail;
+        }
+        for Own { plan: [speed, up, down, target], x, v, .. } in &mut drives {
+            let way = *target - *x;
+            let want = way.signum() * speed.min((2.0 * *down * way.abs()).sqrt()).min(way.abs() / DT);
+            let most = DT * if want * *v >= 0.0 && want.abs() > v.abs() { *up } else { *down };
+            *v += (want - *v).clamp(-most, most);
+            *x += *v * DT;
+        }
+        time_s += DT;
+        if (time_s / 0.05).floor() > ((time_s - DT) / 0.05).floor() {
+            samples.push((time_s, drives.iter().map(|own| own.x).collect()));
+        }
+    }
+    samples
+}
+
+#[test]
+fn the_plushie_is_where_the_animation_has_it_when_drives_play_the_file() {
+    for name in ["Pig", "Robot"] {
+        let design = bundled::ALL.iter().find(|b| b.name == name).expect(name).design().expect("a sound design");
+        let files = files(&design);
+        let rows = rows(&files);
+        let times: Vec<f64> = rows.iter().map(|row| row.0).collect();
+        let motion = text(&files, "controller-ascii-motion.txt");
+        let samples = driven(&motion, &times, design.networks.len(), 2048.0);
+        let plan = Plan::of(&design, TooFast::Stretch).expect("a plan");
+        let scale = counts_per_mm(&design);
+        let shape = |activations: Vec<f64>| {
+            let outcome =
+                solve_once(&design, Setpoint::Activations(activations), [false, true], &AtomicBool::new(false));
+            outcome.realizable.expect("solved").nodes
+        };
+        let every = samples.len() / 6;
+        for (time_s, counts) in samples.iter().skip(every / 2).step_by(every) {
+            let there = shape(counts.iter().map(|counts| counts / scale).collect());
+            let wanted = shape(plan.at(*time_s));
+            let squares = there.iter().zip(&wanted).map(|(a, b)| (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2));
+            let rms = (squares.sum::<f64>() / there.len() as f64).sqrt() / design.body_length_mm();
+            assert!(rms < 0.005, "{name} at {time_s:.2} s: {:.2} % of the body", 100.0 * rms);
         }
     }
 }

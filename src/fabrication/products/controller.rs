@@ -37,7 +37,10 @@ pub(super) fn make(source: &Source<'_>) -> Result<Part, ExportError> {
 /// The families that were asked for, or all.
 fn chosen(source: &Source<'_>) -> Result<Vec<&'static Family>, MotionError> {
     let names = &source.options.controllers;
-    let named = |name: &String| families::by_name(name).ok_or_else(|| MotionError::NoSuchFamily { name: name.clone() });
+    let named = |name: &String| {
+        families::by_name(name)
+            .ok_or_else(|| MotionError::NoSuchFamily { name: name.clone(), known: families::names() })
+    };
     if names.is_empty() { Ok(families::ALL.to_vec()) } else { names.iter().map(named).collect() }
 }
 
@@ -73,8 +76,8 @@ fn how() -> String {
   just slack; it makes this the zero position and sets the limits of travel; never send it while cable is wound. motion: as often as you
   like, from the rest position; it never sets zero. stop: slowly back to zero, then motors off; send it after the last motion, and after
   one that was broken off.
-  `plushwright play DESIGN --port PORT` does all of it live: it reads replies, keeps the time, winds back to zero first, and switches all motors off
-  on any fault.
+  Played live by plushwright, replies are read, the time is kept, the winches go back to zero first, and all motors are switched off on any
+  fault.
 "
     .into()
 }
@@ -89,12 +92,12 @@ fn followed(source: &Source<'_>, machine: &Machine) -> Result<String, MotionErro
     let forecast = Forecast::of(&classic, &plan, source.trajectory);
     Ok(format!(
         "  Simulated drives (trapezoids of speed) that get each step of the file at its time: {}.
-  Played live at {} baud with replies after {:.0} ms: steps of {:.3} s; {}.
+  Played live at {} baud with replies after {:.0} ms, a winch every {:.3} s: {}.
 ",
         words(forecast.file),
         machine.controller.drives.baud,
         1e3 * line::LATENCY_S,
-        forecast.step_s,
+        forecast.slot_s,
         words(forecast.live),
     ))
 }
@@ -180,7 +183,7 @@ fn remarks(source: &Source<'_>) -> Vec<String> {
         if on_line > shortest {
             remarks.push(format!(
                 "At {} baud a step takes about {:.0} ms on the line with its replies, longer than the {:.0} ms of the shortest step: set a higher \
-                 baud rate, or a lower track rate; or let `plushwright play` choose its steps.",
+                 baud rate, or a lower track rate; or play it live, where slow lines get fewer steps.",
                 machine.controller.drives.baud,
                 1e3 * on_line,
                 1e3 * shortest

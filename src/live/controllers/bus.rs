@@ -1,8 +1,8 @@
 //! Servos on a serial bus (ST3215 class), with the ids 1, 2, ....
 
-use super::{Axis, Controller, REST};
+use super::controller::{Axis, Controller};
 use crate::motion::Drive;
-use crate::motion::families::bus::{ALL, HERE, LIMITS, LOCK, MOVE, PLACE, Packet, READ, TORQUE, WRITE, value};
+use crate::motion::families::bus::{self, ALL, HERE, LIMITS, LOCK, MOVE, PLACE, Packet, READ, TORQUE, WRITE, value};
 
 /// All servos.
 pub(super) struct BusServos {
@@ -17,6 +17,8 @@ struct Own {
     farthest: f64,
 }
 
+/// Position of rest, steps.
+const REST: f64 = bus::REST as f64;
 /// Speed and acceleration that a servo has by itself, steps/s and steps/s^2.
 const SPEED: f64 = 3400.0;
 const ACCELERATION: f64 = 25_400.0;

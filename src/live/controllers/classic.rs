@@ -1,6 +1,6 @@
 //! Drives of the classic ASCII family, with the nodes 1, 2, ... on one line.
 
-use super::{Axis, Controller};
+use super::controller::{Axis, Controller};
 use crate::motion::Drive;
 
 /// All drives.
@@ -20,8 +20,9 @@ struct Own {
     /// Limits of travel, and whether they are watched.
     limits: [f64; 2],
     limited: bool,
-    /// Target that `M` starts for.
+    /// Target that `M` starts for, and the limits that it plans with: speed, acceleration, deceleration.
     loaded: f64,
+    planned: [f64; 3],
     farthest: f64,
 }
 
@@ -41,6 +42,7 @@ impl Drives {
             limits: [f64::NEG_INFINITY, f64::INFINITY],
             limited: false,
             loaded: 0.0,
+            planned: [drive.speed, drive.acceleration, drive.deceleration],
             farthest: 0.0,
         };
         Self { drives: vec![own; winches] }
@@ -106,12 +108,15 @@ impl Own {
             ("EN", None) => self.enabled = true,
             ("DI", None) => self.off(),
             ("M", None) if !self.enabled => return "Command not available".into(),
-            ("M", None) => self.drive.target = self.loaded,
+            ("M", None) => {
+                self.drive.target = self.loaded;
+                [self.drive.speed, self.drive.acceleration, self.drive.deceleration] = self.planned;
+            }
             ("ANSW", Some(mode)) => self.answers = mode != 0.0,
             ("ENCRES", Some(counts)) if counts > 0.0 => self.resolution = counts,
-            ("SP", Some(rpm)) if rpm >= 0.0 => self.drive.speed = rpm / 60.0 * self.resolution,
-            ("AC", Some(rate)) if rate > 0.0 => self.drive.acceleration = rate * self.resolution,
-            ("DEC", Some(rate)) if rate > 0.0 => self.drive.deceleration = rate * self.resolution,
+            ("SP", Some(rpm)) if rpm >= 0.0 => self.planned[0] = rpm / 60.0 * self.resolution,
+            ("AC", Some(rate)) if rate > 0.0 => self.planned[1] = rate * self.resolution,
+            ("DEC", Some(rate)) if rate > 0.0 => self.planned[2] = rate * self.resolution,
             ("LL", Some(limit)) if limit < 0.0 => self.limits[0] = limit,
             ("LL", Some(limit)) if limit > 0.0 => self.limits[1] = limit,
             ("LPC" | "LCC", Some(current)) if current > 0.0 => {}

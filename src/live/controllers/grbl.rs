@@ -1,6 +1,6 @@
 //! GRBL 1.1: G-code of straight moves, a queue, codes that are obeyed at once.
 
-use super::{Axis, Controller};
+use super::controller::{Axis, Controller};
 use crate::motion::families::grbl::AXES;
 use std::collections::VecDeque;
 
@@ -15,6 +15,8 @@ pub(super) struct Machine {
     feed: f64,
     state: State,
     held: bool,
+    /// Motors hold: since the first move.
+    holds: bool,
 }
 
 /// A move: from where it begins, to where, and how far it has come.
@@ -45,6 +47,7 @@ impl Machine {
             feed: 0.0,
             state: State::Ready,
             held: false,
+            holds: false,
         }
     }
 
@@ -66,6 +69,7 @@ impl Machine {
         match setting {
             "SLP" => {
                 self.state = State::Sleep;
+                self.holds = false;
                 self.queue.clear();
             }
             "X" if self.state == State::Alarm => self.state = State::Ready,
@@ -111,6 +115,7 @@ impl Machine {
             }
             let way = self.end().iter().zip(&to).map(|(a, b)| (b - a).powi(2)).sum::<f64>().sqrt();
             let minutes = if self.inverse { 1.0 / self.feed } else { way / self.feed };
+            self.holds = true;
             self.queue.push_back(Block { from: None, to, duration_s: 60.0 * minutes, passed_s: 0.0 });
         }
         Ok(())
@@ -218,7 +223,7 @@ impl Controller for Machine {
         let axis = |(axis, zero): (&[f64; 2], &f64)| Axis {
             position: axis[0] - zero,
             farthest: axis[1],
-            on: self.state != State::Sleep,
+            on: self.holds,
             moving,
         };
         self.axes.iter().zip(&self.zero).map(axis).collect()

@@ -1,6 +1,6 @@
 //! Drives of the V3 family: objects of CiA 402 in binary frames.
 
-use super::{Axis, Controller};
+use super::controller::{Axis, Controller};
 use crate::motion::Drive;
 use crate::motion::families::sdo::{
     ACCELERATION, CONTROL, DECELERATION, Frame, HIGHEST, HOMING, LOWEST, MODE, POSITION, READ, REFUSED, SPEED, TARGET,

@@ -1,6 +1,6 @@
 //! A microcontroller with one of our sketches and its hobby servos.
 
-use super::{Axis, Controller};
+use super::controller::{Axis, Controller};
 
 /// The sketch; pulses in microseconds.
 pub(super) struct Sketch {

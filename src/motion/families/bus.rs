@@ -5,7 +5,7 @@
 //! the motor, and 80 there calls the present position 2048. Rest is 2048, so that half a turn can be watched by the servo's own limits; beyond, it
 //! turns on with its limits off.
 
-use super::Family;
+use super::family::Family;
 use crate::motion::error::MotionError;
 use crate::motion::framing::{Framing, bytes_of, hex};
 use crate::motion::limits::MAX_BUS_NODES;

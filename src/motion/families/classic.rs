@@ -5,7 +5,7 @@
 //! (`SP`) that gets there when the step is over and acceleration limits out of the way, it stays within tenths of a mm. The trajectory itself keeps
 //! speed and acceleration within the design's. `HO` takes the limits of travel along, so it stands in no program that is sent again.
 
-use super::Family;
+use super::family::Family;
 use crate::motion::error::MotionError;
 use crate::motion::framing::Framing;
 use crate::motion::limits::{MAX_COUNTS, MAX_NODES, MAX_RESOLUTION};
@@ -18,13 +18,14 @@ pub(super) static FAMILY: Family = Family {
     extension: "txt",
     stream: Some(|machine| Ok(Box::new(Classic::new(machine)?))),
     sketches: None,
-    unconfirmed: &["the largest AC and DEC, believed to be 30000", "the largest position, believed to be 1.8e9 counts"],
+    unconfirmed: &[
+        "the largest AC and DEC, believed to be 30000 (controller.drives.following_acceleration)",
+        "the largest position, believed to be 1.8e9 counts",
+    ],
 };
 
 /// Ends a command.
 pub(in crate::motion) const END: &str = "\r";
-/// Acceleration limit while a trajectory is followed, rev/s^2: the controllers' largest (unconfirmed). The steps themselves are gentle.
-pub(in crate::motion) const FOLLOWING: u32 = 30_000;
 /// The answer of motors to a command that they have taken.
 const TAKEN: &str = "OK";
 
@@ -84,7 +85,9 @@ impl Stream for Classic {
     }
 
     fn ready(&self) -> Vec<String> {
-        let on = |node| [format!("{node}AC{FOLLOWING}"), format!("{node}DEC{FOLLOWING}"), format!("{node}EN")];
+        // The steps themselves are gentle.
+        let following = self.machine.controller.drives.following_acceleration;
+        let on = |node| [format!("{node}AC{following}"), format!("{node}DEC{following}"), format!("{node}EN")];
         self.nodes().flat_map(on).collect()
     }
 

@@ -4,7 +4,7 @@
 //! minutes), so that all winches end a step together. GRBL stands still at the end of a move unless the next one waits in its queue: a host is some
 //! lines ahead. Zero is kept in `G54` (`G10 L20`), which holds through resets. GRBL's own soft limits need homing switches, so they stay off.
 
-use super::Family;
+use super::family::Family;
 use crate::motion::error::MotionError;
 use crate::motion::framing::Framing;
 use crate::motion::machine::Machine;

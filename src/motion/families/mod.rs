@@ -2,6 +2,7 @@
 
 pub mod bus;
 pub mod classic;
+mod family;
 pub mod grbl;
 pub mod sdo;
 pub mod servo;
@@ -9,41 +10,7 @@ mod servo_sketch;
 mod stored;
 mod v3_script;
 
-use super::error::MotionError;
-use super::machine::Machine;
-use super::stream::Stream;
-use super::trajectory::Trajectory;
-
-/// A family of controllers.
-#[derive(Debug)]
-pub struct Family {
-    /// Of its files and options.
-    pub name: &'static str,
-    /// Which controllers, and by whom they are told.
-    pub title: &'static str,
-    /// Of its programs.
-    pub extension: &'static str,
-    /// The commands that a host sends, for families that are told by one.
-    pub stream: Option<MakeStream>,
-    /// Texts to be loaded into the controllers, for families that play by themselves.
-    pub sketches: Option<MakeSketches>,
-    /// What manuals do not say, or say in different ways.
-    pub unconfirmed: &'static [&'static str],
-}
-
-/// Makes the commands for one machine.
-pub type MakeStream = fn(&Machine) -> Result<Box<dyn Stream>, MotionError>;
-/// Makes the texts that play a trajectory.
-pub type MakeSketches = fn(&Machine, &Trajectory) -> Result<Vec<Sketch>, MotionError>;
-
-/// A text for a controller that plays by itself.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Sketch {
-    /// What of the family it is: `setup`, `motion`, `stop`, or all of it where it has no name.
-    pub part: String,
-    pub extension: &'static str,
-    pub text: String,
-}
+pub use family::{Family, Sketch};
 
 /// All families.
 pub static ALL: &[&Family] = &[
@@ -61,6 +28,11 @@ pub static ALL: &[&Family] = &[
 /// The family of this name.
 pub fn by_name(name: &str) -> Option<&'static Family> {
     ALL.iter().copied().find(|family| family.name == name)
+}
+
+/// Their names, for people.
+pub fn names() -> String {
+    ALL.iter().map(|family| family.name).collect::<Vec<_>>().join(", ")
 }
 
 /// Families that a live drive can play.

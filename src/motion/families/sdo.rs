@@ -4,8 +4,8 @@
 //! index and subindex, or has command 3 and a code where it was refused. Numbers are little-endian. The CRC has 8 bits, starts with FF, shifts right with
 //! D5 and covers all from the length on. Position mode (6060 = 1): target 607A, speed 6081, start with a rising bit 4 of the controlword 6040.
 
-use super::Family;
-use super::classic::{self, FOLLOWING};
+use super::classic;
+use super::family::Family;
 use crate::motion::error::MotionError;
 use crate::motion::framing::{Framing, bytes_of, hex};
 use crate::motion::machine::Machine;
@@ -168,7 +168,7 @@ impl Stream for Sdo {
     }
 
     fn ready(&self) -> Vec<String> {
-        let following = i64::from(FOLLOWING);
+        let following = i64::from(self.machine.controller.drives.following_acceleration);
         let on = |node| {
             [
                 (MODE, POSITIONING),

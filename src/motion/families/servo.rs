@@ -4,7 +4,7 @@
 //! The answer is `ok`, `error ...`, or the pulses after `?`. Pulses are whole microseconds. A servo has no encoder that anybody could ask: the sketch tells what
 //! it has last asked for, and zero is where the horn stands at the first pulse.
 
-use super::Family;
+use super::family::Family;
 use crate::motion::error::MotionError;
 use crate::motion::framing::Framing;
 use crate::motion::limits::MAX_SERVOS;

@@ -2,8 +2,8 @@
 //!
 //! All three parts are words that the sketch obeys over its serial port: `setup`, `motion`, `stop`.
 
+use super::family::{Family, Sketch};
 use super::servo::{Servos, UNCONFIRMED};
-use super::{Family, Sketch};
 use crate::motion::error::MotionError;
 use crate::motion::machine::Machine;
 use crate::motion::trajectory::Trajectory;
@@ -64,7 +64,7 @@ fn sketch(
     }
     let fill = [
         ("@NAME@", "Winches".to_owned()),
-        ("@HEAD@", head(machine, comment)),
+        ("@HEAD@", head(machine, trajectory, comment)),
         ("@SERVOS@", machine.winches.len().to_string()),
         ("@REST@", list(&mut machine.winches.iter().map(|_| servos.pulse(0.0)))),
         ("@FARTHEST@", list(&mut machine.travel_mm.iter().map(|&travel| servos.pulse(travel)))),
@@ -77,7 +77,7 @@ fn sketch(
 }
 
 /// Comments: which channel is which winch, what it asks of its servo, and what is not known.
-fn head(machine: &Machine, comment: &str) -> String {
+fn head(machine: &Machine, trajectory: &Trajectory, comment: &str) -> String {
     let drives = &machine.controller.drives;
     let mut lines: Vec<String> = Vec::new();
     for (channel, (winch, &travel)) in machine.winches.iter().zip(&machine.travel_mm).enumerate() {
@@ -88,10 +88,20 @@ fn head(machine: &Machine, comment: &str) -> String {
         drives.servo_degrees,
         drives.servo_low_us,
         drives.servo_high_us,
-        machine.degrees(machine.limits.speed)
+        fastest(machine, trajectory)
     ));
     lines.extend(UNCONFIRMED.iter().map(|line| format!("Unconfirmed: {line}.")));
     lines.iter().map(|line| format!("{comment}{line}")).collect::<Vec<_>>().join("\n")
+}
+
+/// The fastest turn of any spool, degrees/s.
+fn fastest(machine: &Machine, trajectory: &Trajectory) -> f64 {
+    let steps = trajectory.times_s.windows(2).zip(trajectory.lengths_mm.windows(2));
+    let speeds = steps.flat_map(|(times, rows)| {
+        let lasts_s = times[1] - times[0];
+        rows[0].iter().zip(&rows[1]).map(move |(from, to)| (to - from).abs() / lasts_s)
+    });
+    machine.degrees(speeds.fold(0.0, f64::max))
 }
 
 /// Rows of the motion: milliseconds since the one before, and pulses. As many as the table has room for, evenly; times are rounded from the beginning, so

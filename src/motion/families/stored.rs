@@ -6,8 +6,8 @@
 //! Moves last as long as `DELAY` says, whose unit is a setting (`controller.drives.delay_unit_s`). Times are rounded to it from the beginning, not from
 //! the step before, so that nothing adds up.
 
-use super::classic::{self, END, FOLLOWING};
-use super::{Family, Sketch};
+use super::classic::{self, END};
+use super::family::{Family, Sketch};
 use crate::motion::error::MotionError;
 use crate::motion::machine::Machine;
 use crate::motion::trajectory::Trajectory;
@@ -56,7 +56,8 @@ fn stored(commands: &[String]) -> Vec<String> {
 }
 
 fn motion(machine: &Machine, trajectory: &Trajectory, winch: usize) -> Vec<String> {
-    let mut commands = vec![format!("AC{FOLLOWING}"), format!("DEC{FOLLOWING}"), "EN".into()];
+    let following = machine.controller.drives.following_acceleration;
+    let mut commands = vec![format!("AC{following}"), format!("DEC{following}"), "EN".into()];
     let (times, lengths) = (&trajectory.times_s, &trajectory.lengths_mm);
     let steps: Vec<usize> = thinned(times.len());
     let units = |k: usize| ((times[k] - times[0]) / machine.controller.drives.delay_unit_s).round() as u64;

@@ -1,11 +1,11 @@
 //! Scripts for Faulhaber controllers of the V3 family (MC 5004 / 5005 / 5010, MCS): BASIC, loaded into each drive by Motion Manager.
 //!
 //! A drive plays its own winch. The motion is a function that is called for every step: speed and target are set, a move is started, `DELAY` waits for
-//! its end. Times are rounded to milliseconds from the beginning, so that nothing adds up.
+//! its end. Times are rounded to its unit (`controller.drives.script_delay_unit_s`) from the beginning, so that nothing adds up.
 
-use super::classic::{self, FOLLOWING};
+use super::classic;
+use super::family::{Family, Sketch};
 use super::stored::thinned;
-use super::{Family, Sketch};
 use crate::motion::error::MotionError;
 use crate::motion::machine::Machine;
 use crate::motion::trajectory::Trajectory;
@@ -18,14 +18,14 @@ pub(super) static FAMILY: Family = Family {
     stream: None,
     sketches: Some(sketches),
     unconfirmed: &[
-        "the unit of DELAY, believed to be 1 ms",
+        "the unit of DELAY, believed to be 1 ms (controller.drives.script_delay_unit_s)",
         "how much a script may hold: at most 200 steps are written",
         "that a parameter of a FUNCTION is declared with AS and no type",
     ],
 };
 
-/// Unit of `DELAY`, s.
-const DELAY_S: f64 = 1e-3;
+/// Time that a drive is given to call its place zero, s.
+const HOMING_S: f64 = 0.1;
 
 fn sketches(machine: &Machine, trajectory: &Trajectory) -> Result<Vec<Sketch>, MotionError> {
     classic::checked(machine)?;
@@ -55,6 +55,7 @@ fn head(machine: &Machine, winch: usize, what: &str) -> String {
 
 fn setup(machine: &Machine, winch: usize) -> String {
     let high = machine.counts(machine.travel_mm[winch]) + 1;
+    let wait = (HOMING_S / machine.controller.drives.script_delay_unit_s).ceil() as u64;
     head(machine, winch, "once, with the plushie at rest and its cables just slack. It makes this position zero.")
         + &format!(
             "SETOBJ $6040.00 = $06
@@ -63,7 +64,7 @@ SETOBJ $6098.00 = 37
 SETOBJ $6040.00 = $07
 SETOBJ $6040.00 = $0F
 SETOBJ $6040.00 = $1F
-DELAY 100
+DELAY {wait}
 SETOBJ $6040.00 = $06
 SETOBJ $6060.00 = 1
 SETOBJ $607D.01 = -1
@@ -86,10 +87,12 @@ END FUNCTION
 
 fn motion(machine: &Machine, trajectory: &Trajectory, winch: usize) -> String {
     let mut text = head(machine, winch, "as often as you like, from the rest position.") + STEP;
+    let following = machine.controller.drives.following_acceleration;
     let _ =
-        write!(text, "SETOBJ $6060.00 = 1\nSETOBJ $6083.00 = {FOLLOWING}\nSETOBJ $6084.00 = {FOLLOWING}\nEnable()\n");
+        write!(text, "SETOBJ $6060.00 = 1\nSETOBJ $6083.00 = {following}\nSETOBJ $6084.00 = {following}\nEnable()\n");
     let (times, lengths) = (&trajectory.times_s, &trajectory.lengths_mm);
-    let units = |k: usize| ((times[k] - times[0]) / DELAY_S).round() as u64;
+    let unit_s = machine.controller.drives.script_delay_unit_s;
+    let units = |k: usize| ((times[k] - times[0]) / unit_s).round() as u64;
     for pair in thinned(times.len()).windows(2) {
         let (from, to) = (machine.counts(lengths[pair[0]][winch]), machine.counts(lengths[pair[1]][winch]));
         let speed = machine.rpm(to - from, times[pair[1]] - times[pair[0]]);
@@ -100,7 +103,7 @@ fn motion(machine: &Machine, trajectory: &Trajectory, winch: usize) -> String {
 }
 
 fn stop(machine: &Machine, winch: usize) -> String {
-    let delay = (machine.stopping_s() / DELAY_S) as u64;
+    let delay = (machine.stopping_s() / machine.controller.drives.script_delay_unit_s).ceil() as u64;
     let (speed, acceleration) = (machine.gentle_rpm(), machine.controller.acceleration);
     head(machine, winch, "slowly back to zero, motor off.")
         + STEP

@@ -30,7 +30,7 @@ pub fn stop(session: &mut Session) {
 /// Gives the motors an order.
 pub fn order(session: &mut Session, order: Order) {
     if let Some(remote) = &session.motors.remote {
-        session.motors.asked_mm.iter_mut().for_each(|asked| *asked = 0.0);
+        session.motors.asked_mm.clear();
         remote.order(order);
     }
 }
@@ -38,9 +38,17 @@ pub fn order(session: &mut Session, order: Order) {
 /// Winds one winch by hand, within its travel.
 pub fn wind(session: &mut Session, winch: usize, length_mm: f64) {
     let motors = &mut session.motors;
-    let (Some(remote), Some(&travel)) = (&motors.remote, motors.travel_mm().get(winch)) else { return };
-    motors.asked_mm[winch] = length_mm.clamp(0.0, travel);
-    remote.order(Order::Wind(motors.asked_mm.clone()));
+    let mut asked_mm = motors.asked_mm();
+    let (Some(remote), Some(&travel), Some(asked)) =
+        (&motors.remote, motors.travel_mm().get(winch), asked_mm.get_mut(winch))
+    else {
+        return;
+    };
+    *asked = length_mm.clamp(0.0, travel);
+    // One that stands beyond its travel goes back to it.
+    asked_mm.iter_mut().zip(motors.travel_mm()).for_each(|(asked, travel)| *asked = asked.clamp(0.0, *travel));
+    remote.order(Order::Wind(asked_mm.clone()));
+    motors.asked_mm = asked_mm;
 }
 
 /// Once a frame: the window is there; the views show what is played; what ended is told.

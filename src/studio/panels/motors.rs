@@ -129,7 +129,7 @@ impl Motors {
 fn said(forecast: &Forecast) -> String {
     let [file, live] =
         [forecast.file, forecast.live].map(|[lag, ripple]| format!("lag {lag:.2} mm, ripple {:.1} %", 100.0 * ripple));
-    format!("From the files: {file}\nLive, steps of {:.2} s: {live}", forecast.step_s)
+    format!("From the files: {file}\nLive, a winch every {:.2} s: {live}", forecast.slot_s)
 }
 
 /// What the motors do, in words.

@@ -2,7 +2,7 @@
 
 use super::panel::{Entry, Panel};
 use super::widgets::heading;
-use crate::design::Term;
+use crate::design::{DriveSettings, Term};
 use crate::physics::{Kind, MaterialKind, Setting, TermKind};
 use crate::studio::action::{Action, Actions};
 use crate::studio::change::Change;
@@ -229,7 +229,29 @@ fn controller(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     );
     let tip = "Torque at the spool that the motor can keep up: winches that ask for more turn red";
     number(ui, "Torque limit", "N mm", tip, &mut c.torque_nmm, 0.1..=10000.0);
+    drives(ui, &mut c.drives);
     if c != session.design().controller {
         actions.push(Action::Live(Change::Controller(c)));
     }
+}
+
+/// What single families of controllers are told.
+fn drives(ui: &mut Ui, d: &mut DriveSettings) {
+    let tip = "Speed of the line to Faulhaber controllers of the classic family";
+    count(ui, "Line", "baud", tip, &mut d.baud, 600..=115_200);
+    let tip = "Largest current that their setup allows a motor; 0 leaves it as it is";
+    count(ui, "Current limit", "mA", tip, &mut d.current_ma, 0..=50_000);
+    let tip = "Unit of DELAY in programs stored in them; believed to be 0.01 s";
+    number(ui, "DELAY unit", "s", tip, &mut d.delay_unit_s, 0.0001..=1.0);
+    let tip = "Unit of DELAY in scripts of the V3 family; believed to be 0.001 s";
+    number(ui, "Script DELAY unit", "s", tip, &mut d.script_delay_unit_s, 0.0001..=1.0);
+    let tip = "Largest acceleration that Faulhaber controllers take: set while they follow a motion";
+    count(ui, "Following", "rev/s²", tip, &mut d.following_acceleration, 1..=30_000);
+    number(ui, "Servo range", "°", "How far a hobby servo turns", &mut d.servo_degrees, 10.0..=3600.0);
+    let tip = "Pulse of a hobby servo at the beginning of its range, the cable just slack";
+    count(ui, "Servo at rest", "µs", tip, &mut d.servo_low_us, 100..=10_000);
+    let tip = "Pulse of a hobby servo at the end of its range; less than at rest where it winds the other way round";
+    count(ui, "Servo at end", "µs", tip, &mut d.servo_high_us, 100..=10_000);
+    let tip = "Steps of a stepper's driver for a turn of the spool, microsteps counted";
+    number(ui, "Stepper", "steps/turn", tip, &mut d.steps_per_turn, 1.0..=10_000_000.0);
 }

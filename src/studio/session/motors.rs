@@ -14,7 +14,7 @@ pub struct Motors {
     of: Option<Arc<Design>>,
     /// Travel of the winches then, mm.
     travel_mm: Vec<f64>,
-    /// Where sliders have the winches, mm.
+    /// Where sliders have the winches, mm; empty until a hand moves one.
     pub(crate) asked_mm: Vec<f64>,
 }
 
@@ -41,9 +41,12 @@ impl Motors {
         &self.travel_mm
     }
 
-    /// Where sliders have them, mm.
-    pub fn asked_mm(&self) -> &[f64] {
-        &self.asked_mm
+    /// Where sliders have them, mm: where they were told to be until a hand moves one.
+    pub fn asked_mm(&self) -> Vec<f64> {
+        match self.status() {
+            Some(Status::Ready(told_mm)) if self.asked_mm.is_empty() => told_mm,
+            _ => self.asked_mm.clone(),
+        }
     }
 
     /// Whether the motion has changed since the line was opened.
@@ -56,7 +59,7 @@ impl Motors {
     }
 
     pub(crate) fn begin(&mut self, of: Arc<Design>, travel_mm: Vec<f64>, remote: Remote) {
-        self.asked_mm = vec![0.0; travel_mm.len()];
+        self.asked_mm.clear();
         (self.of, self.travel_mm, self.remote) = (Some(of), travel_mm, Some(remote));
     }
 }

@@ -2,6 +2,7 @@
 
 mod files;
 mod looks;
+mod motors;
 mod networks;
 mod outline;
 mod posing;
