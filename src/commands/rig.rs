@@ -19,7 +19,7 @@ use serde::Serialize;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Find winches and tendons for all poses
 ///
@@ -173,14 +173,15 @@ impl Rig {
             }
         };
         let mut context = Context::telling(cancel, &mut progress);
-        let rigged = rig::run(&mut design, &options, &mut context).map_err(|error| self.failed(error))?;
-        printed?;
+        let rigged = rig::run(&mut design, &options, &mut context).map_err(|error| self.failed(error, cancel))?;
         let path = if rigged.interrupted {
             edit.save_interrupted(&design, self.fresh)?
         } else {
             edit.save(&design, cancel)?;
             self.target.path(&self.design).to_owned()
         };
+        // What cannot be told is found all the same.
+        printed?;
         self.tell(out, &design, &path, &told, rigged.interrupted)?;
         for note in rigged.notes.iter().filter(|note| matches!(note, Note::AtRest { .. })) {
             if !self.json {
@@ -285,7 +286,7 @@ impl Rig {
             let path = edit.save_interrupted(&design, self.fresh)?;
             return Err(interrupted(&path, &Told::default()));
         }
-        let points = found.map_err(|error| self.failed(error))?;
+        let points = found.map_err(|error| self.failed(error, cancel))?;
         files.tell(&points, out, cancel)?;
         if let Some(best) = best(&points) {
             put(best, &mut design)?;
@@ -306,12 +307,15 @@ fn put(point: &explore::Point, design: &mut Design) -> Result<(), CommandError> 
 
 impl Rig {
     /// Why there is no rig; what was interrupted before it found one leaves all as it was.
-    fn failed(&self, error: Error) -> CommandError {
+    fn failed(&self, error: Error, cancel: &AtomicBool) -> CommandError {
+        let is_interrupted = cancel.load(Ordering::SeqCst);
         match error {
-            Error::Cancelled(_) => CommandError::Interrupted(format!(
-                "nothing was found yet, {} is as it was; the same command begins anew",
-                shown(self.target.path(&self.design))
-            )),
+            Error::Cancelled(_) | Error::Rig(RigError::NothingFound) if is_interrupted => {
+                CommandError::Interrupted(format!(
+                    "nothing was found yet, {} is as it was; the same command begins anew",
+                    shown(self.target.path(&self.design))
+                ))
+            }
             error => failed(&self.design, error),
         }
     }
