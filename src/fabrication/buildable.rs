@@ -160,7 +160,7 @@ fn thin(outline: &Outline) -> Vec<String> {
     };
     vec![format!(
         "{} narrower than {TURNED_MM:.0} mm, which cannot be sewn and turned: their ends are at {}{more} (mm from the lower left of the front). Widen \
-         them (new --min-width), or cut them of one layer of felt and sew them on.",
+         them when the outline is read, or cut them of one layer of felt and sew them on.",
         if found.len() == 1 { "One part is".into() } else { format!("{} parts are", found.len()) },
         told.join(", ")
     )]

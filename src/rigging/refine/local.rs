@@ -1,6 +1,6 @@
 //! One step: the quadratic model of `C` around a fit, and where it leads.
 
-use super::task::{Built, Fit, POWER, RULES, SPARING, Task};
+use super::task::{Built, Fit, POWER, RULES, SPARING, STRIDE, Task};
 use super::trim::{Trim, trims};
 use crate::outline::Point;
 use crate::rigging::layout::Layout;
@@ -12,8 +12,6 @@ use nalgebra::{DMatrix, DVector};
 
 /// A pose that is served well is not forgotten: the least weight of its miss, as a part of the whole.
 const SERVED: f64 = 1e-3;
-/// Farthest that a point moves in one step, as a part of the body.
-pub(super) const STRIDE: f64 = 0.04;
 /// Step of the differences of the rules, mm: they are distances and angles of straight lines.
 const DIFFERENCE_MM: f64 = 1e-4;
 /// A curvature counts as at least this part of the largest: what nothing asks to stay does not run away.

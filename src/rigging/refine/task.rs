@@ -16,6 +16,8 @@ pub(super) const POWER: f64 = 2.0;
 pub(super) const RULES: f64 = 1.0;
 /// `S`: small enough to cost a pose nothing that could be seen, and a winch without use stays at rest.
 pub(super) const SPARING: f64 = 1e-6;
+/// Farthest that a point moves in one step, as a part of the body.
+pub(super) const STRIDE: f64 = 0.04;
 /// Activation in which poses are begun, as a part of the range.
 const FIRST_ACTIVATION: f64 = 0.25;
 

@@ -3,8 +3,7 @@
 //! A cable `e` of a winch with activation `beta` has the rest length `length at rest + slack - ratio beta`; its tension pulls with
 //! `-tau grad l`. With the tangent `k` of its law, the force changes by `-k beta grad l` with the ratio, and by `+k grad l` with the slack.
 
-use super::local::STRIDE;
-use super::task::{Built, Task};
+use super::task::{Built, STRIDE, Task};
 use crate::rigging::layout::Layout;
 use crate::rigging::options::Trims;
 
