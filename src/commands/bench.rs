@@ -1,8 +1,8 @@
 //! `bench`: whole studies of the solvers, as tables, CSV and plots.
 
 use super::error::CommandError;
-use super::new::Reading;
 use super::output::{check_folder, say_json, say_lines, write_folder};
+use super::reading::Reading;
 use super::solve::QualityChoice;
 use crate::bench::drags::{Path as DragPath, SWEEP_FRAMES};
 use crate::bench::{

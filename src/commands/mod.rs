@@ -20,6 +20,7 @@ mod new;
 mod output;
 mod place;
 mod pose;
+mod reading;
 mod remesh;
 mod render;
 mod reshape;

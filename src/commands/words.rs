@@ -6,7 +6,7 @@ use crate::defaults;
 use crate::fabrication::ExportError;
 use crate::motion::MotionError;
 use crate::operations::explore::Point;
-use crate::operations::{Progress, Unbalanced, new_design, reshape};
+use crate::operations::{Progress, Unbalanced, new_design, preview, reshape};
 use crate::outline::{Change, Changes, Note, OutlineError, Remedy};
 use crate::rigging;
 use serde::Serialize;
@@ -18,6 +18,15 @@ pub fn unmade(path: &Path, error: new_design::Error) -> CommandError {
         new_design::Error::Outline(error) => CommandError::input(path, outline(&error)),
         new_design::Error::Mesh(error) => CommandError::input(path, error),
         new_design::Error::Cancelled(_) => CommandError::Cancelled,
+    }
+}
+
+/// Why there is no preview of an outline.
+pub fn unshown(path: &Path, error: preview::Error) -> CommandError {
+    match error {
+        preview::Error::Outline(error) => CommandError::input(path, outline(&error)),
+        preview::Error::Picture(error) => CommandError::Failed(error.to_string()),
+        preview::Error::Cancelled(_) => CommandError::Cancelled,
     }
 }
 

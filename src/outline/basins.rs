@@ -120,7 +120,9 @@ impl Raster {
                 (y > 0).then(|| k - self.width),
                 (y + 1 < self.height).then(|| k + self.width),
             ];
-            for other in neighbours.into_iter().flatten().filter(|&other| lakes.parent[other] != usize::MAX).collect::<Vec<_>>() {
+            for other in
+                neighbours.into_iter().flatten().filter(|&other| lakes.parent[other] != usize::MAX).collect::<Vec<_>>()
+            {
                 if let Some((depth, count)) = lakes.join(k, other) {
                     let area = count as f64 * self.pixel * self.pixel;
                     let [opening, depth] = [2.0 * distances[k], depth].map(|v| v * self.pixel);

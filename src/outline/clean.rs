@@ -138,7 +138,10 @@ impl Asides {
     fn placed(self, outline: &Outline, drawn_box: [Point; 2]) -> Vec<Aside> {
         let (_, high) = outline.bounding_box();
         let scale = high[1] / (drawn_box[1][1] - drawn_box[0][1]);
-        self.0.into_iter().map(|Aside { why, areas }| Aside { why, areas: placed(areas, drawn_box[0], scale) }).collect()
+        self.0
+            .into_iter()
+            .map(|Aside { why, areas }| Aside { why, areas: placed(areas, drawn_box[0], scale) })
+            .collect()
     }
 }
 
@@ -183,10 +186,11 @@ fn without_specks(shapes: Shapes, all: f64, changes: &mut Changes, aside: &mut A
     changes.unasked += lost + gained;
     let (kept, specks): (Shapes, Shapes) = shapes.into_iter().partition(|rings| regions::piece_area(rings) > island);
     aside.add(Why::Specks, specks);
-    kept.into_iter().map(|rings| {
-        rings.into_iter().enumerate().filter(|(k, r)| *k == 0 || ring_area(r) > hole).map(|x| x.1).collect()
-    })
-    .collect()
+    kept.into_iter()
+        .map(|rings| {
+            rings.into_iter().enumerate().filter(|(k, r)| *k == 0 || ring_area(r) > hole).map(|x| x.1).collect()
+        })
+        .collect()
 }
 
 /// Without holes, where that is asked or the drawing is nothing but lines; what lay in a hole lies in the body then.
@@ -211,9 +215,7 @@ fn filled(
         }
         Lines::Filled { shapes, opening } => {
             changes.notes.push(match opening {
-                Some(opening) => {
-                    Note::Closed { gap_mm: opening.opening * units.mm, at: units.place(opening.at) }
-                }
+                Some(opening) => Note::Closed { gap_mm: opening.opening * units.mm, at: units.place(opening.at) },
                 None => Note::LinesFilled,
             });
             aside.add(Why::Filled, regions::difference(&shapes, &before));

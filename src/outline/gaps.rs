@@ -33,7 +33,8 @@ pub(super) fn closed(shapes: Shapes, gap: f64, all: bool) -> Result<Closed, Outl
     }
     let r = 0.5 * gap;
     let plain = |ring: &Vec<Point>| simplify(ring, SIMPLIFY * r);
-    let rough: Shapes = shapes.iter().map(|rings| rings.iter().map(plain).filter(|ring| ring.len() >= 3).collect()).collect();
+    let rough: Shapes =
+        shapes.iter().map(|rings| rings.iter().map(plain).filter(|ring| ring.len() >= 3).collect()).collect();
     let filled = regions::grown(&regions::grown(&regions::union(rough)?, (1.0 + OVERLAP) * r), -(1.0 + OVERLAP) * r);
     if filled.len() >= shapes.len() && !all {
         return untouched(shapes);
@@ -52,7 +53,8 @@ pub(super) fn closed(shapes: Shapes, gap: f64, all: bool) -> Result<Closed, Outl
 /// What lies between parts that are less than `2 r` apart: where they meet when each is grown, as far as that is no bulge on the outside.
 fn between(shapes: &Shapes, filled: &Shapes, r: f64) -> Shapes {
     let boxes: Vec<(Point, Point)> = shapes.iter().map(|rings| regions::bounding_box(&vec![rings.clone()])).collect();
-    let grown: Vec<Shapes> = shapes.iter().map(|rings| regions::grown(&vec![rings.clone()], (1.0 + OVERLAP) * r)).collect();
+    let grown: Vec<Shapes> =
+        shapes.iter().map(|rings| regions::grown(&vec![rings.clone()], (1.0 + OVERLAP) * r)).collect();
     let apart = |a: usize, b: usize| {
         let reach = 2.0 * (1.0 + OVERLAP) * r;
         (0..2).any(|i| boxes[a].0[i] > boxes[b].1[i] + reach || boxes[b].0[i] > boxes[a].1[i] + reach)

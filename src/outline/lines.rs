@@ -52,15 +52,19 @@ pub(super) fn filled(shapes: Shapes, widest: f64) -> Result<Lines, OutlineError>
     let mut lines = shapes.clone();
     let mut bridged: Option<Basin> = None;
     for _ in 0..MAX_OPENINGS {
-        let open = basins(&lines).into_iter().find(|basin| {
-            basin.area > DETAIL * whole && basin.opening < BAY * 2.0 * basin.depth
-        });
+        let open = basins(&lines)
+            .into_iter()
+            .find(|basin| basin.area > DETAIL * whole && basin.opening < BAY * 2.0 * basin.depth);
         let Some(basin) = open else { break };
         if basin.opening > widest {
             // What is closed already may be the figure all the same.
             let body = solid(&lines)?;
             let enough = regions::area(&body) > ENCLOSES * ink && regions::area(&body) > basin.area;
-            return Ok(if enough { Lines::Filled { shapes: body, opening: bridged } } else { Lines::Open { shapes, opening: basin } });
+            return Ok(if enough {
+                Lines::Filled { shapes: body, opening: bridged }
+            } else {
+                Lines::Open { shapes, opening: basin }
+            });
         }
         let Some(bridge) = bridge(&lines, &basin) else { break };
         lines = regions::union([lines, vec![vec![bridge]]].concat())?;
@@ -80,9 +84,9 @@ fn bridge(lines: &Shapes, basin: &Basin) -> Option<Vec<Point>> {
     let sides = || lines.iter().flatten().flat_map(|ring| polygon::sides(ring));
     let nearest = |allowed: &dyn Fn(Point) -> bool| {
         let points = sides().map(|(a, b)| polygon::lerp(a, b, polygon::nearest_parameter(a, b, basin.at)));
-        points.filter(|p| allowed(*p)).min_by(|p, q| {
-            polygon::length(basin.at, *p).total_cmp(&polygon::length(basin.at, *q))
-        })
+        points
+            .filter(|p| allowed(*p))
+            .min_by(|p, q| polygon::length(basin.at, *p).total_cmp(&polygon::length(basin.at, *q)))
     };
     let towards = |p: Point| {
         let d = polygon::length(basin.at, p);
@@ -134,7 +138,9 @@ mod tests {
     #[test]
     fn a_ring_is_filled_across_openings_up_to_the_widest_allowed() {
         for openings in [vec![], vec![(1.0, 8.0)], vec![(0.3, 4.0), (2.0, 9.0), (4.0, 6.0)]] {
-            let Lines::Filled { shapes, opening } = filled(ring(&openings), 10.0).unwrap() else { panic!("{openings:?}") };
+            let Lines::Filled { shapes, opening } = filled(ring(&openings), 10.0).unwrap() else {
+                panic!("{openings:?}")
+            };
             assert_eq!((shapes.len(), opening.is_some()), (1, !openings.is_empty()));
             assert!((regions::area(&shapes) / (PI * 101.0 * 101.0) - 1.0).abs() < 0.005, "{openings:?}");
         }

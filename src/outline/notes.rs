@@ -20,6 +20,8 @@ pub enum Note {
     /// Text in a form that browsers do not show either.
     FlowedText(usize),
     EmbeddedPictures(usize),
+    /// Of so many pages the first was read.
+    Pages(usize),
     Filters,
     OffPage,
     /// Styles of the drawing that are not followed.
@@ -30,6 +32,8 @@ pub enum Note {
     NoUnit(&'static str),
     /// The triangles of a mesh were taken as areas.
     NotOnePiece,
+    /// A mesh has faces of more than four corners, so its area is meshed anew.
+    Polygons,
     /// A body was taken for what it covers, seen along an axis.
     Projected {
         along: &'static str,
@@ -202,6 +206,7 @@ impl fmt::Display for Note {
                 write!(f, "{count} flowed text(s) left out, which browsers do not show either; convert them to paths")
             }
             Self::EmbeddedPictures(count) => write!(f, "{count} embedded picture(s) left out; only drawn shapes count"),
+            Self::Pages(count) => write!(f, "of {count} pages the first was read"),
             Self::Filters => f.write_str("filter effects (shadows, blurs) left out"),
             Self::OffPage => f.write_str("parts of the drawing lie off the page; they count"),
             Self::Styles(what) => write!(f, "a style is not followed: {what}"),
@@ -210,8 +215,9 @@ impl fmt::Display for Note {
             Self::NotOnePiece => {
                 f.write_str("the triangles of the mesh are not one sound piece; their area is meshed anew")
             }
+            Self::Polygons => f.write_str("the mesh has faces of more than four corners; its area is meshed anew"),
             Self::Projected { along, thickness } => {
-                write!(f, "the mesh is {thickness:.1} thick; what it covers seen along {along} is taken")
+                write!(f, "the mesh is {thickness:.1} mm thick; what it covers seen along {along} is taken")
             }
             Self::Upright(along) => write!(f, "the drawing stands upright in space; it is seen from {along}"),
             Self::OpenLines(count) => write!(f, "{count} open line(s) left out; only closed outlines count"),
@@ -233,7 +239,10 @@ impl fmt::Display for Note {
                 write!(f, "{count} speck(s) of the picture, each under {pixels:.0} pixels, left out")
             }
             Self::Straightened { width_to_height } => {
-                write!(f, "the sheet was seen at an angle and straightened to {width_to_height:.3} times as wide as high")
+                write!(
+                    f,
+                    "the sheet was seen at an angle and straightened to {width_to_height:.3} times as wide as high"
+                )
             }
             Self::MostlyLines => f.write_str("the drawing is mostly lines around holes"),
             Self::LinesFilled => f.write_str("the drawing is thin lines alone, which were filled"),
@@ -248,7 +257,10 @@ impl fmt::Display for Note {
                 write!(f, "{count} gap(s) under {gap_mm:.2} mm between parts closed")
             }
             Self::Evened { points, within_mm } => {
-                write!(f, "the boundary of {points} points is finer than scissors follow; it was evened within {within_mm:.2} mm")
+                write!(
+                    f,
+                    "the boundary of {points} points is finer than scissors follow; it was evened within {within_mm:.2} mm"
+                )
             }
             Self::Small(height_mm) => {
                 write!(f, "the silhouette is only {height_mm:.1} mm high, small for a plushie")

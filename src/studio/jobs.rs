@@ -6,6 +6,7 @@ use crate::design::Design;
 use crate::operations::explore::Point;
 use crate::operations::key::{self, Keyed};
 use crate::operations::new_design::Note;
+use crate::operations::preview::Previewed;
 use crate::operations::remesh::{self, Remeshed};
 use crate::operations::reshape::{self, Reshaped};
 use crate::operations::rig::{self, Rigged};
@@ -40,6 +41,11 @@ pub enum Outcome {
     Keyed(Result<Keyed, key::Error>),
     Judged(Box<Judgement>),
     Imported(Result<Box<New>, Box<Refused>>),
+    /// What would be read of an outline.
+    Previewed {
+        path: PathBuf,
+        result: Result<Box<Previewed>, String>,
+    },
     Exported {
         folder: PathBuf,
         /// Its remarks.

@@ -27,7 +27,8 @@ const PHOTO: &str =
 const PICTURE: &str = "save it as PNG";
 const POSTSCRIPT: &str = "open it in Inkscape or Illustrator and save it as SVG, or make a PDF of it";
 /// Packed folders, by what one of their first files is called.
-const PACKED: [(&str, &[u8], &str); 6] = [
+const PACKED: [(&str, &[u8], &str); 7] = [
+    ("a 3MF model", b"3D/3dmodel.model", "export it as STL or OBJ"),
     ("a Krita document", b"application/x-krita", PICTURE),
     ("an OpenRaster picture", b"image/openraster", PICTURE),
     ("an OpenDocument drawing", b"application/vnd.oasis", "export it as SVG"),
@@ -50,7 +51,10 @@ pub(in crate::outline) fn unknown(bytes: &[u8]) -> OutlineError {
         if let Some(&(format, _, advice)) = PACKED.iter().find(|(_, name, _)| holds(name)) {
             return OutlineError::Foreign { format, advice };
         }
-        return OutlineError::Foreign { format: "a packed file", advice: "unpack it, and read the drawing or picture in it" };
+        return OutlineError::Foreign {
+            format: "a packed file",
+            advice: "unpack it, and read the drawing or picture in it",
+        };
     }
     OutlineError::UnknownFormat
 }

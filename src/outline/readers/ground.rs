@@ -137,9 +137,8 @@ fn ground(marks: &[Mark], page: Option<[Point; 2]>) -> Result<Option<(usize, Gro
             continue;
         }
         let sharp = fills >= SHARP;
-        let like_page = page.is_some_and(|[from, to]| {
-            (0..2).all(|axis| high[axis] - low[axis] >= PAGE_LIKE * (to[axis] - from[axis]))
-        });
+        let like_page = page
+            .is_some_and(|[from, to]| (0..2).all(|axis| high[axis] - low[axis] >= PAGE_LIKE * (to[axis] - from[axis])));
         let ground = match (frame, sharp) {
             (true, _) => Ground::Frame,
             (false, true) => Ground::Sheet,

@@ -17,7 +17,8 @@ pub(in crate::outline) fn unpacked(bytes: &[u8]) -> Result<Cow<'_, [u8]>, Outlin
         return Ok(bytes.into());
     }
     let mut plain = Vec::new();
-    let unreadable = |error: std::io::Error| OutlineError::Unreadable { format: "compressed file", reason: error.to_string() };
+    let unreadable =
+        |error: std::io::Error| OutlineError::Unreadable { format: "compressed file", reason: error.to_string() };
     MultiGzDecoder::new(bytes).take(MAX_FILE_BYTES as u64 + 1).read_to_end(&mut plain).map_err(unreadable)?;
     if plain.len() > MAX_FILE_BYTES { Err(OutlineError::TooLarge) } else { Ok(plain.into()) }
 }

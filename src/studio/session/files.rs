@@ -1,6 +1,7 @@
 //! Dialogs about files, and what is asked for by them.
 
 use super::import_choice::ImportChoice;
+use super::import_preview::ImportPreview;
 use crate::design::Design;
 use crate::operations::export;
 use crate::studio::jobs::{New, Running};
@@ -110,6 +111,8 @@ pub struct Files {
     pub(crate) picking: Option<Picking>,
     /// Whether the desktop has dialogs.
     pub native_dialogs: bool,
+    /// What would be read of the outline that the dialog names.
+    pub preview: ImportPreview,
     /// The window should close.
     pub quit: bool,
 }

@@ -30,7 +30,8 @@ pub(super) fn of(contours: Vec<Vec<Point>>, size: f64, background: Background) -
     }
     let before = contours.len();
     let contours = without_copies(contours, COPY_FRACTION * size);
-    let mut areas = Areas { shapes: Shapes::new(), notes: Vec::new(), asides: Vec::new(), copies: before - contours.len() };
+    let mut areas =
+        Areas { shapes: Shapes::new(), notes: Vec::new(), asides: Vec::new(), copies: before - contours.len() };
     let group = crossing(&contours);
     let mut groups: BTreeMap<usize, Vec<Vec<Point>>> = BTreeMap::new();
     for (k, contour) in contours.into_iter().enumerate() {
@@ -70,7 +71,12 @@ fn without_copies(contours: Vec<Vec<Point>>, reach: f64) -> Vec<Vec<Point>> {
         let large = (high[0] - low[0]).min(high[1] - low[1]) > 10.0 * reach;
         let is_copy = kept.iter().any(|(other, (from, to), other_area)| {
             let exact = low == *from && high == *to && (area - other_area).abs() <= 1e-9 * area;
-            exact || (large && near(low, *from) && near(high, *to) && lies_on(&contour, other, reach) && lies_on(other, &contour, reach))
+            exact
+                || (large
+                    && near(low, *from)
+                    && near(high, *to)
+                    && lies_on(&contour, other, reach)
+                    && lies_on(other, &contour, reach))
         });
         if !is_copy {
             kept.push((contour, (low, high), area));
@@ -124,9 +130,10 @@ fn cross(a: &[Point], b: &[Point], (of_a, of_b): ((Point, Point), (Point, Point)
         let (from, to) = (p[1].min(q[1]), p[1].max(q[1]));
         let end = sides.partition_point(|s| s.0[1].min(s.1[1]) <= to);
         *pairs += end;
-        sides[..end].iter().filter(|s| s.0[1].max(s.1[1]) >= from).any(|&(r, s)| {
-            turn(p, q, r) * turn(p, q, s) < 0.0 && turn(r, s, p) * turn(r, s, q) < 0.0
-        })
+        sides[..end]
+            .iter()
+            .filter(|s| s.0[1].max(s.1[1]) >= from)
+            .any(|&(r, s)| turn(p, q, r) * turn(p, q, s) < 0.0 && turn(r, s, p) * turn(r, s, q) < 0.0)
     })
 }
 

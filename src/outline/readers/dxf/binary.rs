@@ -17,7 +17,9 @@ pub(super) fn text(bytes: &[u8]) -> Result<String, &'static str> {
         // The value goes on its own line whatever is in it.
         let _ = writeln!(text, "{code}");
         let _ = match code {
-            10..=59 | 110..=149 | 210..=239 | 460..=469 | 1010..=1059 => writeln!(text, "{}", f64::from_le_bytes(take(&mut rest)?)),
+            10..=59 | 110..=149 | 210..=239 | 460..=469 | 1010..=1059 => {
+                writeln!(text, "{}", f64::from_le_bytes(take(&mut rest)?))
+            }
             60..=79 | 170..=179 | 270..=289 | 370..=389 | 400..=409 | 1060..=1070 => {
                 writeln!(text, "{}", i16::from_le_bytes(take(&mut rest)?))
             }

@@ -168,7 +168,11 @@ fn chains(open: &[Vec<Point>], partner: &[Option<(usize, f64)>], same: f64, resu
             used[enter / 2] = true;
             parts += 1;
             let line = &open[enter / 2];
-            if enter.is_multiple_of(2) { chain.extend(line) } else { chain.extend(line.iter().rev()) }
+            if enter.is_multiple_of(2) {
+                chain.extend(line)
+            } else {
+                chain.extend(line.iter().rev())
+            }
             let Some((next, away)) = partner[enter ^ 1] else { break false };
             gaps.push(away);
             if next == 2 * start {

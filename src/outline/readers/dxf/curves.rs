@@ -87,7 +87,8 @@ impl Curve {
         mut weights: Vec<f64>,
         closed: bool,
     ) -> Option<Self> {
-        let fits = (1..=MAX_DEGREE).contains(&degree) && points.len() > degree && knots.len() == points.len() + degree + 1;
+        let fits =
+            (1..=MAX_DEGREE).contains(&degree) && points.len() > degree && knots.len() == points.len() + degree + 1;
         weights.resize(points.len(), 1.0);
         fits.then_some(Self::Spline { degree, knots, points, weights, closed })
     }
@@ -212,7 +213,8 @@ pub(super) fn bulged(p: Point3, q: Point3, bulge: f64, scale: f64, tolerance: f6
 
 fn extent(points: &[Point3]) -> f64 {
     let along = |axis: usize| {
-        let (low, high) = points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p[axis]), h.max(p[axis])));
+        let (low, high) =
+            points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p[axis]), h.max(p[axis])));
         high - low
     };
     (0..3).map(along).fold(0.0, f64::max)

@@ -8,7 +8,8 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// Names of layers, in lower case, that hold help lines and are never plotted.
-const CONSTRUCTION: [&str; 6] = ["defpoints", "construction", "sketch construction", "konstruktion", "hilfslinien", "guides"];
+const CONSTRUCTION: [&str; 6] =
+    ["defpoints", "construction", "sketch construction", "konstruktion", "hilfslinien", "guides"];
 
 /// The parts of a drawing that matter.
 pub(super) struct File<'a> {
@@ -123,7 +124,8 @@ impl<'a> File<'a> {
     fn stated_unit(&self) -> Option<f64> {
         let all = self.entities.iter().chain(self.blocks.values().flat_map(|(_, content)| content));
         let texts = all.filter(|entity| entity.kind == "TEXT").filter_map(|entity| entity.text(1));
-        let mut stated = texts.filter_map(|text| text.trim().to_uppercase().strip_prefix("UNITS:").map(|unit| unit.trim().to_owned()));
+        let mut stated = texts
+            .filter_map(|text| text.trim().to_uppercase().strip_prefix("UNITS:").map(|unit| unit.trim().to_owned()));
         match stated.next()?.as_str() {
             "METRIC" => Some(1.0),
             "ENGLISH" => Some(25.4),

@@ -116,8 +116,10 @@ fn painting(bytes: &[u8], import: &Import) -> Result<Painting, OutlineError> {
 /// The blocks that are read in place of the drawing: those asked for, or the only one where nothing else is drawn. With the layer of cut
 /// lines, where these blocks are pieces of a sewing pattern.
 fn blocks<'a>(file: &'a File<'a>, import: &Import, chosen: &mut Vec<String>) -> Result<Vec<&'a str>, OutlineError> {
-    let has_curves = |content: &[entity::Entity]| content.iter().any(|entity| entity.kind == "HATCH" || Curve::of(entity).is_some());
-    let pieces: Vec<&str> = file.blocks.iter().filter(|(_, (_, content))| has_curves(content)).map(|(name, _)| *name).collect();
+    let has_curves =
+        |content: &[entity::Entity]| content.iter().any(|entity| entity.kind == "HATCH" || Curve::of(entity).is_some());
+    let pieces: Vec<&str> =
+        file.blocks.iter().filter(|(_, (_, content))| has_curves(content)).map(|(name, _)| *name).collect();
     let named = |name: &&&str| import.blocks.iter().any(|asked| asked.eq_ignore_ascii_case(name));
     for asked in &import.blocks {
         if !file.blocks.keys().any(|name| asked.eq_ignore_ascii_case(name)) {
@@ -159,7 +161,10 @@ fn closed_areas(drawn: &mut Drawn, import: &Import, file: &File, painting: &mut 
     let (hatched, _) = projected(hatched);
     // What a mm is in the drawing: its height is not known before it is read.
     let height = || {
-        let (low, high) = lines.iter().flat_map(|line| &line.0).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p[1]), h.max(p[1])));
+        let (low, high) = lines
+            .iter()
+            .flat_map(|line| &line.0)
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p[1]), h.max(p[1])));
         high - low
     };
     let mm = import.height_mm.map_or(painting.unit_mm, |asked| asked / height());

@@ -32,7 +32,8 @@ impl Through {
             return Some(Self { points, slopes, parameters });
         }
         let n = points.len();
-        let around: Vec<Point3> = (0..n + 2 * REPEATED + 1).map(|k| points[(k + n * REPEATED - REPEATED) % n]).collect();
+        let around: Vec<Point3> =
+            (0..n + 2 * REPEATED + 1).map(|k| points[(k + n * REPEATED - REPEATED) % n]).collect();
         let parameters = chords(&around);
         let slopes = slopes(&around, &parameters, [None; 2]);
         let own = REPEATED..REPEATED + n + 1;
@@ -73,7 +74,13 @@ fn slopes(points: &[Point3], t: &[f64], ends: [Option<Point3>; 2]) -> Vec<Point3
     let h = |i: usize| t[i + 1] - t[i];
     let rise = |i: usize| -> Point3 { std::array::from_fn(|k| (points[i + 1][k] - points[i][k]) / h(i)) };
     let row = |i: usize| -> ([f64; 3], Point3) {
-        let end = if i == 0 { ends[0] } else if i == n - 1 { ends[1] } else { None };
+        let end = if i == 0 {
+            ends[0]
+        } else if i == n - 1 {
+            ends[1]
+        } else {
+            None
+        };
         match (i, end) {
             (_, Some(slope)) => ([0.0, 1.0, 0.0], slope),
             (0, None) => ([0.0, 2.0, 1.0], rise(0).map(|v| 3.0 * v)),

@@ -37,7 +37,9 @@ impl OnSheet {
         if let Some(width_to_height) = self.straightened {
             painting.notes.push(Note::Straightened { width_to_height });
         }
-        painting.asides.push(Aside { why: Why::Background, areas: regions::difference(&self.sheet, &self.traced.shapes) });
+        painting
+            .asides
+            .push(Aside { why: Why::Background, areas: regions::difference(&self.sheet, &self.traced.shapes) });
         self.traced.take(painting);
     }
 }

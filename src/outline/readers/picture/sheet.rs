@@ -29,7 +29,8 @@ impl Sheet {
         let corners = quadrilateral(&hull)?;
         let area = polygon::signed_area(&corners);
         let fits = polygon::signed_area(&hull) > FILLS * area && area > COVERS * size[0] * size[1];
-        let low = (0..4).min_by(|&a, &b| (corners[a][0] + corners[a][1]).total_cmp(&(corners[b][0] + corners[b][1])))?;
+        let low =
+            (0..4).min_by(|&a, &b| (corners[a][0] + corners[a][1]).total_cmp(&(corners[b][0] + corners[b][1])))?;
         fits.then(|| Self(std::array::from_fn(|k| corners[(low + k) % 4])))
     }
 

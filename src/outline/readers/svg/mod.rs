@@ -59,13 +59,20 @@ impl OutlineReader for Svg {
     }
 
     fn read(&self, bytes: &[u8], import: &Import) -> Result<Imported, OutlineError> {
-        finish(painting(bytes, import)?, import)
+        self::import(bytes, import)
     }
 
     fn texture(&self, bytes: &[u8], import: &Import, drawn_box: [Point; 2]) -> Result<RgbaImage, OutlineError> {
-        render::texture(bytes, import, drawn_box)
+        texture(bytes, import, drawn_box)
     }
 }
+
+/// The clean outline of a drawing.
+pub(super) fn import(svg: &[u8], import: &Import) -> Result<Imported, OutlineError> {
+    finish(painting(svg, import)?, import)
+}
+
+pub(super) use render::texture;
 
 /// Reads the silhouette of an SVG, scaled so that it is `height_mm` high, or in its physical size, with the default
 /// clean-up.

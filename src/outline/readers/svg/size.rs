@@ -61,7 +61,10 @@ pub(super) fn of(document: &Document, tree: &Tree, unit_mm: Option<f64>) -> Size
 }
 
 fn numbers(text: &str) -> Vec<f64> {
-    text.split([',', ' ', '\t', '\n', '\r']).filter(|word| !word.is_empty()).filter_map(|word| word.parse().ok()).collect()
+    text.split([',', ' ', '\t', '\n', '\r'])
+        .filter(|word| !word.is_empty())
+        .filter_map(|word| word.parse().ok())
+        .collect()
 }
 
 /// Whether a comment before the root says so, as `<!-- Generator: Adobe Illustrator 24.0, SVG Export Plug-In -->`.
@@ -104,7 +107,10 @@ mod tests {
         let dots = |dpi: f64, sizing| (25.4 / dpi, Some(sizing));
         assert_eq!(size("", "width='10mm' height='9mm' viewBox='0 0 20 18'", body, None), (MM_PER_PX, None));
         assert_eq!(size("", "width='10' height='9'", body, None), dots(96.0, Sizing::Css));
-        assert_eq!(size("", "width='100%' height='100%' viewBox='0 0 9 9'", body, None), dots(300.0, Sizing::Dots(300.0)));
+        assert_eq!(
+            size("", "width='100%' height='100%' viewBox='0 0 9 9'", body, None),
+            dots(300.0, Sizing::Dots(300.0))
+        );
         let illustrator = "<!-- Generator: Adobe Illustrator 24.0 -->";
         assert_eq!(size(illustrator, "viewBox='0 0 9 9'", body, None), dots(72.0, Sizing::Illustrator));
         let inkscape = format!("xmlns:inkscape='{INKSCAPE}' inkscape:version='0.91 r13725' width='10mm' height='9mm'");

@@ -42,9 +42,9 @@ impl Cascade {
         self.beyond
             || self.rules.iter().any(|rule| moves(&rule.declarations))
             || document.descendants().filter_map(|node| Some((node, node.attribute("style")?))).any(|(node, style)| {
-                sheet::declarations(style).iter().any(|d| {
-                    TRANSFORMS.contains(&d.name.as_str()) || geometry(node).contains(&d.name.as_str())
-                })
+                sheet::declarations(style)
+                    .iter()
+                    .any(|d| TRANSFORMS.contains(&d.name.as_str()) || geometry(node).contains(&d.name.as_str()))
             })
     }
 

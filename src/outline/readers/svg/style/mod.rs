@@ -134,9 +134,11 @@ impl Writer<'_, '_> {
         for name in geometry(node) {
             let Some(value) = style.remove(*name) else { continue };
             let value = match *name {
-                "d" => value.trim().strip_prefix("path(").and_then(|rest| rest.trim_end().strip_suffix(')')).map(|path| {
-                    path.trim().trim_matches(['"', '\'']).to_owned()
-                }),
+                "d" => value
+                    .trim()
+                    .strip_prefix("path(")
+                    .and_then(|rest| rest.trim_end().strip_suffix(')'))
+                    .map(|path| path.trim().trim_matches(['"', '\'']).to_owned()),
                 _ if value == "auto" => continue,
                 _ => Some(value.clone()),
             };

@@ -295,11 +295,15 @@ impl Matcher<'_> {
             Simple::Never => false,
             Simple::Name(name) => node.tag_name().name() == name,
             Simple::Id(id) => node.attribute("id") == Some(id),
-            Simple::Class(class) => node.attribute("class").is_some_and(|all| all.split_whitespace().any(|c| c == class)),
+            Simple::Class(class) => {
+                node.attribute("class").is_some_and(|all| all.split_whitespace().any(|c| c == class))
+            }
             Simple::Attribute(name, wanted) => node.attribute(name.as_str()).is_some_and(|value| match wanted {
                 None => true,
                 Some(('~', word)) => value.split_whitespace().any(|w| w == word),
-                Some(('|', start)) => value == start || value.strip_prefix(start.as_str()).is_some_and(|r| r.starts_with('-')),
+                Some(('|', start)) => {
+                    value == start || value.strip_prefix(start.as_str()).is_some_and(|r| r.starts_with('-'))
+                }
                 Some(('^', start)) => !start.is_empty() && value.starts_with(start.as_str()),
                 Some(('$', end)) => !end.is_empty() && value.ends_with(end.as_str()),
                 Some(('*', part)) => !part.is_empty() && value.contains(part.as_str()),

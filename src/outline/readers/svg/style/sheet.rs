@@ -145,10 +145,15 @@ mod tests {
         let mut unknown = Vec::new();
         let rules = rules(css, &mut unknown);
         assert_eq!(unknown, ["r:hover?"]);
-        let declared: Vec<String> =
-            rules.iter().map(|rule| rule.declarations.iter().map(|d| d.name.as_str()).collect::<Vec<_>>().join(" ")).collect();
+        let declared: Vec<String> = rules
+            .iter()
+            .map(|rule| rule.declarations.iter().map(|d| d.name.as_str()).collect::<Vec<_>>().join(" "))
+            .collect();
         assert_eq!(declared, ["fill stroke", "fill stroke", "y", "t"]);
-        assert_eq!(rules.iter().map(|rule| rule.weight).collect::<Vec<_>>(), [[0, 1, 0], [0, 2, 1], [0, 0, 1], [0, 0, 1]]);
+        assert_eq!(
+            rules.iter().map(|rule| rule.weight).collect::<Vec<_>>(),
+            [[0, 1, 0], [0, 2, 1], [0, 0, 1], [0, 0, 1]]
+        );
         assert!(rules[0].declarations[1].important && rules[0].declarations[1].value == "url(#a;b)");
     }
 }

@@ -89,17 +89,20 @@ fn place(text: &str, reference: &Reference) -> Option<[f64; 2]> {
 /// A length in px; `side` is what 100 % are.
 pub(super) fn length(text: &str, side: f64) -> Option<f64> {
     let (number, unit) = split(text)?;
-    Some(number * match unit {
-        "" | "px" => 1.0,
-        "%" => side / 100.0,
-        "mm" => 96.0 / 25.4,
-        "cm" => 960.0 / 25.4,
-        "q" => 24.0 / 25.4,
-        "in" => 96.0,
-        "pt" => 96.0 / 72.0,
-        "pc" => 16.0,
-        _ => return None,
-    })
+    Some(
+        number
+            * match unit {
+                "" | "px" => 1.0,
+                "%" => side / 100.0,
+                "mm" => 96.0 / 25.4,
+                "cm" => 960.0 / 25.4,
+                "q" => 24.0 / 25.4,
+                "in" => 96.0,
+                "pt" => 96.0 / 72.0,
+                "pc" => 16.0,
+                _ => return None,
+            },
+    )
 }
 
 fn angle(text: &str) -> Option<f64> {
