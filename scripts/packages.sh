@@ -19,6 +19,17 @@ ensure() {
   echo "Not installed: $* ($why). On Debian or Ubuntu: sudo apt-get install --no-install-recommends $*" >&2
 }
 
+# window_libraries: what the window opens at run time, so that no linker knows it, and the Debian package that has it.
+window_libraries() {
+  cat <<'LIBRARIES'
+libEGL.so.1 libegl1
+libxkbcommon-x11.so.0 libxkbcommon-x11-0
+libXcursor.so.1 libxcursor1
+libXi.so.6 libxi6
+libX11-xcb.so.1 libx11-xcb1
+LIBRARIES
+}
+
 # need_rust COMPONENT...: the toolchain and these parts of it.
 need_rust() {
   if ! command -v cargo >/dev/null && [ -x "$HOME/.cargo/bin/cargo" ]; then PATH=$HOME/.cargo/bin:$PATH; fi

@@ -108,5 +108,18 @@ pub const MOTOR_ACCELERATION: u32 = 200;
 /// Torque that a winch may ask of its motor all the time, at the spool, N mm. Unconfirmed: some 2 mN m of a small DC motor of 17 mm, times the gear
 /// ratio above, less a quarter lost in the gears.
 pub const MOTOR_TORQUE_NMM: f64 = 65.0;
+/// Speed of the line to controllers of the classic family, baud: theirs from the factory.
+pub const BAUD: u32 = 9600;
+/// Current limit of a motor with such a controller, mA: enough for a small DC motor of 17 mm to reach the torque above, too little to tear felt. Unconfirmed:
+/// depends on the motor.
+pub const MOTOR_CURRENT_MA: u32 = 500;
+/// Unit of `DELAY` in their stored programs, s. Unconfirmed.
+pub const DELAY_UNIT_S: f64 = 0.01;
+/// Range of a hobby servo, degrees.
+pub const SERVO_DEGREES: f64 = 180.0;
+/// Pulses at the ends of that range, microseconds. Unconfirmed: many servos reach a stop before.
+pub const SERVO_PULSES_US: [u32; 2] = [500, 2500];
+/// Steps for a turn of a spool on a stepper of 1.8 degrees with 16 microsteps.
+pub const STEPS_PER_TURN: f64 = 3200.0;
 /// Seconds between keyframes where the tool lays them out itself.
 pub const KEYFRAME_SPACING_S: f64 = 1.0;

@@ -8,7 +8,10 @@
 //! | [`Hold`] | keeps other processes off a file between reading and writing it |
 //! | [`Stamp`] | tells whether a file is still what was read |
 //! | [`same`], [`is_taken`] | whether two paths are one file; whether something is there |
-//! | [`marked_png`], [`is_marked_png`] | tells our pictures from those of others |
+//! | [`state_folder`], [`make_private`] | where the platform keeps what the program remembers |
+//! | [`begin_log`], [`continue_log`] | files that lines are added to |
+//! | [`on_interrupt`], [`before_exit`] | an interrupt asks before it ends, and no file is half written |
+//! | [`marked_png`], [`is_marked_png`], and so on | tells our pictures from those of others |
 //!
 //! A file is written in full beside its place, flushed, and then takes the name. On Linux it has no name until then, so that even a
 //! process that is killed leaves nothing behind. A symbolic link is followed; mode, owner, group and access lists of what is replaced
@@ -22,14 +25,16 @@ mod paths;
 mod place;
 mod signals;
 mod stamp;
+mod state;
 mod sweep;
 
 pub use hold::Hold;
-pub use mark::{is_marked_png, marked_png};
+pub use mark::{is_marked_gif, is_marked_jpeg, is_marked_png, marked_gif, marked_jpeg, marked_png};
 pub use paths::parent;
 pub use place::{is_taken, same};
-pub use signals::{before_exit, survive_size_limits};
+pub use signals::{before_exit, on_interrupt, survive_size_limits};
 pub use stamp::{Stamp, sha256};
+pub use state::{begin_log, continue_log, make_private, state_folder};
 
 use draft::Draft;
 use place::Place;

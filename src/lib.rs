@@ -21,7 +21,8 @@
 //! | [`design`] | the document: design, poses, networks, keyframes, file format, edits, undo |
 //! | [`engine`] | compiles a design into a physics model, poses both plushies, worker thread |
 //! | [`rigging`] | finds winches and tendons: generators of candidates, criteria that judge them, the search |
-//! | [`motion`] | what motors are told: trajectories of winches, programs, links that carry them |
+//! | [`motion`] | what motors are told: trajectories of winches, families of controllers, programs |
+//! | [`live`] | motors that are told live: serial ports, the player, simulated controllers |
 //! | [`fabrication`] | the blueprint: products (patterns, routings, tracks, programs) and the writers of their files |
 //! | [`picture`] | pictures of both plushies in layers, rasterised without a graphics adapter |
 //! | [`operations`] | every use case once: new, remesh, reshape, pose, propose, rig, explore, key, check, export, render |
@@ -42,8 +43,8 @@
 //! *deformation* `Gamma = length - alpha`. *Idealized plushie*: a fibre on every mesh edge beside the accepted
 //! networks. *Realizable plushie*: the accepted winch-tendon networks alone. *Track* of a drawing: a line along which mesh edges
 //! run. *Trajectory* of a winch: its cable over time (the file `tracks.csv`). *Texture*: the picture on the felt, in a box of rest
-//! coordinates. *Sheet*: a page in mm to be cut or looked at. *Program*: timed commands to motors. *Link*: the line that carries
-//! them. *Layer*: a part of a picture, drawn from its own inputs.
+//! coordinates. *Sheet*: a page in mm to be cut or looked at. *Program*: timed commands to motors. *Stream*: the commands of a family of
+//! controllers that a host tells. *Link*: the line that carries them. *Player*: tells them live. *Layer*: a part of a picture, drawn from its own inputs.
 //!
 //! # Invariants
 //! - The core never imports the window: `cargo build --no-default-features` builds everything but `studio`.
@@ -59,6 +60,7 @@ pub mod discovery;
 pub mod engine;
 pub mod fabrication;
 pub mod files;
+pub mod live;
 pub mod mesh;
 pub mod motion;
 pub mod operations;

@@ -1,8 +1,11 @@
 //! `plushwright`: opens the studio, or runs one headless command and exits.
 
+// On Windows a program either has a console or opens none: the one that a double click starts is built with this.
+#![cfg_attr(all(windows, feature = "no-console"), windows_subsystem = "windows")]
+
 use plushwright::commands::{self, Cli, CommandError};
 use plushwright::files;
-use std::io::Write;
+use std::io::{self, ErrorKind, Write};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
@@ -11,15 +14,19 @@ use std::time::Duration;
 static CANCEL: AtomicBool = AtomicBool::new(false);
 
 fn main() -> ExitCode {
+    commands::report::on_breakdown();
     let outcome = match commands::parse(std::env::args_os()) {
-        Ok(cli) => run(&cli),
+        Ok(cli) => commands::listen(&cli).and_then(|()| run(&cli)),
         Err(stop) => stop.print(),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
+        // Who reads no further has what was wanted of it.
+        Err(CommandError::Print(error)) if error.kind() == ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(error) => {
+            log::debug!("exit code {}: {}", error.code(), error.line());
             // Nothing is left to tell anybody when standard error itself is gone.
-            let _ = writeln!(std::io::stderr(), "plushwright: {}", error.line());
+            let _ = writeln!(io::stderr(), "plushwright: {}", error.line());
             ExitCode::from(error.code())
         }
     }
@@ -30,14 +37,33 @@ fn run(cli: &Cli) -> Result<(), CommandError> {
         Some(command) => {
             catch_interrupts()?;
             files::survive_size_limits();
-            commands::run(command, &mut std::io::stdout(), &CANCEL)
+            commands::run(command, &mut Heard(io::stdout()), &CANCEL)
         }
         None => {
             if let Some(path) = cli.design.as_deref().filter(|path| !path.exists()) {
                 // What looks like a design may be a mistyped command.
-                return Err(CommandError::input(path, "no such file, and no such command (--help lists them)"));
+                return Err(commands::unknown_word(&path.to_string_lossy()));
             }
             open_studio(cli)
+        }
+    }
+}
+
+/// Standard output as far as it is read: where nobody reads on (`| head`), the rest of the work is done all the same.
+struct Heard(io::Stdout);
+
+impl Write for Heard {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match self.0.write(bytes) {
+            Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(bytes.len()),
+            written => written,
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match self.0.flush() {
+            Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+            flushed => flushed,
         }
     }
 }
@@ -45,23 +71,27 @@ fn run(cli: &Cli) -> Result<(), CommandError> {
 /// How long an interrupted command may take to stop by itself: a pipe that nobody serves stops never.
 const PATIENCE: Duration = Duration::from_secs(3);
 
-/// The first interrupt, or request to end, asks the solvers to stop, so that nothing is left half written; the second one does not wait.
+/// The first interrupt, or request to end, asks the solvers to stop, so that nothing is left half written; what has something to write is
+/// waited for. The second one does not wait.
 fn catch_interrupts() -> Result<(), CommandError> {
     let end = || {
         files::before_exit();
-        let _ = writeln!(std::io::stderr(), "plushwright: {}", CommandError::Cancelled.line());
+        let _ = writeln!(io::stderr(), "plushwright: {}", CommandError::Cancelled.line());
         std::process::exit(i32::from(CommandError::Cancelled.code()));
     };
-    ctrlc::set_handler(move || {
+    let interrupted = move || {
         if CANCEL.swap(true, Ordering::SeqCst) {
             end();
         }
         std::thread::spawn(move || {
             std::thread::sleep(PATIENCE);
+            while commands::is_keeping() {
+                std::thread::sleep(PATIENCE);
+            }
             end();
         });
-    })
-    .map_err(|e| CommandError::Failed(format!("cannot listen for interrupts: {e}")))
+    };
+    files::on_interrupt(interrupted).map_err(|e| CommandError::Failed(format!("cannot listen for interrupts: {e}")))
 }
 
 #[cfg(feature = "studio")]

@@ -2,6 +2,7 @@
 
 use super::error::CommandError;
 use super::output::{check_folder, say_json, say_lines, write_folder};
+use super::progress;
 use super::reading::Reading;
 use super::solve::QualityChoice;
 use crate::bench::drags::{Path as DragPath, SWEEP_FRAMES};
@@ -11,8 +12,7 @@ use crate::bench::{
 };
 use crate::defaults;
 use clap::{Args, Subcommand, ValueEnum};
-use std::cell::Cell;
-use std::io::{IsTerminal, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -27,7 +27,7 @@ pub struct Bench {
     study: Study,
 }
 
-/// Format of the manifest in a folder of results.
+/// Format of the manifest in a folder of results, and of what is printed for other programs.
 const FORMAT: &str = "plushwright-bench/1";
 
 /// Options of every study.
@@ -52,7 +52,7 @@ enum Study {
     /// Warm drags: time of a frame by phase, target error, distance from equilibrium and from the optimum, Algorithm 1
     Drag {
         /// Numbers of muscle fibres
-        #[arg(long, value_delimiter = ',', default_values_t = [414, 1055, 5000])]
+        #[arg(long, value_delimiter = ',', default_values_t = [414, 1055, 5000], alias = "fibres")]
         fibers: Vec<usize>,
         /// Numbers of targets
         #[arg(long, value_delimiter = ',', default_values_t = [4])]
@@ -75,7 +75,7 @@ enum Study {
     /// Cold drags of 40 % of the body length: what is missing after so many factorisations
     Cold {
         /// Number of muscle fibres
-        #[arg(long, default_value_t = 414)]
+        #[arg(long, default_value_t = 414, alias = "fibres")]
         fibers: usize,
         /// Numbers of targets
         #[arg(long, value_delimiter = ',', default_values_t = [1, 2, 3, 4])]
@@ -96,7 +96,7 @@ enum Study {
     /// Wild drags that come back: may every frame be shown, and does the pose not depend on the way there
     Wander {
         /// Number of muscle fibres
-        #[arg(long, default_value_t = 414)]
+        #[arg(long, default_value_t = 414, alias = "fibres")]
         fibers: usize,
         /// Drags of each shape
         #[arg(long, default_value_t = 10)]
@@ -115,7 +115,7 @@ enum Study {
     /// Error against time over mesh resolution, Newton tolerance and quality; locking of the triangles
     Trade {
         /// Numbers of muscle fibres
-        #[arg(long, value_delimiter = ',', default_values_t = [177, 414, 1055, 5000])]
+        #[arg(long, value_delimiter = ',', default_values_t = [177, 414, 1055, 5000], alias = "fibres")]
         fibers: Vec<usize>,
         /// Fibres of the reference mesh
         #[arg(long, default_value_t = 10_000)]
@@ -126,7 +126,7 @@ enum Study {
     /// The same pose at several resolutions: how far poses, activations and networks agree
     Resolution {
         /// Numbers of muscle fibres, ascending; the last is the reference
-        #[arg(long, value_delimiter = ',', default_values_t = [177, 414, 1055, 5000])]
+        #[arg(long, value_delimiter = ',', default_values_t = [177, 414, 1055, 5000], alias = "fibres")]
         fibers: Vec<usize>,
         /// Fibres of the coarse set on the finest mesh
         #[arg(long, default_value_t = 414)]
@@ -170,7 +170,7 @@ enum Study {
         /// Folder of SVG, PNG, JPEG, DXF, OBJ and drawing files, searched with all its folders
         dir: PathBuf,
         /// Numbers of muscle fibres; 0 for import alone
-        #[arg(long, value_delimiter = ',', default_values_t = [414, 2000, 10_000])]
+        #[arg(long, value_delimiter = ',', default_values_t = [414, 2000, 10_000], alias = "fibres")]
         fibers: Vec<usize>,
         /// Try so many files, evenly spread [default: all]
         #[arg(long, value_name = "FILES")]
@@ -211,7 +211,7 @@ enum Study {
     /// The same Hessians through every variant of the sparse factorisation
     Linear {
         /// Numbers of muscle fibres
-        #[arg(long, value_delimiter = ',', default_values_t = [414, 1055, 5000, 10_000])]
+        #[arg(long, value_delimiter = ',', default_values_t = [414, 1055, 5000, 10_000], alias = "fibres")]
         fibers: Vec<usize>,
         #[command(flatten)]
         common: Common,
@@ -348,17 +348,15 @@ impl Bench {
         if let Some(folder) = &common.out {
             check_folder(folder, FORMAT)?;
         }
-        let progress = Progress::default();
         let stop = || cancel.load(Ordering::SeqCst);
-        let session = Session { seed: common.seed, stop: &stop, cancel, progress: &|what| progress.show(what) };
+        let session = Session { seed: common.seed, stop: &stop, cancel, progress: &|what| progress::now(what) };
         let report = self.study.run(&session);
-        progress.clear();
         let (report, failed) = report.map_err(|error| failure(error, cancel))?;
         if let Some(folder) = &common.out {
             write(&report, folder, cancel)?;
         }
         if common.json {
-            say_json(out, &report.json())?
+            say_json(out, FORMAT, &report.json())?
         } else {
             say_lines(out, &report.text())?
         }
@@ -385,27 +383,5 @@ fn failure(error: BenchError, cancel: &AtomicBool) -> CommandError {
         _ if cancel.load(Ordering::SeqCst) => CommandError::Cancelled,
         BenchError::NoSuchShape { .. } | BenchError::Mesh { .. } => CommandError::Usage(error.to_string()),
         other => CommandError::Failed(other.to_string()),
-    }
-}
-
-/// One line on a terminal's standard error that says what is being worked on.
-#[derive(Default)]
-struct Progress {
-    shown: Cell<usize>,
-}
-
-impl Progress {
-    fn show(&self, what: &str) {
-        if std::io::stderr().is_terminal() {
-            eprint!("\r{what:width$}", width = self.shown.get());
-            self.shown.set(what.chars().count());
-        }
-    }
-
-    fn clear(&self) {
-        let shown = self.shown.take();
-        if shown > 0 {
-            eprint!("\r{:shown$}\r", "");
-        }
     }
 }

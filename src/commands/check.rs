@@ -8,6 +8,9 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
+/// Format of what `check --json` prints.
+const FORMAT: &str = "plushwright-check/1";
+
 /// Print sizes, and how close both plushies come to each pose
 ///
 /// Target errors are rms distances in body lengths (the longer side of the rest silhouette's box); times are in ms. Where a
@@ -41,7 +44,7 @@ impl Check {
         let design = document::load(&self.design)?;
         let figures = table::figures(&design, self.friction, self.sewn, cancel)?;
         if self.json {
-            say_json(out, &figures)?;
+            say_json(out, FORMAT, &figures)?;
         } else {
             table::print(&figures, out)?;
         }

@@ -2,6 +2,7 @@
 
 use super::error::CommandError;
 use super::output::{Kind, Output, Replace, json, read_text, say_lines};
+use super::solve::unanswered;
 use crate::problem::network::{self, NetworkError};
 use clap::Args;
 use std::io::Write;
@@ -34,7 +35,7 @@ impl Discover {
                 match error {
                     NetworkError::NoNetwork { answer, .. } => (answer, Some(CommandError::NotConverged(line))),
                     NetworkError::Json { .. } | NetworkError::Key { .. } => {
-                        return Err(CommandError::input(&self.network, line));
+                        return Err(unanswered(&self.network, line));
                     }
                 }
             }

@@ -1,6 +1,7 @@
 //! Reading and writing the design file.
 
 use super::error::{CommandError, check_cancel};
+use super::meant;
 use crate::design::Design;
 use crate::design::file::{self, FileError, is_design};
 use crate::files::{self, Hold, Stamp, shown};
@@ -16,9 +17,9 @@ const SAID_AFTER: Duration = Duration::from_secs(5);
 /// Where an edited design goes.
 #[derive(Debug, Args)]
 pub struct Target {
-    /// Design file to write; may be the one read
+    /// Design file to write [default: the one that is read]
     #[arg(short, long, value_name = "DESIGN")]
-    pub output: PathBuf,
+    pub output: Option<PathBuf>,
     /// Replace a file that is no design, or a design that holds other work
     #[arg(long)]
     pub force: bool,
@@ -44,16 +45,21 @@ enum Place {
 /// # Errors
 /// A file that cannot be read or is no sound design; [`CommandError`] names it.
 pub fn load(path: &Path) -> Result<Design, CommandError> {
-    file::read(path).map_err(unread)
+    file::read(path).map_err(|error| unread(path, error))
 }
 
 impl Target {
+    /// Where a design goes that was read from `from`.
+    pub fn path<'a>(&'a self, from: &'a Path) -> &'a Path {
+        self.output.as_deref().unwrap_or(from)
+    }
+
     /// Reads a design to change it. Where it is written back, other commands that do the same wait.
     ///
     /// # Errors
     /// The design is unsound, or something that is no design would be replaced.
     pub fn open<'a>(&'a self, from: &'a Path, cancel: &AtomicBool) -> Result<(Design, Edit<'a>), CommandError> {
-        let to = self.output.as_path();
+        let to = self.path(from);
         files::check(to).map_err(|e| CommandError::write(to, e))?;
         if !files::same(from, to) {
             refuse_foreign(to, self.force)?;
@@ -64,9 +70,9 @@ impl Target {
         }
         let held = Hold::of(from, |waited| wait(from, waited, cancel)).map_err(|e| match e.kind() {
             io::ErrorKind::WouldBlock => CommandError::Cancelled,
-            _ => CommandError::input(from, e),
+            _ => unopened(from, e),
         })?;
-        let (design, seen) = file::read_stamped(from).map_err(unread)?;
+        let (design, seen) = file::read_stamped(from).map_err(|error| unread(from, error))?;
         Ok((design, Edit { from, to, place: Place::Back { seen, _held: held } }))
     }
 }
@@ -78,6 +84,7 @@ impl Edit<'_> {
     /// The file that it goes back to is not the one any more that was read; another one holds work that would be lost.
     pub fn save(&self, design: &Design, cancel: &AtomicBool) -> Result<(), CommandError> {
         check_cancel(cancel)?;
+        log::info!("writing {}", shown(self.to));
         let save = |seen| file::save(design, Some(self.from), self.to, seen).map(drop).map_err(unwritten);
         match &self.place {
             Place::Back { seen, .. } => save(Some(seen)),
@@ -86,6 +93,27 @@ impl Edit<'_> {
                 save(None)
             }),
         }
+    }
+}
+
+impl Edit<'_> {
+    /// Writes what an interrupted command has found. Where it would take the place of finished work that was asked to be forgotten, it goes
+    /// to a file beside that, `NAME.interrupted.plush`. Returns the file.
+    ///
+    /// # Errors
+    /// As [`Self::save`].
+    pub fn save_interrupted(&self, design: &Design, fresh: bool) -> Result<PathBuf, CommandError> {
+        let go = AtomicBool::new(false);
+        let had_work = match &self.place {
+            Place::Back { .. } => file::read(self.from).is_ok_and(|before| !before.networks.is_empty()),
+            Place::Away(..) => false,
+        };
+        if !(fresh && had_work) {
+            return self.save(design, &go).map(|()| self.to.to_owned());
+        }
+        let path = self.to.with_extension("interrupted.plush");
+        file::save(design, Some(self.from), &path, None).map_err(unwritten)?;
+        Ok(path)
     }
 }
 
@@ -157,12 +185,25 @@ pub fn unwritten(error: FileError) -> CommandError {
     }
 }
 
-fn unread(error: FileError) -> CommandError {
+/// Why there is no design at `path`, and the command that is meant where it is something else.
+fn unread(path: &Path, error: FileError) -> CommandError {
     match error {
-        FileError::Read { path, source } => CommandError::input(&path, source),
+        FileError::Read { source, .. } => unopened(path, source),
         FileError::Write { path, source } => CommandError::write(&path, source),
-        FileError::Content { path, error } => CommandError::input(&path, error),
+        FileError::Content { error, .. } => match meant::instead_of_design(path) {
+            Some(advice) => CommandError::input(path, advice),
+            None => CommandError::input(path, error),
+        },
         error @ FileError::Changed { .. } => CommandError::Failed(error.to_string()),
+    }
+}
+
+/// A design that cannot be opened, with what is called alike, or what stands there instead.
+fn unopened(path: &Path, error: io::Error) -> CommandError {
+    let reason = error.to_string();
+    match meant::instead_of_design(path).or_else(|| meant::like(path)) {
+        Some(advice) => CommandError::input(path, format!("{reason}; {advice}")),
+        None => CommandError::input(path, reason),
     }
 }
 

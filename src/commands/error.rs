@@ -31,6 +31,9 @@ pub enum CommandError {
     Environment(String),
     #[error("cancelled")]
     Cancelled,
+    /// An interrupt ended it early; the text says what there is and how to go on.
+    #[error("interrupted: {0}")]
+    Interrupted(String),
 }
 
 impl CommandError {
@@ -41,7 +44,7 @@ impl CommandError {
             Self::Usage(_) | Self::Input { .. } => 2,
             Self::NotConverged(_) => 3,
             Self::Environment(_) => 4,
-            Self::Cancelled => 130,
+            Self::Cancelled | Self::Interrupted(_) => 130,
         }
     }
 
@@ -90,21 +93,8 @@ impl ParseStop {
     }
 }
 
-impl From<clap::Error> for ParseStop {
-    fn from(error: clap::Error) -> Self {
-        use clap::error::ErrorKind::{DisplayHelp, DisplayVersion};
-        if matches!(error.kind(), DisplayHelp | DisplayVersion) {
-            return Self::Information(error);
-        }
-        // clap explains itself in paragraphs; the first one says what is wrong, the others repeat the usage.
-        let text = error.render().to_string();
-        let first = text.split("\n\n").next().unwrap_or_default();
-        let first = first.trim().trim_start_matches("error:");
-        Self::Wrong(CommandError::Usage(format!("{} (--help explains)", one_line(first))))
-    }
-}
-
-fn one_line(text: &str) -> String {
+/// Words in a line, and nothing in it that a terminal would obey.
+pub fn one_line(text: &str) -> String {
     printable(&text.split_whitespace().collect::<Vec<_>>().join(" "))
 }
 

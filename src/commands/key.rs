@@ -1,13 +1,14 @@
 //! `key`: a pose on the timeline, as the winch activations that reach it.
 
 use super::error::CommandError;
-use super::output::say;
+use super::output::{say, say_json};
 use super::{document, words};
 use crate::design::Easing;
 use crate::files::shown;
 use crate::operations::Context;
 use crate::operations::key::{self, Error, Keyed, Note, Options};
 use clap::{Args, ValueEnum};
+use serde::Serialize;
 use std::io::Write;
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
@@ -17,7 +18,7 @@ use std::sync::atomic::AtomicBool;
 /// Where the plushie does not come to equilibrium in that pose, the best activations found are written all the same, and
 /// the exit code is 3.
 #[derive(Debug, Args)]
-#[command(after_help = "Example: plushwright key pig.plush --pose wave --time 1.5 --ease smooth -o pig.plush")]
+#[command(after_help = "Example: plushwright key pig.plush --pose wave --time 1.5 --ease smooth")]
 pub struct Key {
     /// Design file to read; it needs winches (see `plushwright rig`)
     pub design: PathBuf,
@@ -32,6 +33,21 @@ pub struct Key {
     pub ease: Ease,
     #[command(flatten)]
     pub target: document::Target,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Format of what `key --json` prints.
+const FORMAT: &str = "plushwright-key/1";
+
+/// What `key --json` prints.
+#[derive(Serialize)]
+struct Summary<'a> {
+    design: String,
+    pose: &'a str,
+    time_s: f64,
+    activations_mm: &'a [f64],
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -61,14 +77,27 @@ impl Key {
             key::run(&mut design, &options, &Context::new(cancel)).map_err(|error| self.failed(error))?;
         let text = keyframe.activations_mm.iter().map(|a| format!("{a:.2}")).collect::<Vec<_>>().join(" ");
         edit.save(&design, cancel)?;
-        say(out, &format!("{}: {} at {} s, winches at {text} mm", shown(&self.target.output), self.pose, self.time))?;
+        if self.json {
+            let (design, activations_mm) = (shown(self.target.path(&self.design)), &keyframe.activations_mm[..]);
+            say_json(out, FORMAT, &Summary { design, pose: &self.pose, time_s: self.time, activations_mm })?;
+            return words::balanced(notes.iter().map(|Note::Unbalanced(unbalanced)| unbalanced));
+        }
+        say(
+            out,
+            &format!(
+                "{}: {} at {} s, winches at {text} mm",
+                shown(self.target.path(&self.design)),
+                self.pose,
+                self.time
+            ),
+        )?;
         words::balanced(notes.iter().map(|Note::Unbalanced(unbalanced)| unbalanced))
     }
 
     fn failed(&self, error: Error) -> CommandError {
         match error {
             Error::NoNetworks => CommandError::input(&self.design, format!("{error}; run `plushwright rig` first")),
-            Error::NoSuchPose(_) => CommandError::Usage(error.to_string()),
+            Error::NoSuchPose(error) => words::no_such_pose(&error),
             Error::Unsolved | Error::Edit(_) => CommandError::Failed(error.to_string()),
             Error::Cancelled(_) => CommandError::Cancelled,
         }

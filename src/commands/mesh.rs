@@ -2,6 +2,7 @@
 
 use super::error::CommandError;
 use super::output::{Kind, Output, Replace, say, say_json};
+use super::picture::PictureFormat;
 use super::{document, render};
 use crate::design::MeshFigures;
 use crate::mesh::quality::HISTOGRAM_STEP_DEG;
@@ -12,6 +13,8 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
+/// Format of what is printed for other programs.
+const FORMAT: &str = "plushwright-mesh/1";
 /// Characters of the longest bar of the histogram.
 const BAR: usize = 40;
 
@@ -24,7 +27,7 @@ const BAR: usize = 40;
 pub struct MeshCommand {
     /// Design file to read
     pub design: PathBuf,
-    /// Picture to write (PNG)
+    /// Picture to write: PNG, or JPEG where it is called *.jpg
     #[arg(short, long, value_name = "OUT.png")]
     pub output: Option<PathBuf>,
     #[command(flatten)]
@@ -39,6 +42,7 @@ pub struct MeshCommand {
 
 impl MeshCommand {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
+        let format = self.output.as_deref().map_or(Ok(PictureFormat::Png), PictureFormat::of)?;
         let inputs = || [self.design.clone()];
         let output =
             self.output.as_deref().map(|path| Output::new(path, Kind::Picture, self.replace, inputs())).transpose()?;
@@ -49,9 +53,9 @@ impl MeshCommand {
             let background = Palette::of(Theme::Light).background;
             let bytes =
                 raster::png(&left, &right, self.size, background).map_err(|e| CommandError::Failed(e.to_string()))?;
-            output.write(&bytes, cancel)?;
+            output.write(&format.encoded(bytes)?, cancel)?;
         }
-        if self.json { say_json(out, &figures) } else { print(&figures, out) }
+        if self.json { say_json(out, FORMAT, &figures) } else { print(&figures, out) }
     }
 }
 

@@ -6,6 +6,7 @@
 
 mod bench;
 mod check;
+mod completions;
 mod demo;
 mod discover;
 pub mod document;
@@ -13,23 +14,35 @@ mod drawing;
 pub mod error;
 mod explore;
 mod export;
+mod interrupt;
+mod journal;
 mod key;
+mod man;
+mod meant;
 mod mesh;
 mod network;
 mod new;
 mod output;
+mod picture;
 mod place;
+mod play;
 mod pose;
+mod progress;
 mod reading;
 mod remesh;
 mod render;
+pub mod report;
 mod reshape;
 mod rig;
+mod simulate_controller;
 mod solve;
 mod table;
+mod usage;
 mod words;
 
 pub use error::{CommandError, ParseStop};
+pub use interrupt::is_keeping;
+pub use usage::unknown_word;
 
 use clap::{Parser, Subcommand};
 use std::ffi::OsString;
@@ -45,15 +58,21 @@ use std::sync::atomic::AtomicBool;
 #[command(
     name = "plushwright",
     version,
-    args_conflicts_with_subcommands = true,
-    disable_help_subcommand = true,
+    override_usage = "plushwright [DESIGN]\n       plushwright <COMMAND> ...",
     after_help = "Exit codes: 0 done, 1 output or internal failure, 2 bad input or usage, 3 not converged (best state \
                   written), 4 display or graphics adapter missing, 130 cancelled.\n\n\
-                  Example: plushwright new assets/pig.svg -o pig.plush"
+                  Example: plushwright new assets/pig.svg -o pig.plush\n\n\
+                  Begin with: plushwright demo"
 )]
 pub struct Cli {
     /// Design file (*.plush) to open in the studio
     pub design: Option<PathBuf>,
+    /// Say on standard error what is being done; alone, print the version
+    #[arg(short, long, global = true)]
+    pub verbose: bool,
+    /// File to write a log to, line by line
+    #[arg(long, value_name = "FILE", global = true)]
+    pub log: Option<PathBuf>,
     #[command(subcommand)]
     pub command: Option<Command>,
 }
@@ -73,10 +92,42 @@ pub enum Command {
     Key(key::Key),
     Check(check::Check),
     Export(export::Export),
+    Play(play::Play),
+    SimulateController(simulate_controller::SimulateController),
     Render(render::Render),
     Solve(solve::Solve),
     Discover(discover::Discover),
     Bench(bench::Bench),
+    Completions(completions::Completions),
+    Man(man::ManCommand),
+}
+
+impl Command {
+    /// What is shown on a terminal while it works; nothing for what shows its own or is done at once.
+    fn work(&self) -> Option<&'static str> {
+        Some(match self {
+            Self::New(_) => "cleaning and meshing the outline",
+            Self::Remesh(_) => "meshing anew",
+            Self::Reshape(_) => "meshing the new outline",
+            Self::Rig(_) => "looking for winches and tendons",
+            Self::Key(_) => "winding to the pose",
+            Self::Check(_) => "posing both plushies",
+            Self::Export(_) => "making the blueprint",
+            Self::Render(_) => "drawing",
+            Self::Solve(_) => "solving",
+            Self::Discover(_) => "joining fibres",
+            Self::Demo(_) => "making the pig",
+            Self::Bench(_) => "measuring",
+            Self::Play(_) => "driving the motors",
+            Self::Mesh(_)
+            | Self::Drawing(_)
+            | Self::Pose(_)
+            | Self::Network(_)
+            | Self::SimulateController(_)
+            | Self::Completions(_)
+            | Self::Man(_) => return None,
+        })
+    }
 }
 
 /// Reads the command line; help and version come back as [`ParseStop::Information`].
@@ -84,7 +135,23 @@ pub enum Command {
 /// # Errors
 /// [`ParseStop`] with help, version, or what is wrong.
 pub fn parse(args: impl IntoIterator<Item = OsString>) -> Result<Cli, ParseStop> {
-    Cli::try_parse_from(args).map_err(ParseStop::from)
+    let args: Vec<OsString> = args.into_iter().collect();
+    let cli = Cli::try_parse_from(&args).map_err(|error| usage::stop(error, &args))?;
+    if cli.verbose && cli.command.is_none() && cli.design.is_none() {
+        return Cli::try_parse_from(["plushwright", "--version"]).map_err(|error| usage::stop(error, &args));
+    }
+    if let (Some(_), Some(design)) = (&cli.command, &cli.design) {
+        return Err(ParseStop::Wrong(usage::command_late(design, &args)));
+    }
+    Ok(cli)
+}
+
+/// Begins the log that was asked for, and keeps what a report of a breakdown needs.
+///
+/// # Errors
+/// The log file cannot be written to.
+pub fn listen(cli: &Cli) -> Result<(), CommandError> {
+    journal::begin(cli.log.as_deref(), cli.verbose, cli.command.is_none())
 }
 
 /// Runs one command. Figures go to `out`; a raised `cancel` ends it with [`CommandError::Cancelled`].
@@ -92,6 +159,7 @@ pub fn parse(args: impl IntoIterator<Item = OsString>) -> Result<Cli, ParseStop>
 /// # Errors
 /// What the command says; its exit code is [`CommandError::code`].
 pub fn run(command: &Command, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
+    let _bar = command.work().map(progress::Bar::of);
     match command {
         Command::Demo(command) => command.run(out, cancel),
         Command::New(command) => command.run(out, cancel),
@@ -105,9 +173,13 @@ pub fn run(command: &Command, out: &mut dyn Write, cancel: &AtomicBool) -> Resul
         Command::Key(command) => command.run(out, cancel),
         Command::Check(command) => command.run(out, cancel),
         Command::Export(command) => command.run(out, cancel),
+        Command::Play(command) => command.run(out, cancel),
+        Command::SimulateController(command) => command.run(out, cancel),
         Command::Render(command) => command.run(out, cancel),
         Command::Solve(command) => command.run(out, cancel),
         Command::Discover(command) => command.run(out, cancel),
         Command::Bench(command) => command.run(out, cancel),
+        Command::Man(command) => command.run(out, cancel),
+        Command::Completions(command) => command.run(out),
     }
 }

@@ -4,7 +4,7 @@ use super::error::{CommandError, check_cancel};
 use super::output::{Kind, Output, Replace, refuse_input, say, say_json};
 use super::reading::Reading;
 use super::words::CleanUp;
-use super::{document, words};
+use super::{document, meant, words};
 use crate::design::{Design, file};
 use crate::files::{self, shown};
 use crate::operations::new_design::{self, Made, Options};
@@ -33,7 +33,7 @@ pub struct New {
     #[arg(long)]
     pub force: bool,
     /// Muscle fibres (mesh edges) [default: 414, or the fewest that the outline allows if that is more]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", alias = "fibres")]
     pub fibers: Option<usize>,
     #[command(flatten)]
     pub reading: Reading,
@@ -45,6 +45,11 @@ pub struct New {
     #[arg(long)]
     pub json: bool,
 }
+
+/// Format of what `new --json` prints.
+const FORMAT: &str = "plushwright-new/1";
+/// Format of what `new --preview --json` prints without a design.
+const PREVIEW_FORMAT: &str = "plushwright-preview/1";
 
 /// What `new --json` prints.
 #[derive(Serialize)]
@@ -80,6 +85,9 @@ impl New {
         let inputs = || [self.outline.clone()];
         let preview =
             self.preview.as_deref().map(|path| Output::new(path, Kind::Picture, replace, inputs())).transpose()?;
+        if let Some(advice) = meant::instead_of_outline(&self.outline) {
+            return Err(CommandError::input(&self.outline, advice));
+        }
         let file = outline::read_file(&self.outline).map_err(|error| words::unmade(&self.outline, error.into()))?;
         if let Some(preview) = preview {
             self.show(&file, &preview, out, cancel)?;
@@ -101,7 +109,7 @@ impl New {
             let clean_up = CleanUp::new::<String>(&shown.changes, &[]);
             if self.json {
                 let legend = shown.legend;
-                say_json(out, &Sketched { width_mm: width, height_mm: height, legend, clean_up })?;
+                say_json(out, PREVIEW_FORMAT, &Sketched { width_mm: width, height_mm: height, legend, clean_up })?;
             } else {
                 say(out, &format!("{}: {width:.1} x {height:.1} mm", files::shown(&self.outline)))?;
                 shown.legend.iter().try_for_each(|line| say(out, line))?;
@@ -172,7 +180,7 @@ impl New {
             clean_up,
         };
         if self.json {
-            return say_json(out, &summary);
+            return say_json(out, FORMAT, &summary);
         }
         let Summary { design, fibers, nodes, triangles, body_length_mm, texture, clean_up, .. } = summary;
         say(

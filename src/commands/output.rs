@@ -1,11 +1,12 @@
 //! Outputs: files and folders that appear whole or not at all, and lines on the given writer.
 
 use super::error::{CommandError, check_cancel};
+use super::progress;
 use crate::design::file::is_design;
 use crate::files::folder::{self, FolderError, MANIFEST, Manifest};
 use crate::files::{self, printable, shown};
 use clap::Args;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -59,6 +60,7 @@ impl<'a> Output<'a> {
     pub fn write(&self, bytes: &[u8], cancel: &AtomicBool) -> Result<(), CommandError> {
         check_cancel(cancel)?;
         self.check()?;
+        log::info!("writing {}", shown(self.path));
         files::write(self.path, bytes).map_err(|e| CommandError::write(self.path, e))
     }
 
@@ -112,8 +114,9 @@ impl Kind {
         }
         let known = match self {
             Self::Picture => {
-                let picture = head.starts_with(b"\x89PNG") || head.starts_with(b"\xff\xd8");
-                picture.then(|| files::is_marked_png(&head))
+                let picture = [&b"\x89PNG"[..], b"\xff\xd8", b"GIF8"].iter().any(|magic| head.starts_with(magic));
+                let ours = [files::is_marked_png, files::is_marked_jpeg, files::is_marked_gif];
+                picture.then(|| ours.iter().any(|is_ours| is_ours(&head)))
             }
             Self::Answer => json_format(path).map(|format| format.starts_with("plushwright-answer/")),
             Self::Drawing => {
@@ -187,7 +190,7 @@ pub fn refused_folder(error: FolderError) -> CommandError {
 
 /// Prints one line: nothing in it makes another one or moves the cursor.
 pub fn say(out: &mut dyn Write, line: &str) -> Result<(), CommandError> {
-    writeln!(out, "{}", printable(line)).map_err(CommandError::Print)
+    progress::aside(|| writeln!(out, "{}", printable(line))).map_err(CommandError::Print)
 }
 
 /// Prints several lines, as [`say`] does each.
@@ -195,13 +198,21 @@ pub fn say_lines(out: &mut dyn Write, text: &str) -> Result<(), CommandError> {
     text.split('\n').try_for_each(|line| say(out, line))
 }
 
-/// Prints a value as indented JSON.
-pub fn say_json(out: &mut dyn Write, value: &impl serde::Serialize) -> Result<(), CommandError> {
-    say_lines(out, &json(value)?)
+/// Prints a record as indented JSON, the name and version of its format first (`plushwright-check/1`).
+pub fn say_json(out: &mut dyn Write, format: &str, record: &impl Serialize) -> Result<(), CommandError> {
+    say_lines(out, &json(&Formatted { format, record })?)
+}
+
+/// A record that says what it is.
+#[derive(Serialize)]
+pub struct Formatted<'a, T> {
+    pub format: &'a str,
+    #[serde(flatten)]
+    pub record: &'a T,
 }
 
 /// A value as indented JSON text; what a terminal would obey is escaped as JSON does.
-pub fn json(value: &impl serde::Serialize) -> Result<String, CommandError> {
+pub fn json(value: &impl Serialize) -> Result<String, CommandError> {
     let text =
         serde_json::to_string_pretty(value).map_err(|e| CommandError::Failed(format!("cannot form JSON: {e}")))?;
     if !text.chars().any(|c| c != '\n' && files::is_hidden(c)) {

@@ -2,13 +2,15 @@
 
 use super::document;
 use super::error::CommandError;
-use super::output::say;
+use super::output::{say, say_json};
 use super::place::{parse_move, parse_point};
+use crate::design::Design;
 use crate::files::shown;
 use crate::operations::Context;
 use crate::operations::pose::{self, Error, Move, Options};
 use crate::outline::Point;
 use clap::Args;
+use serde::Serialize;
 use std::io::Write;
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
@@ -19,7 +21,7 @@ use std::sync::atomic::AtomicBool;
 /// A pose that does not exist is created. A target or pin on a point that has one replaces it.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example: plushwright pose pig.plush --name wave --pin 60,5 --pin 180,5 --target 200,230=150,240 -o pig.plush"
+    after_help = "Example: plushwright pose pig.plush --name wave --pin 60,5 --pin 180,5 --target 200,230=150,240"
 )]
 pub struct Pose {
     /// Design file to read
@@ -35,6 +37,22 @@ pub struct Pose {
     pub targets: Vec<Move>,
     #[command(flatten)]
     pub target: document::Target,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Format of what `pose --json` prints.
+const FORMAT: &str = "plushwright-pose/1";
+
+/// What `pose --json` prints.
+#[derive(Serialize)]
+struct Summary<'a> {
+    design: String,
+    pose: &'a str,
+    targets: usize,
+    pins: usize,
+    poses: usize,
 }
 
 impl Pose {
@@ -42,18 +60,41 @@ impl Pose {
         let (mut design, edit) = self.target.open(&self.design, cancel)?;
         let options = Options { name: self.name.clone(), pins: self.pins.clone(), targets: self.targets.clone() };
         pose::run(&mut design, &options, &Context::new(cancel)).map_err(failed)?;
+        let name = self.name.trim();
+        let targets = design.poses.iter().find(|p| p.name == name).map_or(0, |p| p.targets.len());
+        if targets == 0 && self.pins.is_empty() {
+            return Err(self.without_targets(&design));
+        }
         edit.save(&design, cancel)?;
-        let targets = design.poses.iter().find(|p| p.name == self.name).map_or(0, |p| p.targets.len());
+        if self.json {
+            let (design, pins, poses) = (shown(self.target.path(&self.design)), design.pins.len(), design.poses.len());
+            return say_json(out, FORMAT, &Summary { design, pose: name, targets, pins, poses });
+        }
         say(
             out,
             &format!(
                 "{}: pose {} has {targets} targets; {} pins, {} poses",
-                shown(&self.target.output),
-                self.name,
+                shown(self.target.path(&self.design)),
+                name,
                 design.pins.len(),
                 design.poses.len()
             ),
         )
+    }
+}
+
+impl Pose {
+    /// A pose that asks nothing of the body: what is missing, and where its points are.
+    fn without_targets(&self, design: &Design) -> CommandError {
+        let (low, high) = design.outline.bounding_box();
+        CommandError::Usage(format!(
+            "the pose `{}` has no targets: give at least one --target X,Y=X2,Y2, from a point of the body (X {:.0} to {:.0}, Y {:.0} to {:.0} mm)",
+            self.name.trim(),
+            low[0],
+            high[0],
+            low[1],
+            high[1]
+        ))
     }
 }
 

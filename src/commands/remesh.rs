@@ -13,6 +13,8 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
+/// Format of what `remesh --json` prints.
+const FORMAT: &str = "plushwright-remesh/1";
 /// How many of the parts that moved farthest are named.
 const NAMED: usize = 5;
 
@@ -29,7 +31,7 @@ pub struct Remesh {
     #[command(flatten)]
     pub target: document::Target,
     /// Muscle fibres (mesh edges) to aim for
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", alias = "fibres")]
     pub fibers: Option<usize>,
     /// Typical length of a mesh edge in mm, instead of a number of fibres
     #[arg(long, value_name = "MM", value_parser = parse_length)]
@@ -76,7 +78,7 @@ impl Remesh {
             Error::Cancelled(_) => CommandError::Cancelled,
         })?;
         edit.save(&design, cancel)?;
-        if self.json { say_json(out, &report) } else { print(&self.target.output, &report, out) }
+        if self.json { say_json(out, FORMAT, &report) } else { print(self.target.path(&self.design), &report, out) }
     }
 }
 

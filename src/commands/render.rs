@@ -1,18 +1,22 @@
 //! `render`: a picture of both plushies.
 
 use super::error::CommandError;
-use super::output::{Kind, Output, Replace, say};
-use super::{document, words};
-use crate::design::file;
+use super::output::{Kind, Output, Replace, say, say_json};
+use super::picture::{self, PictureFormat};
+use super::{document, progress, words};
+use crate::design::animation::duration_s;
+use crate::design::{Design, file};
 use crate::files::shown;
 use crate::operations::Context;
 use crate::operations::render::{self, Error, Note, Options, Rendered, What};
 use clap::Args;
+use serde::Serialize;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
+use std::time::Duration;
 
-/// Draw both plushies, idealized left and realizable right, as PNG
+/// Draw both plushies, idealized left and realizable right, as a picture
 ///
 /// A plushie that does not come to equilibrium is drawn in the nearest state found, and the exit code is 3.
 #[derive(Debug, Args)]
@@ -20,7 +24,7 @@ use std::sync::atomic::AtomicBool;
 pub struct Render {
     /// Design file to read
     pub design: PathBuf,
-    /// Picture to write (PNG)
+    /// Picture to write: PNG, JPEG where it is called *.jpg, the whole animation where it is called *.gif
     #[arg(short, long, value_name = "OUT.png")]
     pub output: PathBuf,
     #[command(flatten)]
@@ -31,44 +35,125 @@ pub struct Render {
     /// Show the animation at this time in s
     #[arg(long, value_name = "S", value_parser = parse_time, allow_hyphen_values = true)]
     pub time: Option<f64>,
-    /// Width and height in pixels, each 16 to 8192
-    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = parse_size)]
-    pub size: (u32, u32),
+    /// Width and height in pixels, each 16 to 8192 [default: 1280x720, of an animation 640x360]
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub size: Option<(u32, u32)>,
     /// Leave the design's texture out
     #[arg(long)]
     pub no_texture: bool,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
 }
+
+/// Format of what `render --json` prints.
+const FORMAT: &str = "plushwright-render/1";
+
+/// What `render --json` prints.
+#[derive(Serialize)]
+struct Summary {
+    picture: String,
+    width: u32,
+    height: u32,
+    /// Of a pose: rms distance of the targets in body lengths.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error_idealized: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error_realizable: Option<f64>,
+}
+
+/// Size of a moving picture, pixels.
+const MOVING_SIZE: (u32, u32) = (640, 360);
+/// Time from picture to picture of a moving one, s: what most programs show as it is asked for.
+const STEP_S: f64 = 0.08;
+/// Most pictures of a moving one: a longer animation is shown in larger steps.
+const MOST_FRAMES: f64 = 400.0;
 
 impl Render {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
         let design = document::load(&self.design)?;
         let inputs = [Some(self.design.clone()), file::texture_path(&design, &self.design)];
         let output = Output::new(&self.output, Kind::Picture, self.replace, inputs.into_iter().flatten())?;
-        let what = match (&self.pose, self.time) {
-            (Some(pose), _) => What::Pose(pose.clone()),
-            (None, Some(time)) => What::Time(time),
-            (None, None) => What::Rest,
+        let format = PictureFormat::of(&self.output)?;
+        let is_still = format != PictureFormat::Gif || self.pose.is_some() || self.time.is_some();
+        let size = self.size.unwrap_or(if is_still { Options::default().size } else { MOVING_SIZE });
+        let (bytes, rendered) = if is_still {
+            let what = match (&self.pose, self.time) {
+                (Some(pose), _) => What::Pose(pose.clone()),
+                (None, Some(time)) => What::Time(time),
+                (None, None) => What::Rest,
+            };
+            let rendered = self.picture(&design, what, size, cancel)?;
+            (format.encoded(rendered.png.clone())?, rendered)
+        } else {
+            self.animation(&design, size, cancel)?
         };
-        let options = Options { what, size: self.size, texture: !self.no_texture };
-        let Rendered { png, notes, .. } = render::run(&design, &self.design, &options, &Context::new(cancel))
-            .map_err(|error| failed(&self.design, error))?;
-        for note in notes.iter().filter(|note| matches!(note, Note::NoTexture { .. })) {
+        for note in rendered.notes.iter().filter(|note| matches!(note, Note::NoTexture { .. }) && !self.json) {
             say(out, &format!("note: {note}"))?;
         }
-        output.write(&png, cancel)?;
-        say(out, &format!("{}: {} x {} pixels", shown(&self.output), self.size.0, self.size.1))?;
-        words::balanced(notes.iter().filter_map(|note| match note {
+        output.write(&bytes, cancel)?;
+        self.tell(out, &rendered, size)?;
+        words::balanced(rendered.notes.iter().filter_map(|note| match note {
             Note::Unbalanced(unbalanced) => Some(unbalanced),
             Note::NoTexture { .. } => None,
         }))
+    }
+
+    fn picture(
+        &self,
+        design: &Design,
+        what: What,
+        size: (u32, u32),
+        cancel: &AtomicBool,
+    ) -> Result<Rendered, CommandError> {
+        let options = Options { what, size, texture: !self.no_texture };
+        render::run(design, &self.design, &options, &Context::new(cancel)).map_err(|error| failed(&self.design, error))
+    }
+
+    /// All of the animation, and its last picture with the notes on all.
+    fn animation(
+        &self,
+        design: &Design,
+        size: (u32, u32),
+        cancel: &AtomicBool,
+    ) -> Result<(Vec<u8>, Rendered), CommandError> {
+        let duration = duration_s(design);
+        let step = STEP_S.max(duration / MOST_FRAMES);
+        let frames = (duration / step).floor() as usize;
+        let (mut pngs, mut notes) = (Vec::new(), Vec::new());
+        let mut last = None;
+        for frame in 0..=frames {
+            progress::at(frame, frames + 1, "pictures");
+            let rendered = self.picture(design, What::Time(step * frame as f64), size, cancel)?;
+            pngs.push(rendered.png.clone());
+            let new: Vec<Note> = rendered.notes.iter().filter(|note| !notes.contains(*note)).cloned().collect();
+            notes.extend(new);
+            last = Some(rendered);
+        }
+        let last = last.ok_or_else(|| CommandError::Failed("the animation has no picture".into()))?;
+        Ok((picture::moving(&pngs, Duration::from_secs_f64(step))?, Rendered { notes, ..last }))
+    }
+
+    fn tell(&self, out: &mut dyn Write, rendered: &Rendered, (width, height): (u32, u32)) -> Result<(), CommandError> {
+        let picture = shown(&self.output);
+        if !self.json {
+            return say(out, &format!("{picture}: {width} x {height} pixels"));
+        }
+        let error = |view: usize| self.pose.as_ref().map(|_| rendered.shapes[view].target_error);
+        let (error_idealized, error_realizable) = (error(0), error(1));
+        say_json(out, FORMAT, &Summary { picture, width, height, error_idealized, error_realizable })
     }
 }
 
 /// Why there is no picture of a design that was read from `path`.
 pub fn failed(path: &Path, error: Error) -> CommandError {
     match error {
-        Error::NoSuchPose(_) => CommandError::Usage(error.to_string()),
-        Error::NoKeyframes => CommandError::input(path, error),
+        Error::NoSuchPose(error) => words::no_such_pose(&error),
+        Error::NoKeyframes => CommandError::input(
+            path,
+            format!("{error}; `plushwright rig` lays poses on the timeline, `plushwright key` adds one"),
+        ),
+        Error::OutsideTimeline { .. } => CommandError::input(path, error),
         Error::Picture(_) => CommandError::Failed(error.to_string()),
         Error::Cancelled(_) => CommandError::Cancelled,
     }

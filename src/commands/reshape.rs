@@ -4,7 +4,7 @@ use super::error::CommandError;
 use super::output::{refuse_input, say, say_json};
 use super::reading::Reading;
 use super::words::CleanUp;
-use super::{document, remesh, words};
+use super::{document, meant, remesh, words};
 use crate::operations::reshape::{self, Options, Report, Reshaped, Source};
 use crate::operations::{Context, FiberCount};
 use crate::outline;
@@ -28,7 +28,7 @@ pub struct Reshape {
     #[command(flatten)]
     pub target: document::Target,
     /// Muscle fibres (mesh edges) to aim for [default: as many as the design has, or the fewest that the outline allows if that is more]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", alias = "fibres")]
     pub fibers: Option<usize>,
     /// Simulate on a mesh this many times finer than the fibres' own
     #[arg(long, value_name = "K", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=16))]
@@ -40,6 +40,9 @@ pub struct Reshape {
     pub json: bool,
 }
 
+/// Format of what `reshape --json` prints.
+const FORMAT: &str = "plushwright-reshape/1";
+
 /// What `reshape --json` prints.
 #[derive(Serialize)]
 struct Summary<'a> {
@@ -50,7 +53,10 @@ struct Summary<'a> {
 
 impl Reshape {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
-        refuse_input(&self.target.output, &self.outline)?;
+        refuse_input(self.target.path(&self.design), &self.outline)?;
+        if let Some(advice) = meant::instead_of_outline(&self.outline) {
+            return Err(CommandError::input(&self.outline, advice));
+        }
         let (mut design, edit) = self.target.open(&self.design, cancel)?;
         let options = Options {
             import: self.reading.import(),
@@ -64,9 +70,9 @@ impl Reshape {
         edit.save(&design, cancel)?;
         let clean_up = CleanUp::new(&changes, &notes);
         if self.json {
-            return say_json(out, &Summary { clean_up, report: &report });
+            return say_json(out, FORMAT, &Summary { clean_up, report: &report });
         }
-        remesh::print(&self.target.output, &report, out)?;
+        remesh::print(self.target.path(&self.design), &report, out)?;
         clean_up.lines().try_for_each(|line| say(out, &format!("note: {line}")))
     }
 }

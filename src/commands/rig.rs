@@ -2,18 +2,20 @@
 
 use super::error::CommandError;
 use super::explore::Explore;
-use super::output::{say, say_lines};
-use super::{document, words};
+use super::interrupt::Keeping;
+use super::output::{say, say_json, say_lines};
+use super::{document, progress, words};
 use crate::defaults;
 use crate::design::Design;
 use crate::files::shown;
 use crate::operations::explore;
 use crate::operations::key;
-use crate::operations::rig::{self, Error, Note, Options, TendonChoice};
+use crate::operations::rig::{self, Error, Note, Options, TendonChoice, Trims};
 use crate::operations::{Context, Progress};
 use crate::rigging;
 use crate::rigging::RigError;
 use clap::Args;
+use serde::Serialize;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -24,7 +26,7 @@ use std::sync::atomic::AtomicBool;
 /// All winches are looked for together, within the rules of sewing, and what is told is what `check` says of the design. Where
 /// the design has no keyframes, its poses are laid on the timeline one second apart, with rest at both ends.
 #[derive(Debug, Args)]
-#[command(after_help = "Example: plushwright rig pig.plush -o pig.plush --max-winches 1 --tendons 2")]
+#[command(after_help = "Example: plushwright rig pig.plush --max-winches 1 --tendons 2")]
 pub struct Rig {
     /// Design file to read
     pub design: PathBuf,
@@ -42,6 +44,12 @@ pub struct Rig {
     /// Whether networks keep the design's rules of sewing, or none (for studies)
     #[arg(long, value_enum, default_value_t)]
     pub rules: Rules,
+    /// Let each cable have a spool radius of its own, as a part of its winch's
+    #[arg(long)]
+    pub ratios: bool,
+    /// Let cables be slack at assembly, so that they pull later than others of their winch
+    #[arg(long)]
+    pub slack: bool,
     /// Forget the networks that are there, and solve keyframes of poses anew
     #[arg(long)]
     pub fresh: bool,
@@ -65,6 +73,9 @@ pub struct Rig {
     /// 0 (equal tendons) to 1 (long tendons) [default: several are tried]
     #[arg(long, value_name = "PHI", value_parser = parse_phi, allow_hyphen_values = true)]
     pub phi: Option<f64>,
+    /// Print JSON when the search is over
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// How networks are looked for.
@@ -92,17 +103,126 @@ pub enum Rules {
     None,
 }
 
+/// Format of what `rig --json` prints.
+const FORMAT: &str = "plushwright-rig/1";
+
+/// What `rig --json` prints.
+#[derive(Serialize)]
+struct Summary {
+    design: String,
+    winches: usize,
+    tendons: usize,
+    /// Whether the search was interrupted, and this is the best that it had.
+    interrupted: bool,
+    /// What `check` says of every pose: rms distance of the targets in body lengths.
+    poses: Vec<PoseError>,
+}
+
+#[derive(Serialize)]
+struct PoseError {
+    name: String,
+    error_realizable: f64,
+}
+
+/// What was told on the way.
+#[derive(Default)]
+struct Told {
+    /// Rounds that were begun, of how many.
+    rounds: Option<[usize; 2]>,
+    errors: Vec<(String, f64)>,
+    /// The gain that was printed last.
+    gain: Option<(String, usize)>,
+}
+
+impl Told {
+    /// Takes a step; says whether it is news. A round without a gain is none.
+    fn hear(&mut self, step: &Progress) -> bool {
+        let gain = match step {
+            Progress::Rig(rigging::Progress::Round { round, rounds, worst, holes }) => {
+                self.rounds = Some([round + 1, *rounds]);
+                let worst = format!("{:.1}", 100.0 * worst);
+                progress::at(*round, *rounds, &format!("worst pose {worst} % of its error at rest, {holes} holes"));
+                Some((worst, *holes))
+            }
+            Progress::Rig(rigging::Progress::Accepted { errors, .. } | rigging::Progress::Found { errors, .. }) => {
+                self.errors.clone_from(errors);
+                None
+            }
+            Progress::Rig(rigging::Progress::Candidates { .. }) | Progress::Proposals(_) => None,
+        };
+        let news = gain.is_none() || gain != self.gain;
+        self.gain = gain;
+        news
+    }
+}
+
 impl Rig {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
+        self.check_parameters()?;
         let (mut design, edit) = self.target.open(&self.design, cancel)?;
+        // From here on an interrupt finds something to keep.
+        let _keeping = Keeping::begin();
+        let options = self.options();
+        if self.explore.explore {
+            return self.explore(design, edit, &Options { keep: false, ..options }, out, cancel);
+        }
+        let (mut printed, mut told) = (Ok(()), Told::default());
+        let mut progress = |step: &Progress| {
+            if told.hear(step) && printed.is_ok() && !self.json {
+                printed = say_lines(out, &words::progress(step));
+            }
+        };
+        let mut context = Context::telling(cancel, &mut progress);
+        let rigged = rig::run(&mut design, &options, &mut context).map_err(|error| failed(&self.design, error))?;
+        printed?;
+        let path = if rigged.interrupted {
+            edit.save_interrupted(&design, self.fresh)?
+        } else {
+            edit.save(&design, cancel)?;
+            self.target.path(&self.design).to_owned()
+        };
+        self.tell(out, &design, &path, &told, rigged.interrupted)?;
+        for note in rigged.notes.iter().filter(|note| matches!(note, Note::AtRest { .. })) {
+            if !self.json {
+                say(out, &format!("note: {note}"))?;
+            }
+        }
+        words::balanced(rigged.notes.iter().filter_map(|note| match note {
+            Note::Key(key::Note::Unbalanced(unbalanced)) => Some(unbalanced),
+            Note::AtRest { .. } => None,
+        }))?;
+        if rigged.interrupted { Err(interrupted(&path, &told)) } else { Ok(()) }
+    }
+
+    /// Refuses what belongs to another method, and numbers that no winch gets.
+    fn check_parameters(&self) -> Result<(), CommandError> {
         let given = [("seed-num", self.seed_num.is_some()), ("join-depth", self.join_depth.is_some())];
         let given = given.into_iter().chain([("join-len", self.join_len.is_some()), ("phi", self.phi.is_some())]);
         if let Some((name, _)) = given.into_iter().find(|(_, given)| *given && self.method == Method::Joint) {
             return Err(CommandError::Usage(format!("--{name} is a parameter of --method algorithm2")));
         }
-        let options = Options {
+        if (self.ratios || self.slack) && self.method == Method::Algorithm2 {
+            let name = if self.ratios { "ratios" } else { "slack" };
+            return Err(CommandError::Usage(format!(
+                "--{name} is for --method joint: Algorithm 2 knows no such thing"
+            )));
+        }
+        let most = usize::from(self.max_winches);
+        match &self.tendons {
+            TendonChoice::PerWinch(list) if list.len() > most => Err(CommandError::Usage(format!(
+                "--tendons {} is for {} winches, and there are at most {most}; give 1 to {most} numbers, or another --max-winches",
+                self.tendons,
+                list.len()
+            ))),
+            _ => Ok(()),
+        }
+    }
+
+    fn options(&self) -> Options {
+        Options {
             method: self.method.into(),
             rules: self.rules == Rules::Sewing,
+            trims: Trims { ratios: self.ratios, slack: self.slack },
             fresh: self.fresh,
             rounds: usize::from(self.rounds),
             seed: self.seed,
@@ -113,44 +233,26 @@ impl Rig {
             join_depth: self.join_depth,
             join_len: self.join_len,
             phi: self.phi,
-        };
-        if self.explore.explore {
-            return self.explore(design, edit, &Options { keep: false, ..options }, out, cancel);
         }
-        let mut printed = Ok(());
-        let mut told = None;
-        let mut progress = |step: &Progress| {
-            // A round without a gain says nothing new.
-            let gain = match step {
-                Progress::Rig(rigging::Progress::Round { worst, holes, .. }) => {
-                    Some((format!("{:.1}", 100.0 * worst), *holes))
-                }
-                Progress::Rig(_) | Progress::Proposals(_) => None,
-            };
-            let news = gain.is_none() || gain != told;
-            told = gain;
-            if printed.is_ok() && news {
-                printed = say_lines(out, &words::progress(step));
-            }
-        };
-        let mut context = Context::telling(cancel, &mut progress);
-        let rigged = rig::run(&mut design, &options, &mut context).map_err(|error| failed(&self.design, error))?;
-        printed?;
-        // What an interrupted search has found is not lost.
-        let go = AtomicBool::new(false);
-        edit.save(&design, if rigged.interrupted { &go } else { cancel })?;
+    }
+
+    fn tell(
+        &self,
+        out: &mut dyn Write,
+        design: &Design,
+        path: &Path,
+        told: &Told,
+        interrupted: bool,
+    ) -> Result<(), CommandError> {
         let tendons: usize = design.networks.iter().map(|n| n.tendons.len()).sum();
-        let ended = if rigged.interrupted { ", the best so far" } else { "" };
-        let winches = design.networks.len();
-        say(out, &format!("{}: {winches} winches, {tendons} tendons{ended}", shown(&self.target.output)))?;
-        for note in rigged.notes.iter().filter(|note| matches!(note, Note::AtRest { .. })) {
-            say(out, &format!("note: {note}"))?;
+        let (winches, path) = (design.networks.len(), shown(path));
+        if self.json {
+            let pose = |(name, error): &(String, f64)| PoseError { name: name.clone(), error_realizable: *error };
+            let poses = told.errors.iter().map(pose).collect();
+            return say_json(out, FORMAT, &Summary { design: path, winches, tendons, interrupted, poses });
         }
-        words::balanced(rigged.notes.iter().filter_map(|note| match note {
-            Note::Key(key::Note::Unbalanced(unbalanced)) => Some(unbalanced),
-            Note::AtRest { .. } => None,
-        }))?;
-        if rigged.interrupted { Err(CommandError::Cancelled) } else { Ok(()) }
+        let ended = if interrupted { ", the best so far" } else { "" };
+        say(out, &format!("{path}: {winches} winches, {tendons} tendons{ended}"))
     }
 }
 
@@ -168,36 +270,69 @@ impl Rig {
         let (mut points, mut printed) = (Vec::new(), Ok(()));
         let mut hear = |list: &[Arc<explore::Point>]| {
             points = list.to_vec();
+            let all = options.max_winches * most_tendons(&options.tendons);
+            progress::at(points.len(), all.max(points.len()), "rigs compared");
             if let (Some(last), Ok(())) = (list.last(), &printed) {
                 printed = say(out, &words::explored(last));
             }
         };
         let found = explore::run(&design, options, &mut hear, &mut Context::new(cancel));
         printed?;
-        if let (Err(Error::Cancelled(_)), false) = (&found, points.is_empty()) {
+        if let (Err(Error::Cancelled(_)), Some(best)) = (&found, best(&points)) {
             // Files are written by a run that ends by itself.
             say_lines(out, &super::explore::table(&points).text())?;
+            put(best, &mut design)?;
+            let path = edit.save_interrupted(&design, self.fresh)?;
+            return Err(interrupted(&path, &Told::default()));
         }
         let points = found.map_err(|error| failed(&self.design, error))?;
         files.tell(&points, out, cancel)?;
-        // Of equal ones the first: fewer winches and tendons.
-        let best = points.iter().min_by(|a, b| a.worst.total_cmp(&b.worst));
-        if let Some(best) = best {
-            best.rigged.clone().apply(&mut design).map_err(|error| CommandError::Failed(error.to_string()))?;
+        if let Some(best) = best(&points) {
+            put(best, &mut design)?;
         }
         edit.save(&design, cancel)?;
-        let tendons: usize = design.networks.iter().map(|n| n.tendons.len()).sum();
-        say(out, &format!("{}: {} winches, {tendons} tendons", shown(&self.target.output), design.networks.len()))
+        self.tell(out, &design, self.target.path(&self.design), &Told::default(), false)
     }
+}
+
+/// Of equal ones the first: fewer winches and tendons.
+fn best(points: &[Arc<explore::Point>]) -> Option<&Arc<explore::Point>> {
+    points.iter().min_by(|a, b| a.worst.total_cmp(&b.worst))
+}
+
+fn put(point: &explore::Point, design: &mut Design) -> Result<(), CommandError> {
+    point.rigged.clone().apply(design).map(drop).map_err(|error| CommandError::Failed(error.to_string()))
+}
+
+/// What an interrupted search leaves, and how to go on.
+fn interrupted(path: &Path, told: &Told) -> CommandError {
+    let path = shown(path);
+    let by = told.rounds.map_or(String::new(), |[round, rounds]| format!(" by round {round} of {rounds}"));
+    CommandError::Interrupted(format!(
+        "{path} has the best networks{by}; `plushwright check {path}` says how good they are, the same command with --fresh searches to the end"
+    ))
 }
 
 /// Why there is no rig for a design that was read from `path`.
 pub fn failed(path: &Path, error: Error) -> CommandError {
     match error {
         Error::Rig(RigError::NothingFound) => CommandError::NotConverged(error.to_string()),
+        Error::Rig(RigError::NoTargets) => {
+            let design = shown(path);
+            let advice = format!("`plushwright pose {design} --name P --target X,Y=X2,Y2` makes one");
+            CommandError::input(path, format!("{error}; {advice}"))
+        }
         Error::Rig(_) => CommandError::input(path, error),
         Error::Key(_) | Error::Edit(_) => CommandError::Failed(error.to_string()),
         Error::Cancelled(_) => CommandError::Cancelled,
+    }
+}
+
+/// Most tendons of a winch that may come of a choice.
+fn most_tendons(choice: &TendonChoice) -> usize {
+    match choice {
+        TendonChoice::Between(low, high) => high - low + 1,
+        TendonChoice::PerWinch(_) => 1,
     }
 }
 

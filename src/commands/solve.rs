@@ -1,13 +1,15 @@
 //! `solve`: one numerical question, as JSON.
 
 use super::error::{CommandError, check_cancel};
+use super::meant;
 use super::output::{Kind, Output, Replace, json, read_text, say_lines};
+use crate::files::shown;
 use crate::problem::{self, Document, Options, Problem, ProblemError, Quality};
 use crate::soft_ik;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
@@ -46,9 +48,6 @@ pub struct Solve {
     /// Answer statics and Soft IK too where the file has a drag
     #[arg(long)]
     pub all: bool,
-    /// Name ignored keys of the file on standard error
-    #[arg(long)]
-    pub verbose: bool,
     /// Say on standard error how long reading, solving and writing took
     #[arg(long)]
     pub times: bool,
@@ -100,9 +99,9 @@ impl Solve {
             self.output.as_deref().map(|path| Output::new(path, Kind::Answer, self.replace, inputs())).transpose()?;
         let mut clock = Stopwatch::start();
         let text = read_text(&self.problem)?;
-        let (problem, unknown) = problem::read(&text).map_err(|e| CommandError::input(&self.problem, e))?;
-        if self.verbose && !unknown.is_empty() {
-            eprintln!("plushwright: {}: ignored: {}", self.problem.display(), unknown.join(", "));
+        let (problem, unknown) = problem::read(&text).map_err(|error| unanswered(&self.problem, error))?;
+        if !unknown.is_empty() {
+            log::info!("{}: ignored: {}", shown(&self.problem), unknown.join(", "));
         }
         let reading = clock.lap();
         let answered = self.answer(problem, cancel)?;
@@ -159,4 +158,9 @@ impl Solve {
             ProblemError::Json(_) | ProblemError::Content { .. } => CommandError::input(&self.problem, error),
         }
     }
+}
+
+/// Why a file asks nothing, or the command that is meant where it is a design.
+pub fn unanswered(path: &Path, error: impl ToString) -> CommandError {
+    CommandError::input(path, meant::instead_of_question(path).unwrap_or_else(|| error.to_string()))
 }

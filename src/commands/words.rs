@@ -1,12 +1,13 @@
 //! What the core has to say, in the words of the command line: its options by name.
 
 use super::error::CommandError;
+use super::meant;
 use super::output::refused_folder;
 use crate::defaults;
 use crate::fabrication::ExportError;
 use crate::motion::MotionError;
 use crate::operations::explore::Point;
-use crate::operations::{Progress, Unbalanced, new_design, preview, reshape};
+use crate::operations::{NoSuchPose, Progress, Unbalanced, new_design, preview, reshape};
 use crate::outline::{Change, Changes, Note, OutlineError, Remedy};
 use crate::rigging;
 use serde::Serialize;
@@ -15,7 +16,7 @@ use std::path::Path;
 /// Why an outline made no design.
 pub fn unmade(path: &Path, error: new_design::Error) -> CommandError {
     match error {
-        new_design::Error::Outline(error) => CommandError::input(path, outline(&error)),
+        new_design::Error::Outline(error) => unread(path, &error),
         new_design::Error::Mesh(error) => CommandError::input(path, error),
         new_design::Error::Cancelled(_) => CommandError::Cancelled,
     }
@@ -33,21 +34,51 @@ pub fn unshown(path: &Path, error: preview::Error) -> CommandError {
 /// Why a design was not given another silhouette.
 pub fn unshaped(design: &Path, path: &Path, error: reshape::Error) -> CommandError {
     match error {
-        reshape::Error::Outline(error) => CommandError::input(path, outline(&error)),
+        reshape::Error::Outline(error) => unread(path, &error),
         reshape::Error::Mesh(error) => CommandError::input(path, error),
         reshape::Error::Edit(error) => CommandError::input(design, error),
         reshape::Error::Cancelled(_) => CommandError::Cancelled,
     }
 }
 
+/// Why a file gave no outline, and what is called alike where there is none.
+fn unread(path: &Path, error: &OutlineError) -> CommandError {
+    match meant::like(path) {
+        Some(advice) => CommandError::input(path, format!("{}; {advice}", outline(error))),
+        None => CommandError::input(path, outline(error)),
+    }
+}
+
+/// A pose that a design does not have, and the one that may be meant.
+pub fn no_such_pose(error: &NoSuchPose) -> CommandError {
+    let NoSuchPose { name, known } = error;
+    if known.is_empty() {
+        let advice = "the design has none yet; `plushwright pose` makes one";
+        return CommandError::Usage(format!("no pose `{name}`; {advice}"));
+    }
+    CommandError::Usage(match meant::closest(name, known.iter().map(String::as_str)) {
+        Some(pose) => format!("{error}; did you mean `{pose}`?"),
+        None => error.to_string(),
+    })
+}
+
 /// Why there is no blueprint of a design.
 pub fn unexported(design: &Path, error: ExportError) -> CommandError {
     match error {
         ExportError::Folder(error) => refused_folder(error),
-        ExportError::Motion(MotionError::TooFast { .. }) => {
+        ExportError::Motion(error) => unplanned(design, &error),
+        ExportError::NoNetworks => CommandError::input(design, format!("{error}; run `plushwright rig` first")),
+        error => CommandError::input(design, error),
+    }
+}
+
+/// Why motors cannot be told the animation of a design.
+pub fn unplanned(design: &Path, error: &MotionError) -> CommandError {
+    match error {
+        MotionError::TooFast { .. } => {
             CommandError::input(design, format!("{error}; move the keyframes apart, or use --stretch"))
         }
-        ExportError::NoNetworks => CommandError::input(design, format!("{error}; run `plushwright rig` first")),
+        MotionError::NoSuchFamily { .. } => CommandError::Usage(error.to_string()),
         error => CommandError::input(design, error),
     }
 }

@@ -18,6 +18,8 @@ pub const ALL: &[Bundled] = &[
     Bundled { name: "Squid", text: include_str!("../../examples/squid.plush") },
     Bundled { name: "E", text: include_str!("../../examples/e.plush") },
     Bundled { name: "S", text: include_str!("../../examples/s.plush") },
+    Bundled { name: "Star", text: include_str!("../../examples/star.plush") },
+    Bundled { name: "Cat", text: include_str!("../../examples/cat.plush") },
 ];
 
 impl Bundled {

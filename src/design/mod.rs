@@ -16,6 +16,7 @@ pub mod ranges;
 pub mod remesh;
 pub mod reshape;
 mod settings;
+mod sewable;
 #[cfg(test)]
 pub(crate) mod testing;
 pub mod texture;
@@ -28,7 +29,8 @@ pub use figures::MeshFigures;
 pub use file::FileError;
 pub use history::History;
 pub use settings::{
-    ControllerSettings, FabricationSettings, FiberSet, FiberSettings, Gravity, Material, TendonSettings, Term,
+    ControllerSettings, DriveSettings, FabricationSettings, FiberSet, FiberSettings, Gravity, Material, TendonSettings,
+    Term,
 };
 pub use validate::MAX_NAME_CHARS;
 pub use version::FORMAT_VERSION;

@@ -46,6 +46,13 @@ ranges! {
     SPEED: "controller.speed_rpm", "rpm", 1.0, 30000.0, "what the controllers take; the plan of the animation asks for no more than the field says";
     MOTOR_ACCELERATION: "controller.acceleration", "rev/s^2", 1.0, 30000.0, "as controller.speed_rpm";
     MOTOR_TORQUE: "controller.torque_nmm", "N mm", 1e-3, 1e6, "a car's winch has 1e6";
+    BAUD: "controller.drives.baud", "baud", 600.0, 115200.0, "what the controllers take";
+    CURRENT: "controller.drives.current_ma", "mA", 0.0, 50000.0, "0 leaves what the controller has";
+    DELAY_UNIT: "controller.drives.delay_unit_s", "s", 1e-4, 1.0, "believed 0.01";
+    SERVO_DEGREES: "controller.drives.servo_degrees", "degrees", 10.0, 3600.0, "sail winches turn ten times";
+    SERVO_LOW: "controller.drives.servo_low_us", "us", 100.0, 10000.0, "half of a period at 50 Hz";
+    SERVO_HIGH: "controller.drives.servo_high_us", "us", 100.0, 10000.0, "as the other end";
+    STEPS_PER_TURN: "controller.drives.steps_per_turn", "", 1.0, 1e7, "a geared stepper with 256 microsteps has 1e6";
     HOLE_TO_SEAM: "sewing.hole_to_seam_mm", "mm", 0.0, 1e3, "0 lifts the rule inside the body";
     HOLE_TO_HOLE: "sewing.hole_to_hole_mm", "mm", 0.0, 1e3, "0 lifts the rule";
     MOST_HOLES: "sewing.most_holes", "", 0.0, 1e4, "as many as a routing may have";

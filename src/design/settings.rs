@@ -85,6 +85,29 @@ pub struct ControllerSettings {
     /// Largest torque that the motor can keep up, N mm at the spool.
     #[serde(skip_serializing_if = "is_assumed")]
     pub torque_nmm: f64,
+    /// What the families of controllers differ in.
+    #[serde(skip_serializing_if = "super::is_default")]
+    pub drives: DriveSettings,
+}
+
+/// Settings of single families of motor controllers: what their manuals leave to the maker, or do not say.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct DriveSettings {
+    /// Speed of the line to Faulhaber controllers of the classic family, baud.
+    pub baud: u32,
+    /// Largest current of a motor with such a controller, mA, peak and continuous; 0 leaves what the controller has.
+    pub current_ma: u32,
+    /// Unit of `DELAY` in their stored programs, s.
+    pub delay_unit_s: f64,
+    /// Range of a hobby servo, degrees.
+    pub servo_degrees: f64,
+    /// Pulse that holds its horn at the beginning of the range, the cable just slack, microseconds.
+    pub servo_low_us: u32,
+    /// Pulse that holds it at the end, microseconds; less than the other one for a spool that winds the other way round.
+    pub servo_high_us: u32,
+    /// Steps of a stepper's driver for a turn of the spool, microsteps counted.
+    pub steps_per_turn: f64,
 }
 
 impl From<Gravity> for Term {
@@ -161,6 +184,21 @@ impl Default for ControllerSettings {
             speed_rpm: defaults::MOTOR_SPEED_RPM,
             acceleration: defaults::MOTOR_ACCELERATION,
             torque_nmm: defaults::MOTOR_TORQUE_NMM,
+            drives: DriveSettings::default(),
+        }
+    }
+}
+
+impl Default for DriveSettings {
+    fn default() -> Self {
+        Self {
+            baud: defaults::BAUD,
+            current_ma: defaults::MOTOR_CURRENT_MA,
+            delay_unit_s: defaults::DELAY_UNIT_S,
+            servo_degrees: defaults::SERVO_DEGREES,
+            servo_low_us: defaults::SERVO_PULSES_US[0],
+            servo_high_us: defaults::SERVO_PULSES_US[1],
+            steps_per_turn: defaults::STEPS_PER_TURN,
         }
     }
 }

@@ -6,7 +6,9 @@
 
 use super::fault::{Check, DesignError, Fault, at_least, fail, finite, require, same_length};
 use super::ranges::{self, Range, at_most};
-use super::{Design, FORMAT_VERSION, FiberSet, Keyframe, MaterialPoint, Network, Pin, Pose, Target, Tendon, Term};
+use super::{
+    Design, DriveSettings, FORMAT_VERSION, FiberSet, Keyframe, MaterialPoint, Network, Pin, Pose, Target, Tendon, Term,
+};
 use crate::files::is_hidden;
 use crate::mesh::{BodyPoint, Mesh};
 use crate::outline::{Point, polygon::signed_area};
@@ -158,7 +160,19 @@ fn made(design: &Design) -> Check {
     ranges::SPEED.check("controller.speed_rpm", f64::from(motor.speed_rpm))?;
     ranges::MOTOR_ACCELERATION.check("controller.acceleration", f64::from(motor.acceleration))?;
     ranges::MOTOR_TORQUE.check("controller.torque_nmm", motor.torque_nmm)?;
+    drives(&motor.drives)?;
     sewing(&design.sewing)
+}
+
+/// What single families of controllers are told.
+fn drives(drives: &DriveSettings) -> Check {
+    ranges::BAUD.check("controller.drives.baud", f64::from(drives.baud))?;
+    ranges::CURRENT.check("controller.drives.current_ma", f64::from(drives.current_ma))?;
+    ranges::DELAY_UNIT.check("controller.drives.delay_unit_s", drives.delay_unit_s)?;
+    ranges::SERVO_DEGREES.check("controller.drives.servo_degrees", drives.servo_degrees)?;
+    ranges::SERVO_LOW.check("controller.drives.servo_low_us", f64::from(drives.servo_low_us))?;
+    ranges::SERVO_HIGH.check("controller.drives.servo_high_us", f64::from(drives.servo_high_us))?;
+    ranges::STEPS_PER_TURN.check("controller.drives.steps_per_turn", drives.steps_per_turn)
 }
 
 /// What a hand is to sew.

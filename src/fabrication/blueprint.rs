@@ -1,26 +1,19 @@
 //! The files of a blueprint: every product by every writer, in memory and on the disk.
 
 use super::error::ExportError;
+use super::options::Options;
 use super::product::{Section, Source};
 use super::products::PRODUCTS;
 use super::writers;
 use crate::design::Design;
 use crate::files::folder::{self, FolderError, Listed, MANIFEST};
-use crate::motion::{self, TooFast, Trajectory};
+use crate::motion::{self, Trajectory};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
 const MANIFEST_FORMAT: &str = "plushwright-blueprint/1";
 /// The beginning of the format of an earlier export, whatever its version.
 const ANY_VERSION: &str = "plushwright-blueprint/";
-
-/// How a blueprint is made.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct Options {
-    /// Whether an animation that is too fast for the motors is refused or stretched.
-    pub too_fast: TooFast,
-}
 
 /// The contents of an export.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -74,7 +67,7 @@ pub fn blueprint(design: &Design, options: &Options) -> Result<(Vec<File>, Manif
         remarks.push(format!("Switched off and left out: {}.", off.join(", ")));
     }
     for make in PRODUCTS {
-        let source = Source { design, trajectory: &trajectory, sections: &sections, remarks: &remarks };
+        let source = Source { design, trajectory: &trajectory, options, sections: &sections, remarks: &remarks };
         let part = make(&source)?;
         let written: Vec<File> = part.products.iter().flat_map(writers::written).map(File::from).collect();
         sections.push(Section { files: written.iter().map(|file| file.name.clone()).collect(), guide: part.guide });

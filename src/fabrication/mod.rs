@@ -9,7 +9,7 @@
 //! | `pattern.svg` | front and mirrored back: `cut`, `stitch`, `note`, `reference` |
 //! | `routing.svg`, `routing.csv` | holes and tendons; enough for cables pulled by hand |
 //! | `tracks.csv` | cable wound by each winch over time; one row of zeros if the design has no keyframes |
-//! | `controller-ascii-setup.txt`, `-motion.txt`, `-stop.txt` | the commands that set up, wind and unwind, for controllers of the classic ASCII family |
+//! | `controller-<family>-setup`, `-motion`, `-stop` | the commands that set up, wind and unwind, for each of the [`families`](crate::motion::families) of controllers |
 //! | `README.txt` | how to use the files, and remarks on this design |
 //! | `manifest.json` | name, size and SHA-256 of every other file |
 //!
@@ -28,6 +28,7 @@ mod blueprint;
 mod cables;
 mod error;
 mod judge;
+mod options;
 mod product;
 pub mod products;
 mod sheet;
@@ -37,10 +38,10 @@ pub mod writers;
 
 pub use crate::files::folder::{Listed as ManifestFile, MANIFEST};
 pub use crate::files::sha256;
-pub use blueprint::{File, Manifest, Options, blueprint, export};
+pub use blueprint::{File, Manifest, blueprint, export};
 pub use cables::{holes, tendon_length_mm};
 pub use error::ExportError;
-pub use judge::{judge_design, judge_pose};
+pub use options::Options;
 pub use product::{Content, Part, Product, Section, Source};
 pub use sheet::{Anchor, Color, Entity, Group, Sheet, Style};
 pub use solid::Solid;

@@ -1,6 +1,7 @@
 //! Products of a blueprint: their inputs and their kinds.
 
 use super::error::ExportError;
+use super::options::Options;
 use super::sheet::Sheet;
 use super::solid::Solid;
 use super::table::Table;
@@ -23,8 +24,10 @@ pub enum Content {
     Solid(Solid),
     /// Figures.
     Table(Table),
-    /// Commands to motors.
-    Program(Program),
+    /// Commands to motors, in files that end so.
+    Program { program: Program, extension: &'static str },
+    /// A text for a machine, in a file that ends so.
+    Text { text: String, extension: &'static str },
     /// Words.
     Page(String),
 }
@@ -35,6 +38,7 @@ pub struct Source<'a> {
     /// Sound, with one network at least.
     pub design: &'a Design,
     pub trajectory: &'a Trajectory,
+    pub options: &'a Options,
     /// The parts before this one in the table of products.
     pub sections: &'a [Section],
     /// Their remarks.
@@ -60,6 +64,16 @@ pub struct Section {
 
 /// Makes a part: one line of the table of products.
 pub type Make = fn(&Source<'_>) -> Result<Part, ExportError>;
+
+impl Content {
+    /// What files of it end with, where that is not the writer's to say.
+    pub(super) fn extension(&self) -> Option<&'static str> {
+        match self {
+            Self::Program { extension, .. } | Self::Text { extension, .. } => Some(extension),
+            _ => None,
+        }
+    }
+}
 
 impl Product {
     pub fn new(name: impl Into<String>, content: Content) -> Self {

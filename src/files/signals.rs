@@ -1,5 +1,6 @@
 //! What signals may not do to a file that is being written.
 
+use std::io;
 use std::sync::{PoisonError, RwLock, RwLockReadGuard};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
@@ -24,6 +25,14 @@ pub fn before_exit() {
         }
         sleep(Duration::from_millis(5));
     }
+}
+
+/// Has an interrupt, a request to end or the end of the terminal do this instead of ending the program, on a thread of its own, each time.
+///
+/// # Errors
+/// What the system says; something listens already.
+pub fn on_interrupt(act: impl FnMut() + Send + 'static) -> io::Result<()> {
+    ctrlc::set_handler(act).map_err(io::Error::other)
 }
 
 /// Makes a limit on the size of files an error of the write that meets it. Otherwise the system ends the program there.

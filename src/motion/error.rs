@@ -1,5 +1,6 @@
 //! The errors of motion.
 
+use super::families;
 use super::limits::{MAX_COUNTS, MAX_NODES, MAX_RESOLUTION, MAX_STEPS};
 use thiserror::Error;
 
@@ -20,4 +21,20 @@ pub enum MotionError {
     TooManyWinches { winches: usize },
     #[error("controller.encoder_lines: 4 x {lines} is more than the {MAX_RESOLUTION} the controllers take")]
     EncoderTooFine { lines: u32 },
+    #[error("{winches} winches are more than the {most} {what}")]
+    TooManyOfAKind { winches: usize, most: usize, what: &'static str },
+    #[error(
+        "winch {winch:?} winds {travel_mm:.1} mm, {degrees:.0} degrees of its spool, beyond the {most:.0} degrees of {motor}: a spool of {radius_mm:.1} mm \
+         radius would do"
+    )]
+    BeyondTurn { winch: String, travel_mm: f64, degrees: f64, most: f64, motor: &'static str, radius_mm: f64 },
+    #[error("there are no controllers {name:?}; there are {}", names())]
+    NoSuchFamily { name: String },
+    #[error("controller.drives: servo_low_us and servo_high_us are both {us}: a servo needs two different ends")]
+    NoPulses { us: u32 },
+}
+
+/// All families, for people.
+fn names() -> String {
+    families::ALL.iter().map(|family| family.name).collect::<Vec<_>>().join(", ")
 }

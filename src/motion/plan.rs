@@ -116,6 +116,11 @@ impl Plan {
         }
     }
 
+    /// Its beginning and its end, s.
+    pub fn span_s(&self) -> [f64; 2] {
+        [self.times_s.first(), self.times_s.last()].map(|time| time.copied().unwrap_or(0.0))
+    }
+
     /// The steps of a track of this rate: each section in equal steps of at most `1 / rate_hz`, so that every keyframe is one, s.
     pub fn steps(&self, rate_hz: f64) -> Vec<f64> {
         let mut steps = vec![self.times_s.first().copied().unwrap_or(0.0)];

@@ -4,7 +4,6 @@ use super::posing::{self, solve};
 use super::{Cancelled, Context, NoSuchPose, Unbalanced, View};
 use crate::design::{Design, EditError, Pose, Target, TendonSettings, edit};
 use crate::engine::{FrictionPose, FrictionPoseError, Setpoint, Shape, Warning, pose_with_friction, target_error};
-use crate::fabrication::{judge_design, judge_pose};
 use crate::motion::winch_labels;
 use crate::rigging::{Sewn, sewn};
 use crate::sewing::Breach;
@@ -169,7 +168,7 @@ pub fn run(design: &Design, options: &Options, context: &Context) -> Result<Figu
         switched_off: design.muted_names().map(str::to_owned).collect(),
         body_length_mm: design.body_length_mm(),
         poses: Vec::new(),
-        sewing: judge_design(design).into_iter().map(|breach| unsewable(None, breach)).collect(),
+        sewing: design.breaches().into_iter().map(|breach| unsewable(None, breach)).collect(),
         notes: Vec::new(),
     };
     // Every pose shares its processors with the other draws.
@@ -220,7 +219,7 @@ fn pose_figures(design: &Design, pose: &Pose, friction: f64, context: &Context) 
         imbalance_idealized: idealized.distance_from_equilibrium(),
         imbalance_realizable: realizable.distance_from_equilibrium(),
     };
-    Ok(Posed { figures, outside: judge_pose(design, &realizable.nodes), notes })
+    Ok(Posed { figures, outside: design.breaches_in(&realizable.nodes), notes })
 }
 
 /// Errors of the realizable plushie under friction, pulled and let out, and why one of them is missing.

@@ -2,9 +2,8 @@
 
 use super::Context;
 use super::rig::{self, Error, Options, Rigged};
-use crate::design::{Design, Pose};
+use crate::design::{Design, Pose, Tendon};
 use crate::engine::target_error;
-use crate::outline::polygon;
 use crate::rigging::{Checked, Method, RigError, TendonChoice};
 use crate::threads::in_order;
 use serde::Serialize;
@@ -109,16 +108,12 @@ fn point(design: &Design, winches: usize, tendons: usize, rigged: Rigged, contex
     });
     context.check()?;
     let cables = rigged.networks.iter().flat_map(|network| &network.tendons);
-    let length = |routing: &[crate::design::MaterialPoint]| -> f64 {
-        let places: Vec<_> = routing.iter().map(|point| point.place(&design.mesh.nodes)).collect();
-        places.windows(2).map(|s| polygon::length(s[0], s[1])).sum()
-    };
     Ok(Point {
         winches,
         tendons,
         takes: [rigged.networks.len(), cables.clone().count()],
-        holes: cables.clone().map(|tendon| tendon.routing.len().saturating_sub(2)).sum(),
-        thread_mm: cables.map(|tendon| length(&tendon.routing)).sum(),
+        holes: cables.clone().map(Tendon::holes).sum(),
+        thread_mm: cables.map(|tendon| tendon.cable_mm(&design.mesh.nodes)).sum(),
         worst: poses.iter().map(|pose| pose.error / pose.rest.max(f64::MIN_POSITIVE)).fold(0.0, f64::max),
         poses,
         rigged,

@@ -14,6 +14,7 @@
 //! | [`key`] | a pose to a keyframe of winch activations |
 //! | [`check`] | a design to its figures |
 //! | [`export`] | a design to the folder of its blueprint |
+//! | [`play`] | a design to motors that play its animation |
 //! | [`render`] | a design to a picture of both plushies |
 //!
 //! An operation has `Options` (with a default, and readable from a file), runs under a [`Context`], and fails with an `Error` of its own.
@@ -48,6 +49,7 @@ mod fibers;
 pub mod key;
 pub mod network;
 pub mod new_design;
+pub mod play;
 pub mod pose;
 mod posing;
 pub mod preview;

@@ -2,7 +2,7 @@
 
 use super::posing::{self, solve};
 use super::{Cancelled, Context, NoSuchPose, Unbalanced};
-use crate::design::animation::activations_at;
+use crate::design::animation::{SAME_TIME_S, activations_at, duration_s};
 use crate::design::texture::find;
 use crate::design::{Design, file};
 use crate::engine::{Setpoint, Shape};
@@ -47,6 +47,9 @@ pub enum Error {
     NoSuchPose(#[from] NoSuchPose),
     #[error("the design has no keyframes to show")]
     NoKeyframes,
+    /// A time at which there is no animation, s.
+    #[error("the animation goes from {from_s} to {to_s} s; there is nothing at {time_s} s")]
+    OutsideTimeline { time_s: f64, from_s: f64, to_s: f64 },
     #[error("{0}")]
     Picture(String),
     #[error(transparent)]
@@ -86,12 +89,15 @@ pub struct Rendered {
 /// from, beside which its texture is.
 ///
 /// # Errors
-/// There is no such pose or no animation; the picture is too large for the memory; [`Error::Cancelled`].
+/// There is no such pose, no animation, or none at that time; the picture is too large for the memory; [`Error::Cancelled`].
 pub fn run(design: &Design, from: &Path, options: &Options, context: &Context) -> Result<Rendered, Error> {
     let (setpoint, place) = match &options.what {
         What::Rest => (Setpoint::Targets(Vec::new()), "rest".to_owned()),
         What::Pose(pose) => (Setpoint::Targets(posing::targets(design, pose)?), pose.clone()),
         What::Time(_) if design.keyframes.is_empty() => return Err(Error::NoKeyframes),
+        What::Time(time) if !(-SAME_TIME_S..=duration_s(design) + SAME_TIME_S).contains(time) => {
+            return Err(Error::OutsideTimeline { time_s: *time, from_s: 0.0, to_s: duration_s(design) });
+        }
         What::Time(time) => (Setpoint::Activations(activations_at(design, *time)), format!("{time} s")),
     };
     let mut notes = Vec::new();

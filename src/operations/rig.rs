@@ -10,7 +10,7 @@ use crate::rigging::{self, RigError};
 use std::fmt;
 use std::sync::atomic::AtomicBool;
 
-pub use crate::rigging::{Method, RigOptions as Options, TendonChoice};
+pub use crate::rigging::{Method, RigOptions as Options, TendonChoice, Trims};
 
 /// Why there is no rig.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

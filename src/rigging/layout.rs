@@ -4,6 +4,7 @@ use crate::design::{MaterialPoint, Network, Tendon};
 use crate::mesh::{BodyPoint, Mesh};
 use crate::outline::Point;
 use crate::sewing;
+use std::ops::{Deref, DerefMut};
 
 /// Winches and their cables, mm.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -11,11 +12,41 @@ pub struct Layout {
     pub winches: Vec<Placed>,
 }
 
-/// A winch and its cables: the points of each after the winch, its end the last.
+/// A winch and its cables.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placed {
     pub at: Point,
-    pub cables: Vec<Vec<Point>>,
+    pub cables: Vec<Cable>,
+}
+
+/// A cable: its points after the winch, the end the last, and how it is wound.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cable {
+    points: Vec<Point>,
+    /// Radius of its groove as a part of the spool's.
+    pub ratio: f64,
+    /// At assembly, mm.
+    pub slack_mm: f64,
+}
+
+impl From<Vec<Point>> for Cable {
+    fn from(points: Vec<Point>) -> Self {
+        Self { points, ratio: 1.0, slack_mm: 0.0 }
+    }
+}
+
+impl Deref for Cable {
+    type Target = Vec<Point>;
+
+    fn deref(&self) -> &Self::Target {
+        &self.points
+    }
+}
+
+impl DerefMut for Cable {
+    fn deref_mut(&mut self) -> &mut Self::Target {
+        &mut self.points
+    }
 }
 
 /// A point of a layout: a winch, or a point of one of its cables.
@@ -28,11 +59,16 @@ pub struct Spot {
 impl Layout {
     /// Where networks are that somebody else made.
     pub fn of(networks: &[Network], mesh: &Mesh) -> Self {
-        let placed = |rig: sewing::Rig| Placed {
-            at: rig.winch,
-            cables: rig.cables.into_iter().map(|cable| cable.into_iter().skip(1).collect()).collect(),
+        let cable = |tendon: &Tendon| Cable {
+            points: tendon.places(&mesh.nodes).split_off(1),
+            ratio: tendon.ratio,
+            slack_mm: tendon.slack_mm,
         };
-        Self { winches: rigs_of(networks, mesh).into_iter().map(placed).collect() }
+        let placed = |network: &Network| {
+            let cables = network.tendons.iter().map(cable).collect();
+            Some(Placed { at: network.winch()?.place(&mesh.nodes), cables })
+        };
+        Self { winches: networks.iter().filter_map(placed).collect() }
     }
 
     /// All points that can be moved: each winch, then the points of its cables.
@@ -72,7 +108,7 @@ impl Layout {
             let winch = points.next();
             let tendons = placed.cables.iter().map(|cable| {
                 let routing = winch.iter().cloned().chain(points.by_ref().take(cable.len())).collect();
-                Tendon { routing, ratio: 1.0, slack_mm: 0.0 }
+                Tendon { routing, ratio: cable.ratio, slack_mm: cable.slack_mm }
             });
             Network::new("", tendons.collect())
         });
@@ -81,7 +117,7 @@ impl Layout {
 
     /// As the rules of sewing see it.
     pub fn rigs(&self) -> Vec<sewing::Rig> {
-        let whole = |placed: &Placed, cable: &Vec<Point>| [&[placed.at], &cable[..]].concat();
+        let whole = |placed: &Placed, cable: &Cable| [&[placed.at], &cable[..]].concat();
         let rig = |placed: &Placed| sewing::Rig {
             winch: placed.at,
             cables: placed.cables.iter().map(|cable| whole(placed, cable)).collect(),
@@ -96,11 +132,6 @@ impl Layout {
 }
 
 /// Networks that are there, as the rules of sewing see them.
-pub fn rigs_of(networks: &[Network], mesh: &Mesh) -> Vec<sewing::Rig> {
-    let place = |point: &MaterialPoint| point.place(&mesh.nodes);
-    let rigs = networks.iter().filter_map(|network| {
-        let cables = network.tendons.iter().map(|t| t.routing.iter().map(place).collect());
-        Some(sewing::Rig { winch: place(network.winch()?), cables: cables.collect() })
-    });
-    rigs.collect()
+pub fn rigs_of(networks: &[Network], nodes: &[Point]) -> Vec<sewing::Rig> {
+    networks.iter().filter_map(|network| network.rig(nodes)).collect()
 }

@@ -12,7 +12,7 @@
 //! are slack. Around rest the model is far from large motions, but says which way a cable pulls at all; around what a layout reaches
 //! already, it says which change of that layout is worth a simulation.
 
-use super::layout::{Layout, rigs_of};
+use super::layout::{Cable, Layout, Placed};
 use super::refine::{Fit, Task};
 use crate::engine::compile::{compile_with, objective};
 use crate::mesh::Mesh;
@@ -31,7 +31,7 @@ const YIELDING: f64 = 1e-3;
 pub struct Linear<'a> {
     mesh: &'a Mesh,
     /// Winches that stay, and their cables.
-    fixed: Vec<(Point, Vec<Vec<Point>>)>,
+    fixed: Layout,
     states: Vec<State>,
     /// Which state is a pose's: around rest all have the same.
     poses: Vec<Pose>,
@@ -61,6 +61,7 @@ struct Taut {
     gradient: Vec<(usize, f64)>,
     gap: f64,
     winch: usize,
+    ratio: f64,
 }
 
 impl<'a> Linear<'a> {
@@ -115,24 +116,18 @@ impl<'a> Linear<'a> {
             }
             poses.push(Pose { state, back, rows, way, whole: *whole });
         }
-        let fixed = rigs_of(task.fixed, mesh).into_iter().map(|rig| {
-            let cables = rig.cables.into_iter().map(|cable| cable[1.min(cable.len())..].to_vec()).collect();
-            (rig.winch, cables)
-        });
-        Some(Self { mesh, fixed: fixed.collect(), states, poses })
+        Some(Self { mesh, fixed: Layout::of(task.fixed, mesh), states, poses })
     }
 
     /// The squared way that is left of every pose, as a part of the whole, squared again and summed: as `C` counts. Infinite for a
     /// layout outside of the body.
     pub fn left(&self, layout: &Layout) -> f64 {
-        let own = layout.winches.iter().map(|placed| (placed.at, placed.cables.as_slice()));
-        let winches: Vec<(Point, &[Vec<Point>])> =
-            self.fixed.iter().map(|(at, cables)| (*at, cables.as_slice())).chain(own).collect();
+        let winches: Vec<&Placed> = self.fixed.winches.iter().chain(&layout.winches).collect();
         let taut = |state: &State| -> Option<Vec<Taut>> {
             let cables = winches
                 .iter()
                 .enumerate()
-                .flat_map(|(winch, (at, cables))| cables.iter().map(move |cable| self.taut(state, winch, *at, cable)));
+                .flat_map(|(winch, placed)| placed.cables.iter().map(move |c| self.taut(state, winch, placed.at, c)));
             cables.collect()
         };
         let Some(taut) = self.states.iter().map(taut).collect::<Option<Vec<_>>>() else { return f64::INFINITY };
@@ -143,10 +138,10 @@ impl<'a> Linear<'a> {
         self.poses.iter().map(left).sum()
     }
 
-    fn taut(&self, state: &State, winch: usize, at: Point, cable: &[Point]) -> Option<Taut> {
-        let mut out = Taut { gradient: Vec::new(), gap: 0.0, winch };
+    fn taut(&self, state: &State, winch: usize, at: Point, cable: &Cable) -> Option<Taut> {
+        let mut out = Taut { gradient: Vec::new(), gap: cable.slack_mm, winch, ratio: cable.ratio };
         let mut before: Option<(Point, Point, crate::mesh::BodyPoint)> = None;
-        for &p in std::iter::once(&at).chain(cable) {
+        for &p in std::iter::once(&at).chain(cable.iter()) {
             let body = self.mesh.locate(p, &self.mesh.nodes)?;
             let corners = self.mesh.triangles[body.triangle];
             let mut here = [0.0; 2];
@@ -200,7 +195,7 @@ impl Pose {
             // Tensions by the winding of each winch.
             let by_winch: Vec<DVector<f64>> = (0..winches)
                 .map(|w| {
-                    let pulled = taut.iter().map(|&c| if cables[c].winch == w { 1.0 } else { 0.0 });
+                    let pulled = taut.iter().map(|&c| if cables[c].winch == w { cables[c].ratio } else { 0.0 });
                     factor.solve(&DVector::from_iterator(m, pulled))
                 })
                 .collect();

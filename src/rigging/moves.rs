@@ -1,6 +1,6 @@
 //! Random layouts, and random changes of one.
 
-use super::layout::{Layout, Placed, Spot};
+use super::layout::{Cable, Layout, Placed, Spot};
 use super::sewable::Sewable;
 use crate::mesh::Mesh;
 use crate::outline::{Point, polygon};
@@ -121,13 +121,13 @@ impl<'a> Sampler<'a> {
         best.map_or_else(|| vec![to], |(_, way)| way)
     }
 
-    fn cable(&self, winch: Point, most_holes: usize, random: &mut Random) -> Vec<Point> {
+    fn cable(&self, winch: Point, most_holes: usize, random: &mut Random) -> Cable {
         let end = self.hole(random);
         let mut way = self.way(winch, end, most_holes, random);
         if way.len() == 1 && most_holes > 0 && random.index(3) == 0 {
             way.insert(0, self.aside(winch, end, random));
         }
-        way
+        way.into()
     }
 
     /// A point beside the middle of a piece.
@@ -192,7 +192,8 @@ impl<'a> Sampler<'a> {
             6 => {
                 let points = &mut new.winches[winch].cables[cable];
                 if points.len() > 1 {
-                    points.remove(random.index(points.len()));
+                    let k = random.index(points.len());
+                    points.remove(k);
                 }
             }
             7 => new.winches[winch].at = self.winch(random),

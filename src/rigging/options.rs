@@ -15,6 +15,7 @@ pub struct RigOptions {
     pub fresh: bool,
     /// Whether the rules of sewing are kept ([`Method::Joint`] alone).
     pub rules: bool,
+    pub trims: Trims,
     /// Rounds of search, and the seed of its random numbers ([`Method::Joint`] alone).
     pub rounds: usize,
     pub seed: u64,
@@ -35,6 +36,7 @@ impl Default for RigOptions {
             method: Method::default(),
             fresh: false,
             rules: true,
+            trims: Trims::default(),
             rounds: defaults::RIG_ROUNDS,
             seed: 1,
             keep: false,
@@ -46,6 +48,16 @@ impl Default for RigOptions {
             phi: None,
         }
     }
+}
+
+/// What else of a cable is searched for than its way ([`Method::Joint`] alone).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Trims {
+    /// The radius of its groove, as a part of the spool's: spools of several radii.
+    pub ratios: bool,
+    /// Slack at assembly: a cable that pulls later than the others of its winch.
+    pub slack: bool,
 }
 
 /// How networks are looked for.

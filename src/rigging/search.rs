@@ -3,7 +3,7 @@
 use super::candidate::unused_name;
 use super::checked::Checked;
 use super::greedy;
-use super::joint::Joint;
+use super::joint::{Breadth, Joint};
 use super::layout::{Layout, rigs_of};
 use super::moves::{Sampler, Topology};
 use super::options::{Method, Progress, RigError, RigOptions, TendonChoice};
@@ -27,6 +27,8 @@ const FINE: usize = 700;
 const FINALISTS: usize = 5;
 /// Steps by which the worst pose is improved in the end.
 const SHARPENING: usize = 40;
+/// The best of those are improved for what a hand makes of them, too.
+const STEADIED: usize = 3;
 /// Rounds after which islands are left for new ones, if none has left less than this part of the worst pose's error.
 const PATIENCE: usize = 25;
 const GAIN: f64 = 0.99;
@@ -75,26 +77,11 @@ fn together(
     let coarse = coarser(design);
     let searched = coarse.as_ref().unwrap_or(design);
     let found = layouts(searched, options, &topology, progress, cancel)?;
-    // What was found before the end is judged all the same, in a moment.
-    let (ended, go) = (options.keep && cancel.load(atomic::Ordering::Relaxed), AtomicBool::new(false));
-    let cancel = if ended { &go } else { cancel };
-    let found: Vec<Fit> = match coarse {
-        None => found,
-        Some(_) => {
-            let (outline, stop) = (rim(&design.mesh), || cancel.load(atomic::Ordering::Relaxed));
-            let sewable = sewable(design, &outline);
-            let task = Task::new(design, options.rules.then_some(&sewable), &design.networks);
-            in_order(&found, |fit| task.transferred(fit, &stop)).into_iter().flatten().collect()
-        }
-    };
-    let verified = in_order(&found, |fit| verified(design, fit, options.rules && !ended, cancel));
-    if cancel.load(atomic::Ordering::Relaxed) {
-        return Err(RigError::Cancelled);
-    }
+    let verified = judged(design, &found, coarse.is_some(), options, cancel)?;
     let worst =
         |poses: &[Verified], error: fn(&Verified) -> f64| poses.iter().map(|p| error(p) / p.rest).fold(0.0, f64::max);
     // As a hand sews it where it should, with friction where the design has it; a rig that has no figure there is the last choice.
-    let real = |p: &Verified| p.sewn.map_or(p.real, |sewn| sewn.median.max(p.real));
+    let real = |p: &Verified| p.sewn.map_or(p.real, |sewn| (0.5 * (sewn.median + sewn.worst)).max(p.real));
     let order = |poses: &[Verified]| (worst(poses, real), worst(poses, |p| p.error));
     let best = verified.into_iter().min_by(|a, b| order(&a.1).partial_cmp(&order(&b.1)).unwrap_or(Ordering::Equal));
     let Some((rigged, poses)) = best.filter(|(_, poses)| helps(poses)) else {
@@ -105,6 +92,47 @@ fn together(
     let errors = poses.into_iter().map(|pose| (pose.name, pose.error)).collect();
     progress(Progress::Found { winches: rigged.networks.len() - design.networks.len(), tendons, errors, sewn });
     Ok(rigged)
+}
+
+/// What a check says of the layouts that were found, on the design's own mesh. Where that is interrupted, and results are kept, the best
+/// layout is judged all the same, in a moment: without what sewing by hand costs.
+fn judged(
+    design: &Design,
+    found: &[Fit],
+    coarse: bool,
+    options: &RigOptions,
+    cancel: &AtomicBool,
+) -> Result<Vec<(Design, Vec<Verified>)>, RigError> {
+    let is_raised = || cancel.load(atomic::Ordering::Relaxed);
+    if !is_raised() {
+        let verified = judge(design, found, coarse, options, options.rules, cancel);
+        if !is_raised() {
+            return Ok(verified);
+        }
+    }
+    let best = &found[..found.len().min(1)];
+    if options.keep {
+        Ok(judge(design, best, coarse, options, false, &AtomicBool::new(false)))
+    } else {
+        Err(RigError::Cancelled)
+    }
+}
+
+fn judge(
+    design: &Design,
+    found: &[Fit],
+    coarse: bool,
+    options: &RigOptions,
+    sewn: bool,
+    cancel: &AtomicBool,
+) -> Vec<(Design, Vec<Verified>)> {
+    let (outline, stop) = (rim(&design.mesh), || cancel.load(atomic::Ordering::Relaxed));
+    let sewable = sewable(design, &outline);
+    let task = Task::new(design, options.rules.then_some(&sewable), &design.networks).trimming(options.trims);
+    // What was found on a coarse mesh is improved on the body's own.
+    let moved =
+        coarse.then(|| in_order(found, |fit| task.transferred(fit, &stop)).into_iter().flatten().collect::<Vec<Fit>>());
+    in_order(moved.as_deref().unwrap_or(found), |fit| verified(design, fit, sewn, cancel))
 }
 
 /// How many winches and tendons there may be.
@@ -130,8 +158,8 @@ pub(super) fn coarser(design: &Design) -> Option<Design> {
 
 /// The rules for new networks beside those that are there.
 pub(super) fn sewable<'a>(design: &'a Design, rim: &'a Outline) -> Sewable<'a> {
-    let gap_mm = design.fabrication.turning_gap_mm;
-    Sewable::new(design.sewing, &design.outline, rim, gap_mm, rigs_of(&design.networks, &design.mesh))
+    let gap_mm = design.turning_gap_mm();
+    Sewable::new(design.sewing, &design.outline, rim, gap_mm, rigs_of(&design.networks, &design.mesh.nodes))
 }
 
 /// The best few layouts that a search finds on the design's own mesh; those that keep the rules, where any do.
@@ -144,15 +172,16 @@ fn layouts(
 ) -> Result<Vec<Fit>, RigError> {
     let (outline, stop) = (rim(&design.mesh), || cancel.load(atomic::Ordering::Relaxed));
     let sewable = sewable(design, &outline);
-    let lawful = Task::new(design, Some(&sewable), &design.networks);
-    let free = Task::new(design, None, &design.networks);
+    let lawful = Task::new(design, Some(&sewable), &design.networks).trimming(options.trims);
+    let free = Task::new(design, None, &design.networks).trimming(options.trims);
     // Nothing to build, or every pose is at rest already.
     if topology.tendons.is_empty() || lawful.poses.is_empty() {
         return Ok(Vec::new());
     }
     let samplers = [Some(&sewable), None].map(|sewable| Sampler::new(&design.mesh, sewable));
     let school = Topology { most_holes: design.sewing.most_holes, ..topology.clone() };
-    let mut joint = Joint::new(&lawful, &samplers[0], school.clone(), options.seed, &stop);
+    let breadth = if options.rules { Breadth::RULES } else { Breadth::FREE };
+    let mut joint = Joint::new(&lawful, &samplers[0], school.clone(), breadth, options.seed, &stop);
     let (mut best, mut since, mut lawfully, mut begun) = (f64::INFINITY, 0, true, 0);
     for round in 0..options.rounds {
         let schooled = round - begun >= (options.rounds - begun) / 2;
@@ -189,6 +218,16 @@ fn layouts(
     let mut finished = in_order(&joint.finalists(FINALISTS), |fit| {
         task.sharpened(pruned(task, topology, joint.finished(fit, &stop), &stop), SHARPENING, &stop)
     });
+    if stop() {
+        return so_far(joint.best(), options);
+    }
+    if options.rules {
+        let mut best: Vec<&Fit> = finished.iter().collect();
+        best.sort_by(|a, b| a.worst().total_cmp(&b.worst()));
+        best.truncate(STEADIED);
+        let steadied = in_order(&best, |fit| task.steadied(Fit::clone(fit), &stop));
+        finished.extend(steadied);
+    }
     if stop() {
         return so_far(joint.best(), options);
     }

@@ -220,7 +220,7 @@ mod tests {
         let mut point = || [random.between(-10.0, 210.0), random.between(-10.0, 210.0)];
         let winch = |count: usize, point: &mut dyn FnMut() -> Point| Placed {
             at: point(),
-            cables: (0..count).map(|k| (0..=k).map(|_| point()).collect()).collect(),
+            cables: (0..count).map(|k| (0..=k).map(|_| point()).collect::<Vec<_>>().into()).collect(),
         };
         Layout { winches: [1, 2, 3].map(|count| winch(count, &mut point)).to_vec() }
     }

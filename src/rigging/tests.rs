@@ -1,6 +1,6 @@
 //! The joint search on a bar that bends: slopes, what is reached, rules kept, the same bits.
 
-use super::joint::Joint;
+use super::joint::{Breadth, Joint};
 use super::layout::{Layout, Placed};
 use super::linear_score::Linear;
 use super::moves::{Sampler, Topology};
@@ -39,7 +39,7 @@ pub(super) fn bar(fibers: usize) -> Design {
 }
 
 fn layout() -> Layout {
-    let winch = |y: f64, end: f64| Placed { at: [40.0, 30.0], cables: vec![vec![[120.0, y], [210.0, end]]] };
+    let winch = |y: f64, end: f64| Placed { at: [40.0, 30.0], cables: vec![vec![[120.0, y], [210.0, end]].into()] };
     Layout { winches: vec![winch(48.0, 44.0), winch(12.0, 18.0)] }
 }
 
@@ -88,7 +88,7 @@ fn the_search_keeps_every_rule_and_gives_the_same_bits() {
     let sampler = Sampler::new(&design.mesh, Some(&sewable));
     let topology = Topology { tendons: vec![[1, 1]; 2], most_holes: 4 };
     let search = || {
-        let mut joint = Joint::new(&task, &sampler, topology.clone(), 7, GO);
+        let mut joint = Joint::new(&task, &sampler, topology.clone(), Breadth::RULES, 7, GO);
         (0..2).for_each(|_| joint.advance(GO));
         joint.finalists(1).remove(0)
     };

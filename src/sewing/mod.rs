@@ -4,7 +4,7 @@
 //! a cable passes the felt or ends in it, the winch's included; a *piece* is the straight stretch of cable between two holes; a *turn* is
 //! the angle between two pieces at a hole. One exception: pieces stay inside the body in the poses too ([`judge_pieces`]).
 //!
-//! The figures of the rules are settings of a design. `fabrication::judge_design` asks whether its networks keep them; the check, the
+//! The figures of the rules are settings of a design. `Design::breaches` asks whether its networks keep them; the check, the
 //! blueprint's remarks and the studio's list of networks tell. A new rule is one file with its function, a line in [`judge`], a kind of
 //! [`Breach`] with its [`Words`], and its [`Facts`] for other programs.
 

@@ -7,6 +7,7 @@ pub use super::session::FileAction;
 use super::session::{Overlay, Renamed, Resolution, RigChoice, Selection, Task};
 use crate::engine::Quality;
 use crate::operations::network::Part;
+use crate::operations::play;
 use crate::outline::Point;
 use crate::outline::drawing::Item;
 use crate::picture::Stage;
@@ -33,6 +34,10 @@ pub enum Action {
     MovePart(Part, Point),
     /// Winds a winch by hand to so many mm of cable.
     Wind(usize, f64),
+    /// Winds a motor that is driven live to so many mm of cable.
+    WindMotor(usize, f64),
+    /// The line to the motors that is wanted.
+    SetMotors(play::Options),
     SelectPose(Option<usize>),
     Select(Selection),
     SetQuality(Quality),

@@ -14,6 +14,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
+/// How often a window that drives motors shows that it is there.
+const WATCH: Duration = Duration::from_millis(100);
+
 pub struct Studio {
     session: Session,
     timeline: panels::timeline::State,
@@ -77,6 +80,10 @@ impl Studio {
         let (now_s, passed_s, hands_off) = ctx
             .input(|i| (i.time, f64::from(i.stable_dt), !i.pointer.any_down() && i.pointer.press_origin().is_none()));
         let typing = ctx.text_edit_focused();
+        // Whatever else Escape means, motors that are driven live stop.
+        if ctx.input(|i| i.key_pressed(egui::Key::Escape)) {
+            acts::motors::stop(&mut self.session);
+        }
         let was_drawing = self.tools.is_drawing(&self.session);
         self.session.sketching.waits = was_drawing;
         acts::tick::tick(&mut self.session, now_s, passed_s, hands_off && !typing);
@@ -163,6 +170,10 @@ impl Studio {
     fn keep_awake(&self, ctx: &egui::Context) {
         if self.session.playback.playing {
             ctx.request_repaint();
+        }
+        // A window that shows nothing is lost, and its motors stop.
+        if self.session.motors.remote.is_some() {
+            ctx.request_repaint_after(WATCH);
         }
         if let Some(after) = self.session.safety.due {
             ctx.request_repaint_after(after);

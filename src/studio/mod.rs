@@ -154,7 +154,7 @@ fn end_when_asked(ctx: egui::Context) {
         std::process::exit(ENDED);
     };
     // Without it such an end is like a kill: what was kept is offered at the next start.
-    let _ = ctrlc::set_handler(asked);
+    let _ = crate::files::on_interrupt(asked);
 }
 
 /// On other systems there always is one.

@@ -7,7 +7,6 @@ use crate::engine::Quality;
 use crate::files::{self, sha256};
 use crate::picture::Shown;
 use crate::picture::palette::Theme;
-use etcetera::BaseStrategy;
 use serde::{Deserialize, Serialize};
 use std::fs::{self, File};
 use std::io;
@@ -92,9 +91,7 @@ fn write_down(store: &Store, receive: &Receiver<Settings>) {
 impl Store {
     /// That of the platform; none where there is no home.
     pub fn of_platform() -> Option<Self> {
-        let strategy = etcetera::choose_base_strategy().ok()?;
-        let folder = strategy.state_dir().unwrap_or_else(|| strategy.data_dir());
-        Some(Self::at(folder.join("plushwright")))
+        files::state_folder().map(Self::at)
     }
 
     pub fn at(root: impl Into<PathBuf>) -> Self {
@@ -104,11 +101,7 @@ impl Store {
     /// A folder below, made where it is missing, for this user alone.
     pub(super) fn folder(&self, name: &str) -> io::Result<PathBuf> {
         let folder = self.root.join(name);
-        let mut builder = fs::DirBuilder::new();
-        builder.recursive(true);
-        #[cfg(unix)]
-        std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
-        builder.create(&folder)?;
+        files::make_private(&folder)?;
         Ok(folder)
     }
 

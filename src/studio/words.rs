@@ -2,7 +2,7 @@
 
 use crate::fabrication::ExportError;
 use crate::motion::MotionError;
-use crate::operations::{MoreFibers, Progress, key, new_design, preview, remesh, reshape, rig};
+use crate::operations::{MoreFibers, Progress, key, new_design, play, preview, remesh, reshape, rig};
 use crate::outline::{Change, Changes, Note, OutlineError, Remedy};
 use crate::rigging::{self, RigError};
 
@@ -22,6 +22,17 @@ pub fn note(note: &Note) -> String {
 /// Why a file gave no outline, and the control that may help.
 pub fn outline(error: &OutlineError) -> String {
     error.remedy().map_or_else(|| error.to_string(), |remedy| format!("{error}; {}", control(remedy)))
+}
+
+/// Why motors do not play.
+pub fn unplayed(error: &play::Error) -> String {
+    match error {
+        play::Error::Motion(MotionError::TooFast { .. }) => {
+            format!("{error}; move the keyframes apart, or choose “{STRETCH}”")
+        }
+        play::Error::NoNetworks => format!("{error}: propose networks for a pose, or rig all poses"),
+        error => error.to_string(),
+    }
 }
 
 /// What the dialog of the import has.

@@ -178,6 +178,19 @@ fn only_the_commands_name_options_of_the_command_line() {
     }
 }
 
+#[test]
+fn only_the_room_of_files_asks_which_system_it_is_on() {
+    // Whether there is a display, and what a key is called there.
+    const WINDOW: [&str; 3] = ["studio/mod.rs", "studio/session/files.rs", "studio/commands/command.rs"];
+    const SYSTEMS: [&str; 5] = ["cfg(unix", "cfg(windows", "cfg(target_os", "cfg!(target_os", "std::os::"];
+    let others = |source: &Source| source.room() != "files" && !WINDOW.contains(&source.path.as_str());
+    for source in sources().iter().filter(|source| others(source)) {
+        let code = source.code.split("#[cfg(test)]").next().unwrap_or_default();
+        let named: Vec<&&str> = SYSTEMS.iter().filter(|name| code.contains(**name)).collect();
+        assert!(named.is_empty(), "src/{} has {named:?}: paths, files and signals are the room of files'", source.path);
+    }
+}
+
 /// A file that grows beyond this many lines may hold two ideas. Worth a look, not a failure.
 const LONG: usize = 400;
 

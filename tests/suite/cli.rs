@@ -4,9 +4,25 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-const COMMANDS: [&str; 16] = [
-    "demo", "new", "mesh", "remesh", "reshape", "drawing", "pose", "rig", "network", "key", "check", "export",
-    "render", "solve", "discover", "bench",
+const COMMANDS: [&str; 18] = [
+    "demo",
+    "new",
+    "mesh",
+    "remesh",
+    "reshape",
+    "drawing",
+    "pose",
+    "rig",
+    "network",
+    "key",
+    "check",
+    "export",
+    "render",
+    "solve",
+    "discover",
+    "bench",
+    "completions",
+    "man",
 ];
 
 /// A bar that is wide enough for a few dozen fibres.
@@ -160,7 +176,7 @@ fn a_pose_travels_from_the_command_line_to_the_check() {
     };
     assert_eq!(
         keys(&json),
-        ["body_length_mm", "fibers", "name", "nodes", "poses", "sewing", "tendons", "triangles", "winches"]
+        ["body_length_mm", "fibers", "format", "name", "nodes", "poses", "sewing", "tendons", "triangles", "winches"]
     );
     let bend = &json["poses"][0];
     assert_eq!(
@@ -500,8 +516,11 @@ fn networks_are_listed_changed_and_what_is_hard_to_sew_told() {
     network("mute", &["--winch", "1"]);
     let listed: serde_json::Value =
         serde_json::from_str(&succeed(f, &["network", "list", "bar.plush", "--json"])).unwrap();
-    assert_eq!((&listed[0]["muted"], &listed[0]["color"]), (&true.into(), &serde_json::json!([10, 20, 30])));
-    let hole: Vec<f64> = serde_json::from_value(listed[0]["tendons"][0]["places"][1].clone()).unwrap();
+    assert_eq!(
+        (&listed["winches"][0]["muted"], &listed["winches"][0]["color"]),
+        (&true.into(), &serde_json::json!([10, 20, 30]))
+    );
+    let hole: Vec<f64> = serde_json::from_value(listed["winches"][0]["tendons"][0]["places"][1].clone()).unwrap();
     assert!((hole[0] - 60.0).abs() < 1e-9 && (hole[1] - 38.0).abs() < 1e-9, "{hole:?}");
     assert!(
         succeed(f, &["network", "list", "bar.plush"]).contains("1 winch 1 (switched off)\n  tendon 1: 20.000,20.000 ")

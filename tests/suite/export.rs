@@ -13,7 +13,8 @@ use std::path::Path;
 
 /// A file of a blueprint as text; motions that no motor can follow are stretched.
 fn text(design: &Design, name: &str) -> String {
-    let (files, _) = blueprint(design, &Options { too_fast: TooFast::Stretch }).expect("a blueprint");
+    let (files, _) =
+        blueprint(design, &Options { too_fast: TooFast::Stretch, ..Options::default() }).expect("a blueprint");
     let file = files.into_iter().find(|f| f.name == name).expect(name);
     String::from_utf8(file.bytes).expect("text")
 }
@@ -196,7 +197,7 @@ fn what_no_hand_can_sew_is_remarked_the_worst_first_and_counted() {
     let told = remarks(&design);
     let holes = design.networks.iter().flat_map(|n| &n.tendons).map(|t| t.routing.len()).sum::<usize>() - 1;
     assert_eq!(told.len(), 6);
-    let breaches = fabrication::judge_design(&design).len();
+    let breaches = design.breaches().len();
     assert!(breaches > 6 && breaches <= holes + 1, "{breaches}");
     assert_eq!(told[5], format!("Hard to sew: {} more places break a rule.", breaches - 5));
     design.sewing.turn_degrees = 180.0;
@@ -309,8 +310,9 @@ fn the_controller_programs_are_valid_commands_for_one_node_a_winch() {
         let own: Vec<_> =
             commands(&setup).into_iter().filter(|c| c.0 == node).map(|(_, name, value)| (name, value)).collect();
         let limits = [("LL", Some(farthest + 1)), ("LL", Some(-1)), ("APL", Some(1))];
+        let currents = [("LPC", Some(500)), ("LCC", Some(500))];
         assert_eq!(own[..4], [("DI", None), ("ANSW", Some(2)), ("ENCRES", Some(2048)), ("HO", Some(0))]);
-        assert_eq!(own[4..], limits);
+        assert_eq!(own[4..], [&limits[..], &currents].concat());
     }
     let (_, _, rows) = tracks(&text(&design, "tracks.csv"));
     let motion = text(&design, "controller-ascii-motion.txt");
@@ -390,7 +392,7 @@ fn followed(motion: &str, rows: &[Vec<String>], nodes: usize) -> Vec<(f64, f64)>
 fn a_drive_that_plays_the_motion_stays_on_its_track_however_often_it_is_sent() {
     for bundled in plushwright::design::bundled::ALL {
         let design = bundled.design().expect("a sound design");
-        let options = Options { too_fast: TooFast::Stretch };
+        let options = Options { too_fast: TooFast::Stretch, ..Options::default() };
         let (files, _) = blueprint(&design, &options).expect("a blueprint");
         let read = |name: &str| {
             let file = files.iter().find(|f| f.name == name).expect(name);

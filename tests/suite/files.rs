@@ -262,7 +262,7 @@ fn a_texture_goes_with_its_design_and_is_nowhere_else() {
     let f = folder.path();
     succeed(f, &["new", "bar.svg", "-o", "skin.plush", "--fibers", "60", "--texture"]);
     fs::create_dir(f.join("sub")).unwrap();
-    succeed(f, &["pose", "skin.plush", "--name", "p", "-o", "sub/skin.plush"]);
+    succeed(f, &["pose", "skin.plush", "--name", "p", "--pin", "5,5", "-o", "sub/skin.plush"]);
     assert_eq!(names(&f.join("sub")), ["skin.plush", "skin.texture.png"]);
     // The texture of a design is read too.
     refused(&run(f, &["render", "skin.plush", "-o", "skin.texture.png"]), "skin.texture.png");
@@ -296,7 +296,7 @@ fn what_is_printed_moves_no_cursor_and_makes_no_lines() {
     // Names of files are anybody's too.
     let name = "x\u{1b}[2J\ny.plush";
     fs::write(f.join(name), &text).unwrap();
-    let output = run(f, &["pose", name, "--name", "p", "-o", name]);
+    let output = run(f, &["pose", name, "--name", "p", "--pin", "5,5", "-o", name]);
     let said = String::from_utf8(output.stdout).unwrap();
     assert!(output.status.success() && said.lines().count() == 1 && !said.contains('\u{1b}'), "{said}");
     fs::write(f.join("x.plush"), "(version: 1, \"\u{1b}]0;x\u{7}\": 3)").unwrap();

@@ -5,6 +5,7 @@ mod architecture;
 mod budgets;
 mod circles;
 mod cli;
+mod controllers;
 mod document;
 mod drag;
 mod examples;
@@ -17,12 +18,15 @@ mod friction;
 mod hostile;
 mod import;
 mod layers;
+mod live;
 mod mesh;
 mod minimum;
+mod mistakes;
 mod muted;
 mod networks;
 mod networks_reference;
 mod outlines;
+mod pages;
 #[cfg(feature = "studio")]
 mod palette;
 #[cfg(feature = "studio")]

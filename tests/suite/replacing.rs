@@ -43,7 +43,7 @@ fn the_work_of_others_is_not_replaced_without_force() {
     for out in ["bar.plush", "notes.txt", "newer.plush"] {
         assert!(refused(&new(out, &[]), out).contains("--force"));
     }
-    let pose = ["pose", "bar.plush", "--name", "p", "-o", "notes.txt"];
+    let pose = ["pose", "bar.plush", "--name", "p", "--pin", "5,5", "-o", "notes.txt"];
     assert!(refused(&run(f, &pose), "notes.txt").contains("--force"));
     // A picture does not replace a design at all.
     refused(&run(f, &["render", "bar.plush", "-o", "newer.plush"]), "newer.plush");

@@ -2,11 +2,9 @@
 
 use crate::bench::report::Cell;
 use crate::bench::{BenchError, Session};
-use crate::design::Design;
-use crate::engine::{Setpoint, Shape, pose_with_friction, solve_once, target_error};
-use crate::fabrication::judge_design;
-use crate::outline::polygon::length;
-use crate::rigging::{RigError, RigOptions, rig};
+use crate::design::{Design, Tendon};
+use crate::engine::{Shape, pose_with_friction, target_error};
+use crate::rigging::{Checked, RigError, RigOptions, rig};
 use crate::threads::in_order;
 use std::time::Instant;
 
@@ -25,8 +23,8 @@ impl Rigged {
         let poses: Vec<_> = design.poses.iter().filter(|pose| !pose.targets.is_empty()).collect();
         let poses = in_order(&poses, |pose| {
             let rest = target_error(&design, &pose.targets, &design.mesh.nodes).max(f64::MIN_POSITIVE);
-            let setpoint = Setpoint::Targets(pose.targets.clone());
-            (rest, solve_once(&design, setpoint, [false, true], session.cancel).realizable)
+            let shape = Checked::of(&design, &pose.targets, 0.0, session.cancel).shape;
+            (rest, Some(shape).filter(|shape| shape.target_error.is_finite()))
         });
         session.check()?;
         Ok(Self { design, poses, seconds })
@@ -74,10 +72,7 @@ impl Rigged {
     /// A row of the table of rigs.
     pub fn row(&self, design: &str, what: &str) -> Vec<Cell> {
         let tendons = || self.design.networks.iter().flat_map(|network| &network.tendons);
-        let thread = tendons().map(|tendon| {
-            let points: Vec<_> = tendon.routing.iter().map(|p| p.place(&self.design.mesh.nodes)).collect();
-            points.windows(2).map(|s| length(s[0], s[1])).sum::<f64>()
-        });
+        let thread = tendons().map(|tendon| tendon.cable_mm(&self.design.mesh.nodes));
         vec![
             design.into(),
             self.poses.len().into(),
@@ -85,9 +80,9 @@ impl Rigged {
             self.design.networks.len().into(),
             tendons().count().into(),
             self.error().into(),
-            tendons().map(|tendon| tendon.routing.len().saturating_sub(2)).sum::<usize>().into(),
+            tendons().map(Tendon::holes).sum::<usize>().into(),
             thread.sum::<f64>().into(),
-            judge_design(&self.design).len().into(),
+            self.design.breaches().len().into(),
             self.seconds.into(),
         ]
     }

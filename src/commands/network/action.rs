@@ -16,6 +16,9 @@ pub struct Files {
     pub design: PathBuf,
     #[command(flatten)]
     pub target: document::Target,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
 }
 
 #[derive(Debug, Subcommand)]
@@ -126,6 +129,7 @@ pub enum Action {
         name: String,
     },
     /// Give the cables of a winch a colour in pictures
+    #[command(alias = "colour")]
     Color {
         #[command(flatten)]
         files: Files,
@@ -133,7 +137,7 @@ pub enum Action {
         #[arg(long, value_name = "W")]
         winch: String,
         /// Red, green and blue as six hexadecimal digits, or `none` for the colour of its number
-        #[arg(long, value_name = "RRGGBB")]
+        #[arg(long, value_name = "RRGGBB", alias = "colour")]
         color: String,
     },
     /// Switch a winch off: it pulls nothing and is not made, but keeps its activations in keyframes

@@ -20,6 +20,14 @@ pub struct List {
     pub json: bool,
 }
 
+/// Format of what `network list --json` prints.
+const FORMAT: &str = "plushwright-networks/1";
+
+#[derive(Serialize)]
+struct Networks<'a> {
+    winches: Vec<Listed<'a>>,
+}
+
 /// A winch, as it is listed.
 #[derive(Serialize)]
 struct Listed<'a> {
@@ -47,7 +55,7 @@ impl List {
             slack_mm: tendon.slack_mm,
         };
         let networks = design.networks.iter();
-        let listed: Vec<Listed> = networks
+        let winches: Vec<Listed> = networks
             .map(|network| Listed {
                 name: &network.name,
                 muted: network.muted,
@@ -55,7 +63,7 @@ impl List {
                 tendons: network.tendons.iter().map(tendon).collect(),
             })
             .collect();
-        if self.json { say_json(out, &listed) } else { print(&design, &listed, out) }
+        if self.json { say_json(out, FORMAT, &Networks { winches }) } else { print(&design, &winches, out) }
     }
 }
 

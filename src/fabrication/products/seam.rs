@@ -18,8 +18,6 @@ const GAP_STRAIGHTNESS: f64 = 5.0;
 const GAP_OBSTACLE: f64 = 0.5;
 /// How near a hole or pin is in the way, mm: the width of a finger's grip on the seam.
 const GAP_CLEARANCE_MM: f64 = 4.0;
-/// A turning gap takes at most this part of the outline.
-const GAP_LARGEST_PART: f64 = 0.25;
 
 /// The outline grown by a seam allowance, round at the corners. Each shape is an outer polygon (counter-clockwise)
 /// followed by what is cut out of it; the body's own holes shrink, and a notch narrower than twice the allowance closes.
@@ -45,14 +43,13 @@ pub struct Seam {
 pub fn of(design: &Design) -> Seam {
     let pins = design.pins.iter().map(|p| design.mesh.position(&p.at, &design.mesh.nodes));
     let obstacles: Vec<Point> = holes(design).into_iter().chain(pins).collect();
-    seam(&design.outline.outer, design.fabrication.turning_gap_mm, &obstacles)
+    seam(&design.outline.outer, design.turning_gap_mm(), &obstacles)
 }
 
 /// Leaves `gap_mm` of the polygon open on the stretch that is straightest and nearest to the bottom, away from
-/// `obstacles`; at most a quarter of the polygon.
+/// `obstacles`.
 fn seam(polygon: &[Point], gap_mm: f64, obstacles: &[Point]) -> Seam {
     let ring = Ring::new(polygon);
-    let gap_mm = gap_mm.min(GAP_LARGEST_PART * ring.length());
     let mut closed = polygon.to_vec();
     closed.extend(polygon.first());
     if gap_mm <= 0.0 {
@@ -197,7 +194,6 @@ mod tests {
         let blocked = seam(&square(120.0), 50.0, &[[40.0, 0.0], [80.0, 0.0]]);
         let clear = |p: Point| blocked.gap.windows(2).all(|s| distance_to_segment(s[0], s[1], p) >= GAP_CLEARANCE_MM);
         assert!(clear([40.0, 0.0]) && clear([80.0, 0.0]), "{:?}", blocked.gap);
-        assert_eq!(seam(&square(20.0), 50.0, &[]).gap_mm, 20.0);
         let closed = seam(&square(20.0), 0.0, &[]);
         assert!(closed.gap.is_empty() && along(&closed.stitches) == 80.0);
     }

@@ -26,8 +26,10 @@ pub const WRITERS: &[Writer] = &[
 
 /// The files of a product: name and bytes.
 pub fn written(product: &Product) -> impl Iterator<Item = (String, Vec<u8>)> {
-    let file =
-        |writer: &Writer| Some((format!("{}.{}", product.name, writer.extension), (writer.write)(&product.content)?));
+    let file = |writer: &Writer| {
+        let extension = product.content.extension().unwrap_or(writer.extension);
+        Some((format!("{}.{extension}", product.name), (writer.write)(&product.content)?))
+    };
     WRITERS.iter().filter_map(file)
 }
 
@@ -35,7 +37,7 @@ pub fn written(product: &Product) -> impl Iterator<Item = (String, Vec<u8>)> {
 mod tests {
     use super::*;
     use crate::fabrication::{Sheet, Solid, Table};
-    use crate::motion::Program;
+    use crate::motion::{Framing, Program};
 
     #[test]
     fn every_kind_is_written_and_no_two_files_have_one_name() {
@@ -43,7 +45,8 @@ mod tests {
             Content::Sheet(Sheet::default()),
             Content::Solid(Solid::default()),
             Content::Table(Table::default()),
-            Content::Program(Program::new("\r")),
+            Content::Program { program: Program::new(Framing::Sdo), extension: "bin" },
+            Content::Text { text: String::new(), extension: "ino" },
             Content::Page(String::new()),
         ];
         for content in kinds {

@@ -1,12 +1,12 @@
 //! Programs and pages as they are: what is sent to motors, and what is read.
 
 use crate::fabrication::product::Content;
-use crate::motion::FileLink;
 
 /// The bytes of a text file.
 pub(super) fn write(content: &Content) -> Option<Vec<u8>> {
     match content {
-        Content::Program(program) => Some(FileLink::of(program).into_bytes()),
+        Content::Program { program, .. } => Some(program.bytes()),
+        Content::Text { text, .. } => Some(text.clone().into_bytes()),
         Content::Page(text) => Some(text.clone().into_bytes()),
         _ => None,
     }

@@ -2,12 +2,10 @@
 
 use super::pool::Origin;
 use super::proposal::{PoseServed, Proposal};
-use crate::design::{Design, Network, Target};
-use crate::outline::{Point, polygon};
+use crate::design::{Design, Network, Target, Tendon};
 use crate::rigging::checked::Checked;
-use crate::rigging::layout::rigs_of;
 use crate::rigging::robust::{self, Sewn};
-use crate::sewing::{self, Body, Breach, Rig};
+use crate::sewing::{self, Breach};
 use crate::threads::in_order;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -53,14 +51,15 @@ impl<'a> Subject<'a> {
         let own = with.networks.len() - 1;
         let tendons = with.networks[..own].iter().map(|n| n.tendons.len()).sum::<usize>();
         let (mut poses, mut force_n, mut preview) = (Vec::new(), 0.0_f64, None);
-        let mut breaches = self.breaches(&with, own);
+        let own_alone = |found: Vec<Breach>| found.into_iter().filter(|b| b.winches().any(|winch| winch == own));
+        let mut breaches: Vec<Breach> = own_alone(with.breaches()).collect();
         for (k, (name, targets, before)) in self.poses.iter().enumerate() {
             let after = Checked::of(&with, targets, self.friction, cancel);
             if cancel.load(Ordering::Relaxed) {
                 return None;
             }
             force_n = after.shape.tendon_tensions.iter().skip(tendons).fold(force_n, |m, t| m.max(*t));
-            breaches.extend(outside(&with, &after.shape.nodes, own));
+            breaches.extend(own_alone(with.breaches_in(&after.shape.nodes)));
             let rubbed = after.with_friction.map(|after| [before.real_error(), after]);
             poses.push(PoseServed {
                 name: name.clone(),
@@ -72,15 +71,15 @@ impl<'a> Subject<'a> {
                 preview = Some(Arc::new(after.shape));
             }
         }
-        let cables = rigs_of(std::slice::from_ref(&network), &with.mesh).pop()?.cables;
+        let cables = network.rig(&with.mesh.nodes)?.cables;
         let turns = cables.iter().flat_map(|cable| cable.windows(3)).map(|p| sewing::turn(p[0], p[1], p[2]));
         Some(Proposal {
             network,
             poses,
             current: self.current,
             sewn: None,
-            thread_mm: cables.iter().map(|cable| length(cable)).sum(),
-            holes: cables.iter().map(|cable| cable.len().saturating_sub(2)).sum(),
+            thread_mm: with.networks[own].tendons.iter().map(|tendon| tendon.cable_mm(&with.mesh.nodes)).sum(),
+            holes: with.networks[own].tendons.iter().map(Tendon::holes).sum(),
             turn_degrees: turns.fold(0.0, f64::max),
             turning_degrees: cables.iter().map(|cable| sewing::turning(cable)).fold(0.0, f64::max),
             force_n,
@@ -99,26 +98,4 @@ impl<'a> Subject<'a> {
         with.networks.push(network.clone());
         robust::sewn(&with, &[self.poses[self.current].1], self.friction, cancel).first().copied()
     }
-
-    /// Rules broken at rest in which a winch has a part.
-    fn breaches(&self, with: &Design, own: usize) -> Vec<Breach> {
-        let rigs: Vec<Rig> = rigs_of(&with.networks, &with.mesh);
-        let gap_mm = with.fabrication.turning_gap_mm;
-        let found = sewing::judge(&with.sewing, &Body::new(&with.outline), &rigs, gap_mm);
-        found.into_iter().filter(|breach| breach.winches().any(|winch| winch == own)).collect()
-    }
-}
-
-/// Pieces of a winch's cables outside of the body in a pose.
-fn outside(with: &Design, nodes: &[Point], own: usize) -> Vec<Breach> {
-    let mut mesh = with.mesh.clone();
-    mesh.nodes = nodes.to_vec();
-    let ring = |ring: Vec<usize>| ring.into_iter().map(|node| nodes[node]).collect();
-    let rings: Vec<Vec<Point>> = mesh.boundary().into_iter().map(ring).collect();
-    let found = sewing::judge_pieces(rings.iter().map(Vec::as_slice), &rigs_of(&with.networks, &mesh));
-    found.into_iter().filter(|breach| breach.winches().any(|winch| winch == own)).collect()
-}
-
-fn length(cable: &[Point]) -> f64 {
-    cable.windows(2).map(|s| polygon::length(s[0], s[1])).sum()
 }

@@ -56,6 +56,7 @@ mod tests {
     use super::*;
 
     fn one(cables: Vec<Vec<Point>>) -> Layout {
+        let cables = cables.into_iter().map(Into::into).collect();
         Layout { winches: vec![Placed { at: [0.0, 0.0], cables }] }
     }
 

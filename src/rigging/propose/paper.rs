@@ -33,7 +33,8 @@ pub(super) fn layouts(
         let place = |node: usize| design.mesh.nodes[node];
         let path = |nodes: &Vec<usize>| -> Vec<Point> { nodes.iter().map(|n| place(*n)).collect() };
         let straight = STRAIGHT * design.body_length_mm();
-        let cables = stages.tendons.iter().map(|nodes| thinned(&path(nodes), most_holes, straight)[1..].to_vec());
+        let cables =
+            stages.tendons.iter().map(|nodes| thinned(&path(nodes), most_holes, straight)[1..].to_vec().into());
         let layout = Layout { winches: vec![Placed { at: place(stages.winch), cables: cables.collect() }] };
         (layout, (!bare).then(|| (parameters, Arc::new(stages))))
     };

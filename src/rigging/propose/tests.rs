@@ -2,10 +2,9 @@
 
 use super::*;
 use crate::engine::{Setpoint, solve_once};
-use crate::rigging::layout::{Layout, Placed, rigs_of};
+use crate::rigging::layout::{Layout, Placed};
 use crate::rigging::sewable::Sewable;
 use crate::rigging::tests::bar;
-use crate::sewing::{self, Body};
 use std::cell::Cell;
 
 fn found(design: &Design, options: &ProposeOptions) -> (Vec<Vec<Arc<Proposal>>>, Vec<Arc<Proposal>>) {
@@ -45,9 +44,7 @@ fn proposals_come_one_by_one_differ_in_kind_and_tell_what_a_check_says() {
             assert!(told.with_friction.is_some() && after.tendon_tensions.iter().all(|t| *t <= proposal.force_n));
         }
         assert!(proposal.error_after() < proposal.error_before() && proposal.sewn.is_some());
-        let rigs = rigs_of(&with.networks, &with.mesh);
-        let gap_mm = with.fabrication.turning_gap_mm;
-        assert_eq!(sewing::judge(&with.sewing, &Body::new(&with.outline), &rigs, gap_mm), []);
+        assert_eq!(with.breaches(), []);
         assert_eq!(proposal.holes, proposal.network.tendons.iter().map(|t| t.routing.len() - 2).sum::<usize>());
     }
     assert!(last[0].rank() < 0.3 * last[0].error_before(), "{}", last[0].rank());
@@ -58,7 +55,7 @@ fn proposals_come_one_by_one_differ_in_kind_and_tell_what_a_check_says() {
 fn what_is_there_stays_and_tendons_are_as_many_as_asked_for() {
     let design = bar(60);
     let options = ProposeOptions { fewer: false, ..ProposeOptions::default() };
-    let cables = vec![vec![[120.0, 48.0], [210.0, 44.0]]];
+    let cables = vec![vec![[120.0, 48.0], [210.0, 44.0]].into()];
     let up = Layout { winches: vec![Placed { at: [40.0, 30.0], cables }] };
     let points = up.located(&design.mesh).unwrap();
     let mut with = design.clone();

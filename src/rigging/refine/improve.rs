@@ -1,6 +1,6 @@
 //! Fits improved step by step, for all poses or the worst, and wound from rest.
 
-use super::local::Local;
+use super::local::{Local, Sample, cost};
 use super::task::{Fit, Task};
 
 /// First and last damping, relative to the curvature; it grows by the second factor after a bad step, and falls by the third
@@ -25,24 +25,9 @@ const SHARP: f64 = 5.0;
 impl Task<'_> {
     /// Improves a fit by at most so many steps; `frozen` leaves the points where they are.
     pub fn improve(&self, fit: Fit, steps: usize, frozen: bool, stop: &dyn Fn() -> bool) -> Fit {
-        let (mut now, mut damping) = (fit, DAMPING[0]);
-        let Some(mut built) = self.build(&now.layout) else { return now };
-        for _ in 0..steps {
-            let Some(local) = Local::new(self, &now, &mut built, frozen) else { break };
-            let before = now.cost;
-            let mut better = None;
-            while damping < DAMPING[1] && better.is_none() && !stop() {
-                better = local.trial(self, &now, &mut built, damping, stop);
-                damping *= if better.is_some() { EASIER } else { HARDER };
-            }
-            let Some((fit, next)) = better else { break };
-            (now, built) = (fit, next);
-            damping = damping.max(LEAST_DAMPING);
-            if now.cost > WORTHWHILE * before {
-                break;
-            }
-        }
-        now
+        let Some(built) = self.build(&fit.layout) else { return fit };
+        let mut improved = improved_together(vec![Sample { task: self, fit, built, weight: 1.0 }], steps, frozen, stop);
+        improved.swap_remove(0).fit
     }
 
     /// The same layout with every pose wound from rest in proportion: what a real plushie does. Poses that end elsewhere are
@@ -92,4 +77,30 @@ impl Task<'_> {
         let allowed = fit.violation.max(KEPT);
         improved().filter(|new| new.worst() < fit.worst() && new.violation <= allowed).unwrap_or(fit)
     }
+}
+
+/// Fits whose layouts are moved alike, improved together by at most so many steps.
+pub(super) fn improved_together<'t>(
+    mut now: Vec<Sample<'t>>,
+    steps: usize,
+    frozen: bool,
+    stop: &dyn Fn() -> bool,
+) -> Vec<Sample<'t>> {
+    let mut damping = DAMPING[0];
+    for _ in 0..steps {
+        let Some(local) = Local::new(&mut now, frozen) else { break };
+        let before = cost(&now);
+        let mut better = None;
+        while damping < DAMPING[1] && better.is_none() && !stop() {
+            better = local.trial(&mut now, damping, stop);
+            damping *= if better.is_some() { EASIER } else { HARDER };
+        }
+        let Some(next) = better else { break };
+        now = next;
+        damping = damping.max(LEAST_DAMPING);
+        if cost(&now) > WORTHWHILE * before {
+            break;
+        }
+    }
+    now
 }

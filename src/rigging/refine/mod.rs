@@ -13,7 +13,9 @@
 
 mod improve;
 mod local;
+mod steady;
 mod task;
+mod trim;
 
 pub(super) use improve::KEPT;
 pub use task::{Fit, Start, Task};

@@ -5,6 +5,7 @@ use crate::engine::compile::{Plushie, compile_with, objective};
 use crate::mesh::BodyPoint;
 use crate::outline::Point;
 use crate::rigging::layout::Layout;
+use crate::rigging::options::Trims;
 use crate::rigging::sewable::{Sewable, posed_violation};
 use crate::soft_ik::routing::RoutingPoint;
 use crate::soft_ik::{Actuation, Objective, Posture, Question};
@@ -34,6 +35,7 @@ pub struct Task<'a> {
     pub sewable: Option<&'a Sewable<'a>>,
     /// Winches that are there and stay.
     pub fixed: &'a [Network],
+    pub trims: Trims,
     /// The rim of the mesh, ring by ring.
     pub(super) rings: Vec<Vec<usize>>,
     /// Power of the misses, and the miss that counts the same with any.
@@ -98,7 +100,13 @@ impl<'a> Task<'a> {
             (miss > grain).then_some((targets, miss))
         };
         let poses = poses.filter_map(with_miss).collect();
-        Self { design, poses, sewable, fixed, rings: design.mesh.boundary(), power: POWER, whole: 1.0 }
+        let rings = design.mesh.boundary();
+        Self { design, poses, sewable, fixed, trims: Trims::default(), rings, power: POWER, whole: 1.0 }
+    }
+
+    /// With more unknowns of cables.
+    pub fn trimming(self, trims: Trims) -> Self {
+        Self { trims, ..self }
     }
 
     pub(super) fn build(&self, layout: &Layout) -> Option<Built> {

@@ -1,6 +1,6 @@
 //! What panels and tools ask for, done.
 
-use super::{animate, edit, filing, sheet, wind};
+use super::{animate, edit, filing, motors, sheet, wind};
 use crate::studio::action::Action;
 use crate::studio::jobs::Outcome;
 use crate::studio::session::{Session, Task};
@@ -19,6 +19,8 @@ pub fn apply(session: &mut Session, action: Action) {
         Action::DragTarget(to) => edit::drag_target(session, to),
         Action::MovePart(part, to) => edit::move_part(session, part, to),
         Action::Wind(winch, wound_mm) => wind::wind(session, winch, wound_mm),
+        Action::WindMotor(winch, length_mm) => motors::wind(session, winch, length_mm),
+        Action::SetMotors(choice) => session.motors.choice = choice,
         Action::SelectPose(pose) => edit::select_pose(session, pose),
         Action::Select(selection) => session.picked.selection = selection,
         Action::SetQuality(quality) => session.solver.quality = quality,

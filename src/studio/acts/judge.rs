@@ -2,7 +2,6 @@
 
 use crate::design::Design;
 use crate::engine::{Effort, Quality, Request, Setpoint, Solver};
-use crate::fabrication::judge_design;
 use crate::studio::jobs::Outcome;
 use crate::studio::session::{Judgement, Session};
 use std::collections::BTreeMap;
@@ -27,7 +26,7 @@ pub fn follow(session: &mut Session, hands_off: bool) {
                 trackers.retain(|name, _| design.poses.iter().any(|pose| pose.name == *name));
                 quick(&design, &mut trackers, cancel)
             };
-            Outcome::Judged(Box::new(Judgement::Quick { breaches: judge_design(&design), errors, design }))
+            Outcome::Judged(Box::new(Judgement::Quick { breaches: design.breaches(), errors, design }))
         });
         return session.judging.begin(running, None);
     }

@@ -12,6 +12,7 @@ pub mod import;
 pub mod judge;
 pub mod keep;
 pub mod mesh;
+pub mod motors;
 pub mod open;
 pub mod paths;
 pub mod replace;

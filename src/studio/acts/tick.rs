@@ -1,6 +1,6 @@
 //! Once a frame: what the threads report, the playhead, what should be seen next.
 
-use super::{animate, discover, edit, filing, import, judge, mesh, rig, sheet, texture};
+use super::{animate, discover, edit, filing, import, judge, mesh, motors, rig, sheet, texture};
 use crate::design::animation;
 use crate::engine::Setpoint;
 use crate::studio::canvas::Plushie;
@@ -14,6 +14,7 @@ pub fn tick(session: &mut Session, now_s: f64, passed_s: f64, hands_off: bool) {
     while let Some(finished) = session.jobs.next() {
         take(session, finished);
     }
+    motors::follow(session);
     session.solver.take(session.design().mesh.nodes.len());
     if hands_off {
         session.document.history.commit();

@@ -8,6 +8,7 @@ pub mod discovery;
 pub mod document;
 pub mod files;
 pub mod layers;
+pub mod motors;
 pub mod networks;
 pub mod outline;
 pub mod panels;
@@ -29,6 +30,7 @@ pub static ALL: LazyLock<Vec<(&str, Vec<&Command>)>> = LazyLock::new(|| {
         ("Networks", discovery::ALL.to_vec()),
         ("Winches and tendons", networks::ALL.to_vec()),
         ("Animation", animation::ALL.to_vec()),
+        ("Motors", motors::ALL.to_vec()),
         ("Panels", panels::ALL.iter().collect()),
         ("Outline", outline::ALL.to_vec()),
     ]

@@ -3,7 +3,7 @@
 use super::import;
 use super::widgets::primary;
 use crate::files::shown;
-use crate::motion::TooFast;
+use crate::motion::{TooFast, families};
 use crate::operations::export;
 use crate::studio::action::{Action, Actions, FileAction};
 use crate::studio::session::Session;
@@ -181,6 +181,19 @@ fn export_settings(ui: &mut Ui, options: &mut export::Options) {
     let tip = "Give the animation more time where its motors are too slow for it; otherwise it is refused";
     ui.checkbox(&mut stretch, words::STRETCH).on_hover_text(tip);
     options.too_fast = if stretch { TooFast::Stretch } else { TooFast::Refuse };
+    ui.collapsing("Controllers", |ui| {
+        ui.label("Programs for these; none chosen: for all that can play the motion");
+        for family in families::ALL {
+            let at = options.controllers.iter().position(|name| name == family.name);
+            let mut chosen = at.is_some();
+            if ui.checkbox(&mut chosen, family.name).on_hover_text(family.title).changed() {
+                match at {
+                    Some(at) => drop(options.controllers.remove(at)),
+                    None => options.controllers.push(family.name.into()),
+                }
+            }
+        }
+    });
 }
 
 /// An error as a sentence of its own.

@@ -11,6 +11,7 @@ mod import;
 pub mod inspector;
 mod mesh;
 pub mod messages;
+mod motors;
 mod networks;
 pub mod outline;
 pub mod palette;
@@ -33,7 +34,7 @@ pub use panel::{Entry, Panel};
 pub use widgets::frame;
 
 /// The panels of the inspector, by their tabs; the first one is open at first.
-pub static ALL: [&Entry; 3] = [&networks::ENTRY, &mesh::ENTRY, &settings::ENTRY];
+pub static ALL: [&Entry; 4] = [&networks::ENTRY, &mesh::ENTRY, &motors::ENTRY, &settings::ENTRY];
 
 #[cfg(test)]
 mod tests {

@@ -25,6 +25,10 @@ pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
         });
         ui.checkbox(&mut choice.rules, "Keep the rules of sewing")
             .on_hover_text("Otherwise a hand may not be able to sew it");
+        ui.checkbox(&mut choice.trims.ratios, "Spool radii of their own")
+            .on_hover_text("Each cable of a winch may run in a groove of another radius");
+        ui.checkbox(&mut choice.trims.slack, "Cables with slack")
+            .on_hover_text("A cable may be slack at assembly, and pull later than others of its winch");
         let held =
             "Winch by winch, the networks of Algorithm 2 with the parameters above; otherwise all winches together";
         ui.checkbox(&mut choice.hold, "Hold the parameters").on_hover_text(held);

@@ -171,7 +171,7 @@ impl PathDialog {
             Purpose::Open => FileAction::OpenPath(path),
             Purpose::Import => FileAction::ImportPath { path, choice: self.import.clone() },
             Purpose::SaveAs => FileAction::SavePath(path),
-            Purpose::Export => FileAction::ExportPath { folder: path, options: self.export },
+            Purpose::Export => FileAction::ExportPath { folder: path, options: self.export.clone() },
         }
     }
 }

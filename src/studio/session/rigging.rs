@@ -5,7 +5,7 @@ use crate::design::Design;
 use crate::discovery::Parameters;
 use crate::operations::explore::Point;
 use crate::operations::rig::{Method, Options};
-use crate::rigging::BadTendons;
+use crate::rigging::{BadTendons, Trims};
 use crate::studio::jobs::{Running, cancel};
 use std::sync::{Arc, Mutex};
 
@@ -44,14 +44,16 @@ pub struct RigChoice {
     pub tendons: String,
     /// Whether networks keep the rules of sewing.
     pub rules: bool,
+    /// Whether cables get spool radii and slack of their own.
+    pub trims: Trims,
     /// Winch by winch, with the parameters of discovery as they are; otherwise all winches are looked for together.
     pub hold: bool,
 }
 
 impl Default for RigChoice {
     fn default() -> Self {
-        let Options { max_winches, tendons, rules, .. } = Options::default();
-        Self { max_winches, tendons: tendons.to_string(), rules, hold: false }
+        let Options { max_winches, tendons, rules, trims, .. } = Options::default();
+        Self { max_winches, tendons: tendons.to_string(), rules, trims, hold: false }
     }
 }
 
@@ -62,6 +64,7 @@ impl RigChoice {
         Ok(Options {
             method: if self.hold { Method::Algorithm2 } else { Method::Joint },
             rules: self.rules,
+            trims: self.trims,
             max_winches: self.max_winches,
             tendons: self.tendons.trim().parse()?,
             seed_num: held(parameters.seed_num),

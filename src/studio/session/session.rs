@@ -6,6 +6,7 @@ use super::files::Files;
 use super::judging::Judging;
 use super::look::Look;
 use super::meshing::{Meshing, Resolution};
+use super::motors::Motors;
 use super::overlay::{Overlay, Renamed};
 use super::picked::{Mode, Picked, Selection};
 use super::playback::Playback;
@@ -63,6 +64,7 @@ pub struct Session {
     pub(crate) solo: Solo,
     pub(crate) winding: Winding,
     pub(crate) meshing: Meshing,
+    pub(crate) motors: Motors,
     pub(crate) sketching: Sketching,
     pub(crate) texturing: Texturing,
     /// A keyframe that is worked out.
@@ -101,6 +103,7 @@ impl Session {
             solo: Solo::default(),
             winding: Winding::default(),
             meshing: Meshing::default(),
+            motors: Motors::default(),
             sketching: Sketching::default(),
             texturing: Texturing::default(),
             keying: None,
@@ -289,6 +292,11 @@ impl Session {
 
     pub fn meshing(&self) -> &Meshing {
         &self.meshing
+    }
+
+    /// Motors that are driven live.
+    pub fn motors(&self) -> &Motors {
+        &self.motors
     }
 
     pub fn resolution(&self) -> Resolution {

@@ -1,6 +1,7 @@
 //! Drawings as text, and what is read of them.
 
 use super::*;
+use crate::outline::Background;
 
 fn svg(attributes: &str, body: &str) -> Vec<u8> {
     format!("<svg xmlns='http://www.w3.org/2000/svg' {attributes}>{body}</svg>").into_bytes()

@@ -1,0 +1,215 @@
+//! A player on a thread of its own, for a window: told by orders, watched by its status, stopped when nobody watches.
+
+use super::error::{Cause, End, LiveError};
+use super::link::Link;
+use super::player::{Player, Stage};
+use crate::motion::{Plan, Stream};
+use std::io;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+/// What to do next; the newest order is obeyed when the one before is done.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Order {
+    /// Here is zero: only at rest, with cables just slack.
+    SetZero,
+    /// Play the motion, from zero and back to it.
+    Play,
+    /// Wind to these lengths by hand, mm.
+    Wind(Vec<f64>),
+    /// Back to zero, motors off.
+    Home,
+}
+
+/// What the motors do.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Status {
+    /// The controllers are being looked for.
+    Connecting,
+    /// They wait for an order; where the winches are told to be, mm.
+    Ready(Vec<f64>),
+    Homing,
+    /// Time in the motion, s, and where the winches are told to be, mm.
+    Playing {
+        time_s: f64,
+        lengths_mm: Vec<f64>,
+    },
+    /// The line is closed; why, in a sentence, and whether somebody wanted it so.
+    Ended {
+        why: String,
+        wanted: bool,
+    },
+}
+
+/// The thread and what it is told.
+pub struct Remote {
+    shared: Arc<Shared>,
+    threads: Vec<JoinHandle<()>>,
+}
+
+/// Opens the line: on the thread, as that may take long.
+pub type Open = Box<dyn FnOnce() -> io::Result<Box<dyn Link>> + Send>;
+
+struct Shared {
+    order: Mutex<Option<Order>>,
+    come: Condvar,
+    status: Mutex<Status>,
+    cancel: AtomicBool,
+    seen: Mutex<Instant>,
+    wake: Box<dyn Fn() + Send + Sync>,
+}
+
+/// A window that shows nothing for so long is lost.
+const LOST: Duration = Duration::from_millis(2000);
+/// How often that is looked at.
+const LOOK: Duration = Duration::from_millis(50);
+
+impl Remote {
+    /// Opens a line and waits for orders. `wake` is called when the status has changed.
+    pub fn start(
+        open: Open,
+        stream: Box<dyn Stream>,
+        plan: Plan,
+        least_step_s: f64,
+        wake: impl Fn() + Send + Sync + 'static,
+    ) -> Self {
+        let shared = Arc::new(Shared {
+            order: Mutex::new(None),
+            come: Condvar::new(),
+            status: Mutex::new(Status::Connecting),
+            cancel: AtomicBool::new(false),
+            seen: Mutex::new(Instant::now()),
+            wake: Box::new(wake),
+        });
+        let (own, watch) = (shared.clone(), shared.clone());
+        let player = std::thread::spawn(move || own.run(open, &*stream, &plan, least_step_s));
+        let watcher = std::thread::spawn(move || watch.watch());
+        Self { shared, threads: vec![player, watcher] }
+    }
+
+    /// Gives an order in the place of one that is not yet begun.
+    pub fn order(&self, order: Order) {
+        *held(&self.shared.order) = Some(order);
+        self.shared.come.notify_all();
+    }
+
+    /// Switches all motors off and closes the line.
+    pub fn stop(&self) {
+        self.shared.stop();
+    }
+
+    pub fn status(&self) -> Status {
+        held(&self.shared.status).clone()
+    }
+
+    /// The window is there.
+    pub fn seen(&self) {
+        *held(&self.shared.seen) = Instant::now();
+    }
+}
+
+impl Drop for Remote {
+    fn drop(&mut self) {
+        self.stop();
+        for thread in self.threads.drain(..) {
+            // A thread that broke has nothing to tell any more: its player has switched the motors off.
+            let _ = thread.join();
+        }
+    }
+}
+
+impl Shared {
+    fn stop(&self) {
+        self.cancel.store(true, Ordering::SeqCst);
+        self.come.notify_all();
+    }
+
+    fn tell(&self, status: Status) {
+        *held(&self.status) = status;
+        (self.wake)();
+    }
+
+    fn is_over(&self) -> bool {
+        matches!(*held(&self.status), Status::Ended { .. })
+    }
+
+    /// Stops when the window is lost.
+    fn watch(&self) {
+        while !self.cancel.load(Ordering::SeqCst) && !self.is_over() {
+            std::thread::sleep(LOOK);
+            if held(&self.seen).elapsed() > LOST {
+                self.stop();
+            }
+        }
+    }
+
+    fn run(&self, open: Open, stream: &dyn Stream, plan: &Plan, least_step_s: f64) {
+        let outcome = open().map_err(|e| LiveError { cause: Cause::Port(e), end: End::Off });
+        let outcome = outcome.and_then(|mut link| self.serve(&mut *link, stream, plan, least_step_s));
+        let error = match outcome {
+            Err(error) => error,
+            Ok(()) => LiveError { cause: Cause::Cancelled, end: End::Off },
+        };
+        let wanted = matches!(error.cause, Cause::Cancelled);
+        self.tell(Status::Ended { why: error.to_string(), wanted });
+    }
+
+    fn serve(&self, link: &mut dyn Link, stream: &dyn Stream, plan: &Plan, least_step_s: f64) -> Result<(), LiveError> {
+        // Zero may have to be set first: beyond the travel, everything else is refused when it is asked for.
+        let mut player = Player::found(stream, link, &self.cancel)?;
+        let mut told_mm = player.places_mm()?;
+        loop {
+            self.tell(Status::Ready(told_mm.clone()));
+            match self.next() {
+                None => {
+                    let end = player.halt();
+                    return Err(LiveError { cause: Cause::Cancelled, end });
+                }
+                Some(Order::SetZero) => player.set_zero()?,
+                Some(Order::Play) => {
+                    drop(player.play(plan, least_step_s, &mut |stage| self.tell(Status::from(stage)))?)
+                }
+                Some(Order::Home) => {
+                    self.tell(Status::Homing);
+                    player.finish()?;
+                }
+                Some(Order::Wind(to_mm)) => {
+                    player.wind(&told_mm, &to_mm)?;
+                    told_mm = to_mm;
+                    continue;
+                }
+            }
+            told_mm = vec![0.0; told_mm.len()];
+        }
+    }
+
+    /// The next order; none when it is to stop.
+    fn next(&self) -> Option<Order> {
+        let mut order = held(&self.order);
+        loop {
+            if self.cancel.load(Ordering::SeqCst) {
+                return None;
+            }
+            if let Some(order) = order.take() {
+                return Some(order);
+            }
+            order = self.come.wait_timeout(order, LOOK).unwrap_or_else(PoisonError::into_inner).0;
+        }
+    }
+}
+
+impl From<Stage> for Status {
+    fn from(stage: Stage) -> Self {
+        match stage {
+            Stage::Homing => Self::Homing,
+            Stage::Playing { time_s, lengths_mm } => Self::Playing { time_s, lengths_mm },
+        }
+    }
+}
+
+/// What a thread that broke has held is still whole.
+fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}

@@ -1,0 +1,113 @@
+//! Sketches for hobby servos on a PCA9685: an Arduino or MicroPython plays the table that stands in it, and obeys a computer ([`super::servo`]).
+//!
+//! All three parts are words that the sketch obeys over its serial port: `setup`, `motion`, `stop`.
+
+use super::servo::{Servos, UNCONFIRMED};
+use super::{Family, Sketch};
+use crate::motion::error::MotionError;
+use crate::motion::machine::Machine;
+use crate::motion::trajectory::Trajectory;
+use std::fmt::Write;
+
+pub(super) static ARDUINO: Family = Family {
+    name: "servo-arduino",
+    title: "hobby servos on a PCA9685, an Arduino that plays by itself",
+    extension: "ino",
+    stream: None,
+    sketches: Some(arduino),
+    unconfirmed: UNCONFIRMED,
+};
+
+pub(super) static MICROPYTHON: Family = Family {
+    name: "servo-micropython",
+    title: "hobby servos on a PCA9685, MicroPython that plays by itself",
+    extension: "py",
+    stream: None,
+    sketches: Some(micropython),
+    unconfirmed: UNCONFIRMED,
+};
+
+/// The sketches with their places for figures.
+const INO: &str = include_str!("sketches/servos.ino");
+const PY: &str = include_str!("sketches/servos.py");
+/// Room for the table, bytes: an Arduino Uno has 32 kB for the table and its sketch, and what is beyond the first 32 kB needs another way to read it.
+const TABLE_BYTES: usize = 20_000;
+/// A figure of the table, bytes.
+const FIGURE_BYTES: usize = 2;
+/// Longest row, ms: what two bytes hold.
+const LONGEST_MS: u64 = 65_535;
+
+fn arduino(machine: &Machine, trajectory: &Trajectory) -> Result<Vec<Sketch>, MotionError> {
+    sketch(machine, trajectory, INO, ["// ", "{", "}"], "ino")
+}
+
+fn micropython(machine: &Machine, trajectory: &Trajectory) -> Result<Vec<Sketch>, MotionError> {
+    sketch(machine, trajectory, PY, ["# ", "(", ")"], "py")
+}
+
+/// Fills a sketch with figures; `marks`: how a comment begins, and what stands around a row.
+fn sketch(
+    machine: &Machine,
+    trajectory: &Trajectory,
+    text: &str,
+    [comment, open, close]: [&str; 3],
+    extension: &'static str,
+) -> Result<Vec<Sketch>, MotionError> {
+    let servos = Servos::new(machine)?;
+    let rows = table(&servos, machine, trajectory);
+    let list = |values: &mut dyn Iterator<Item = i64>| values.map(|v| v.to_string()).collect::<Vec<_>>().join(", ");
+    let mut lines = String::new();
+    for (ms, pulses) in &rows {
+        let figures = list(&mut std::iter::once(*ms as i64).chain(pulses.iter().copied()));
+        // Writing to a string cannot fail.
+        let _ = writeln!(lines, "  {open}{figures}{close},");
+    }
+    let fill = [
+        ("@NAME@", "Winches".to_owned()),
+        ("@HEAD@", head(machine, comment)),
+        ("@SERVOS@", machine.winches.len().to_string()),
+        ("@REST@", list(&mut machine.winches.iter().map(|_| servos.pulse(0.0)))),
+        ("@FARTHEST@", list(&mut machine.travel_mm.iter().map(|&travel| servos.pulse(travel)))),
+        ("@HOME_MS@", servos.home_ms().to_string()),
+        ("@ROWS@", rows.len().to_string()),
+        ("@TABLE@", lines),
+    ];
+    let text = fill.iter().fold(text.to_owned(), |text, (place, figures)| text.replace(place, figures));
+    Ok(vec![Sketch { part: String::new(), extension, text }])
+}
+
+/// Comments: which channel is which winch, what it asks of its servo, and what is not known.
+fn head(machine: &Machine, comment: &str) -> String {
+    let drives = &machine.controller.drives;
+    let mut lines: Vec<String> = Vec::new();
+    for (channel, (winch, &travel)) in machine.winches.iter().zip(&machine.travel_mm).enumerate() {
+        lines.push(format!("Channel {channel}: {winch}, {travel:.1} mm, {:.0} degrees.", machine.degrees(travel)));
+    }
+    lines.push(format!(
+        "Servos of {} degrees from {} to {} us; the fastest turn here is {:.0} degrees/s.",
+        drives.servo_degrees,
+        drives.servo_low_us,
+        drives.servo_high_us,
+        machine.degrees(machine.limits.speed)
+    ));
+    lines.extend(UNCONFIRMED.iter().map(|line| format!("Unconfirmed: {line}.")));
+    lines.iter().map(|line| format!("{comment}{line}")).collect::<Vec<_>>().join("\n")
+}
+
+/// Rows of the motion: milliseconds since the one before, and pulses. As many as the table has room for, evenly; times are rounded from the beginning, so
+/// that nothing adds up. The first row is the rest.
+fn table(servos: &Servos, machine: &Machine, trajectory: &Trajectory) -> Vec<(u64, Vec<i64>)> {
+    let room = TABLE_BYTES / (FIGURE_BYTES * (machine.winches.len() + 1));
+    let last = trajectory.times_s.len().saturating_sub(1);
+    let kept = last.min(room);
+    let ms = |k: usize| (1e3 * (trajectory.times_s[k] - trajectory.times_s[0])).round() as u64;
+    let mut before = 0;
+    (0..=kept)
+        .map(|row| {
+            let k = if kept == 0 { 0 } else { row * last / kept };
+            let passed = (ms(k) - before).min(LONGEST_MS);
+            before = ms(k);
+            (passed, trajectory.lengths_mm[k].iter().map(|&length| servos.pulse(length)).collect())
+        })
+        .collect()
+}

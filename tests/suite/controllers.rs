@@ -1,0 +1,246 @@
+//! Programs for motor controllers, read back and run by others: a compiler, an interpreter, a parser, a drive written apart from the tool's own.
+
+use crate::support::rigged;
+use plushwright::design::{Design, bundled};
+use plushwright::fabrication::{Options, blueprint};
+use plushwright::motion::families::{bus, sdo};
+use plushwright::motion::{Framing, TooFast, hex};
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+/// All files of a blueprint by name.
+fn files(design: &Design) -> BTreeMap<String, Vec<u8>> {
+    let options = Options { too_fast: TooFast::Stretch, ..Options::default() };
+    let (files, _) = blueprint(design, &options).expect("a blueprint");
+    files.into_iter().map(|file| (file.name, file.bytes)).collect()
+}
+
+fn text(files: &BTreeMap<String, Vec<u8>>, name: &str) -> String {
+    String::from_utf8(files.get(name).unwrap_or_else(|| panic!("no {name}")).clone()).expect("text")
+}
+
+/// Times and lengths of `tracks.csv`.
+fn rows(files: &BTreeMap<String, Vec<u8>>) -> Vec<(f64, Vec<f64>)> {
+    let csv = text(files, "tracks.csv");
+    let row = |line: &str| {
+        let figures: Vec<f64> = line.split(',').map(|field| field.parse().expect("a figure")).collect();
+        (figures[0], figures[1..].iter().step_by(2).copied().collect())
+    };
+    csv.lines().skip(4).map(row).collect()
+}
+
+/// The six designs, with spools that a servo's half turn winds.
+fn for_servos() -> impl Iterator<Item = Design> {
+    bundled::ALL.iter().map(|bundled| {
+        let mut design = bundled.design().expect("a sound design");
+        design.fabrication.spool_radius_mm = 20.0;
+        design
+    })
+}
+
+#[test]
+fn a_motion_beyond_a_servo_is_refused_with_the_spool_that_would_do() {
+    let mut design = rigged();
+    design.keyframes[1].activations_mm[0] = 40.0;
+    let options = Options { too_fast: TooFast::Stretch, ..Options::default() };
+    let (files, manifest) = blueprint(&design, &options).expect("a blueprint");
+    assert!(!files.iter().any(|file| file.name.starts_with("controller-servo")));
+    // 40 mm on a spool of 10 mm are 229 degrees; half a turn winds them on 12.8 mm.
+    let told = |remark: &String| remark.contains("229 degrees") && remark.contains("12.8 mm radius");
+    assert_eq!(manifest.remarks.iter().filter(|remark| told(remark)).count(), 1, "{:?}", manifest.remarks);
+    let asked = Options { controllers: vec!["servo-arduino".into()], ..options };
+    let refused = blueprint(&design, &asked).map(drop).expect_err("beyond").to_string();
+    assert!(refused.contains("12.8 mm radius"), "{refused}");
+    design.fabrication.spool_radius_mm = 12.8;
+    let (files, _) = blueprint(&design, &asked).expect("now it fits");
+    let names: Vec<&str> =
+        files.iter().map(|f| f.name.as_str()).filter(|name| name.starts_with("controller")).collect();
+    assert_eq!(names, ["controller-servo-arduino.ino"]);
+    let unknown = Options { controllers: vec!["abacus".into()], ..Options::default() };
+    let refused = blueprint(&design, &unknown).map(drop).expect_err("unknown").to_string();
+    assert!(refused.contains("abacus") && refused.contains("grbl"), "{refused}");
+}
+
+/// When the pulse of a channel ends, of 4096 parts of 20 ms, at given times, ms, of a sketch that is sent `setup` and `motion` at 100 and 1000.
+fn pulses(run: &mut Command, times_ms: &[u64]) -> Vec<(u64, Vec<f64>)> {
+    let mut child = run.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().expect("it runs");
+    let mut script = String::from("100 setup\n1000 motion\n");
+    times_ms.iter().for_each(|ms| script += &format!("{}\n", 1000 + ms));
+    child.stdin.take().expect("piped").write_all(script.as_bytes()).expect("written");
+    let output = child.wait_with_output().expect("it ends");
+    let told = String::from_utf8(output.stdout).expect("text");
+    assert!(output.status.success() && told.contains("ok"), "{told}");
+    let line = |line: &str| {
+        let mut figures = line.strip_prefix('@')?.split(' ').map(|v| v.parse::<f64>().expect("a figure"));
+        Some((figures.next()? as u64 - 1000, figures.map(|off| off * 20_000.0 / 4096.0).collect()))
+    };
+    told.lines().filter_map(line).skip(2).collect()
+}
+
+/// Whether pulses are those of the track, to the step of the board, the millisecond of the clock and the look of the sketch.
+fn follow_the_track(design: &Design, files: &BTreeMap<String, Vec<u8>>, told: &[(u64, Vec<f64>)]) {
+    let (rows, us_per_mm) = (rows(files), 2000.0 / 180.0 * (1.0 / design.fabrication.spool_radius_mm).to_degrees());
+    assert!(told.len() > 5);
+    for (ms, pulses) in told {
+        let time_s = rows[0].0 + *ms as f64 / 1e3;
+        let next = rows.partition_point(|row| row.0 <= time_s).clamp(1, rows.len() - 1);
+        let (before, after) = (&rows[next - 1], &rows[next]);
+        let part = ((time_s - before.0) / (after.0 - before.0)).clamp(0.0, 1.0);
+        for (winch, pulse) in pulses.iter().enumerate() {
+            let (a, b) = (before.1[winch], after.1[winch]);
+            let wanted = 500.0 + us_per_mm * (a + (b - a) * part);
+            // 7 ms: the sketch looks every 5.
+            let slack = 4.0 + us_per_mm * 0.007 * (b - a).abs() / (after.0 - before.0) * 1.5;
+            assert!((pulse - wanted).abs() <= slack, "{} at {ms} ms: {pulse} instead of {wanted} us", design.name);
+        }
+    }
+}
+
+#[test]
+fn the_sketches_compile_and_play_the_track() {
+    let sketch = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/suite/support/sketch");
+    let has = |program: &str| Command::new(program).arg("--version").output().is_ok_and(|o| o.status.success());
+    let (compiles, interprets) = (has("g++"), has("python3"));
+    for design in for_servos() {
+        let files = files(&design);
+        let end_ms = (1e3 * rows(&files).last().expect("rows").0) as u64;
+        let times: Vec<u64> = (1..20).map(|k| k * end_ms / 19).collect();
+        let folder = tempfile::tempdir().expect("a folder");
+        if compiles {
+            std::fs::write(folder.path().join("sketch.ino"), &files["controller-servo-arduino.ino"]).expect("written");
+            let built = Command::new("g++")
+                .args(["-std=c++17", "-Wall", "-Wextra", "-Werror", "-x", "c++", "-O0", "-o"])
+                .arg(folder.path().join("run"))
+                .args([sketch.join("run.cpp").as_path(), Path::new("-I")])
+                .arg(&sketch)
+                .arg("-I")
+                .arg(folder.path())
+                .output()
+                .expect("g++ runs");
+            assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
+            let told = pulses(&mut Command::new(folder.path().join("run")), &times);
+            follow_the_track(&design, &files, &told);
+        }
+        if interprets {
+            let path = folder.path().join("main.py");
+            std::fs::write(&path, &files["controller-servo-micropython.py"]).expect("written");
+            let told = pulses(Command::new("python3").arg(sketch.join("run.py")).arg(&path), &times);
+            follow_the_track(&design, &files, &told);
+        }
+        if !(compiles && interprets) {
+            println!("g++: {compiles}, python3: {interprets}; what is missing was not tried");
+        }
+    }
+}
+
+#[test]
+fn another_parser_reads_the_g_code_and_its_moves_are_the_track() {
+    for bundled in bundled::ALL {
+        let design = bundled.design().expect("a sound design");
+        let files = files(&design);
+        let Some(motion) = files.get("controller-grbl-motion.gcode") else {
+            assert!(design.networks.len() > 6, "{}", bundled.name);
+            continue;
+        };
+        let motion = String::from_utf8(motion.clone()).expect("text");
+        let rows = rows(&files);
+        let codes: Vec<gcode::GCode> = gcode::parse(&motion).collect();
+        let moves: Vec<&gcode::GCode> = codes.iter().filter(|code| code.major_number() == 1).collect();
+        assert_eq!(moves.len(), rows.len() - 1);
+        for (code, pair) in moves.iter().zip(rows.windows(2)) {
+            for (axis, length) in ['X', 'Y', 'Z', 'A', 'B', 'C'].into_iter().zip(&pair[1].1) {
+                assert!((f64::from(code.value_for(axis).expect("an axis")) - length).abs() < 1e-3);
+            }
+            let seconds = 60.0 / f64::from(code.value_for('F').expect("a feed"));
+            assert!((seconds / (pair[1].0 - pair[0].0) - 1.0).abs() < 1e-4);
+        }
+        for part in ["setup", "motion", "stop"] {
+            let program = text(&files, &format!("controller-grbl-{part}.gcode"));
+            assert!(program.lines().all(|line| line.len() <= 80 || line.starts_with('(')), "GRBL takes 80 letters");
+            assert_eq!(program.contains("G10"), part == "setup", "zero is set once");
+        }
+    }
+}
+
+/// The frames of a binary program.
+fn frames(framing: Framing, bytes: &[u8]) -> Vec<String> {
+    let mut rest = bytes.to_vec();
+    let frames: Vec<String> = std::iter::from_fn(|| framing.take_command(&mut rest)).collect();
+    assert!(rest.is_empty(), "{} bytes are left", rest.len());
+    frames
+}
+
+#[test]
+fn binary_programs_are_whole_frames_that_end_where_the_track_does() {
+    let files = files(&rigged());
+    let last: Vec<i64> = rows(&files).last().expect("rows").1.iter().map(|mm| (mm * 1e6).round() as i64).collect();
+    let csv = text(&files, "tracks.csv");
+    let counts: Vec<i64> =
+        csv.lines().last().expect("rows").split(',').skip(2).step_by(2).map(|v| v.parse().expect("counts")).collect();
+    for part in ["setup", "motion", "stop"] {
+        let frames = frames(Framing::Sdo, &files[&format!("controller-sdo-{part}.bin")]);
+        let parsed: Vec<sdo::Frame> = frames.iter().map(|f| sdo::Frame::parse(f).expect("a frame")).collect();
+        assert_eq!(parsed.iter().any(|f| f.object == sdo::HOMING), part == "setup", "zero is set once");
+        if part == "motion" {
+            for (winch, counts) in counts.iter().enumerate() {
+                let own = |f: &&sdo::Frame| f.object == sdo::TARGET && usize::from(f.node) == winch + 1;
+                assert_eq!(parsed.iter().rfind(own).expect("targets").value(), *counts);
+            }
+        }
+        let packets = self::frames(Framing::Bus, &files[&format!("controller-bus-servo-{part}.bin")]);
+        let parsed: Vec<bus::Packet> = packets.iter().map(|p| bus::Packet::parse(p).expect("a packet")).collect();
+        let here = |p: &bus::Packet| p.data == [bus::TORQUE, bus::HERE];
+        assert_eq!(parsed.iter().any(here), part == "setup", "zero is set once");
+        if part == "motion" {
+            for (winch, micrometres) in last.iter().enumerate() {
+                let own = |p: &&bus::Packet| p.data[0] == bus::MOVE && usize::from(p.id) == winch + 1;
+                let data = &parsed.iter().rfind(own).expect("moves").data;
+                let mm = (bus::value(data[2], data[3]) - bus::REST) as f64 / 4096.0 * 20.0 * std::f64::consts::PI;
+                assert!((mm - *micrometres as f64 / 1e6).abs() < 0.01, "{}", hex(data));
+            }
+        }
+    }
+}
+
+/// A stored program as (node, command, argument).
+fn stored(program: &str) -> Vec<(usize, String, Option<f64>)> {
+    let command = |line: &str| {
+        let node = line.find(|c: char| !c.is_ascii_digit()).expect("a command");
+        let name = line[node..].trim_end_matches(|c: char| c.is_ascii_digit() || c == '-');
+        (line[..node].parse().expect("a node"), name.to_owned(), line[node + name.len()..].parse().ok())
+    };
+    program.trim_end_matches('\r').split('\r').map(command).collect()
+}
+
+#[test]
+fn stored_programs_last_as_long_as_the_track_and_end_where_it_does() {
+    let mut design = rigged();
+    design.controller.track_rate_hz = 30.0;
+    let files = files(&design);
+    let rows = rows(&files);
+    let lasts = rows.last().expect("rows").0 - rows[0].0;
+    let motion = stored(&text(&files, "controller-ascii-stored-motion.txt"));
+    let script = |winch| text(&files, &format!("controller-v3-script-{winch}-motion.bas"));
+    for winch in 0..2 {
+        let own: Vec<_> = motion.iter().filter(|c| c.0 == winch + 1).collect();
+        let names: Vec<&str> = own.iter().map(|c| c.1.as_str()).collect();
+        assert_eq!(
+            (names[..2].to_vec(), names[names.len() - 2..].to_vec()),
+            (vec!["DIPROG", "PROGSEQ"], vec!["END", "ENPROG"])
+        );
+        let delays: f64 = own.iter().filter(|c| c.1 == "DELAY").filter_map(|c| c.2).sum();
+        // The motion lasts 1.51 s, of a hundredth each.
+        assert!((delays / 100.0 - lasts).abs() <= 0.005 + 1e-9, "{delays}");
+        let calls: Vec<Vec<i64>> = script(winch + 1)
+            .lines()
+            .filter_map(|line| line.strip_prefix("Wind(")?.strip_suffix(')'))
+            .map(|figures| figures.split(", ").map(|v| v.parse().expect("a figure")).collect())
+            .collect();
+        assert_eq!(calls.iter().map(|call| call[2]).sum::<i64>(), (1e3 * lasts).round() as i64);
+        let ends = own.iter().rfind(|c| c.1 == "LA").and_then(|c| c.2);
+        assert_eq!(ends, calls.last().map(|call| call[0] as f64));
+    }
+    assert!(!motion.iter().any(|c| c.1 == "HO") && !script(1).contains("6098"), "zero is set once");
+}
