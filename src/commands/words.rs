@@ -153,7 +153,7 @@ fn outline(error: &OutlineError) -> String {
 fn option(remedy: Remedy) -> &'static str {
     match remedy {
         Remedy::Height => "--height sets another height",
-        Remedy::Unit => "--unit sets another",
+        Remedy::Unit => "--unit sets another, --height the size",
         Remedy::Threshold => "--threshold sets another value",
         Remedy::Opacity => "--threshold 1 counts all that shows",
         Remedy::Background => "--background keep keeps it",

@@ -196,6 +196,7 @@ impl Note {
 impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
+            Self::Background(Ground::Page) => f.write_str("a background rectangle as large as the page was left out"),
             Self::Background(ground) => write!(f, "{ground} was taken for the background and left out"),
             Self::GroundCounts(ground) => write!(f, "{ground} counts as the body"),
             Self::Faint { count, opacity } => {

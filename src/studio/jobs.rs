@@ -10,7 +10,7 @@ use crate::operations::preview::Previewed;
 use crate::operations::remesh::{self, Remeshed};
 use crate::operations::reshape::{self, Reshaped};
 use crate::operations::rig::{self, Rigged};
-use crate::outline::Changes;
+use crate::outline::{Changes, Import};
 use crate::picture::Texture;
 use crate::rigging::Proposal;
 use std::any::Any;
@@ -44,6 +44,7 @@ pub enum Outcome {
     /// What would be read of an outline.
     Previewed {
         path: PathBuf,
+        import: Box<Import>,
         result: Result<Box<Previewed>, String>,
     },
     Exported {

@@ -39,7 +39,7 @@ pub fn unplayed(error: &play::Error) -> String {
 fn control(remedy: Remedy) -> &'static str {
     match remedy {
         Remedy::Height => "“Height” sets another height",
-        Remedy::Unit => "“Unit” sets another",
+        Remedy::Unit => "“Unit” sets another, “Height” the size",
         Remedy::Threshold => "“Ink from” sets another level",
         Remedy::Opacity => "“Ink from” 1 counts all that shows",
         Remedy::Background => "“Background” keeps it",

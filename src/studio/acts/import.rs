@@ -66,7 +66,7 @@ pub fn follow(session: &mut Session) {
     let Some((path, import)) = session.files.preview.wanted(&dialog.path, &dialog.import) else { return };
     let running = session.jobs.start("Preview", move |cancel| {
         let result = previewed(&path, &import, cancel);
-        Outcome::Previewed { path, result }
+        Outcome::Previewed { path, import: Box::new(import), result }
     });
     session.files.preview.begin(running);
 }

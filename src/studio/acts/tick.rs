@@ -64,7 +64,7 @@ fn take(session: &mut Session, Finished { serial, outcome }: Finished) {
         Outcome::Keyed(keyed) => animate::take_key(session, serial, keyed),
         Outcome::Judged(judgement) => session.judging.take(serial, *judgement),
         Outcome::Imported(result) => filing::take_import(session, result),
-        Outcome::Previewed { path, result } => session.files.preview.take(serial, path, result),
+        Outcome::Previewed { path, import, result } => session.files.preview.take(serial, path, *import, result),
         Outcome::Exported { folder, result } => filing::take_export(session, &folder, result),
         Outcome::Textured { path, texture } => texture::take_texture(session, path, texture),
         Outcome::Picked { path, at_once } => filing::take_path(session, serial, path, at_once),

@@ -1,7 +1,7 @@
 //! Dialogs over the window: unsaved changes, and paths where the desktop has no dialogs of its own.
 
 use super::import;
-use super::widgets::primary;
+use super::widgets::{primary, sentence};
 use crate::files::shown;
 use crate::motion::{TooFast, families};
 use crate::operations::export;
@@ -194,10 +194,4 @@ fn export_settings(ui: &mut Ui, options: &mut export::Options) {
             }
         }
     });
-}
-
-/// An error as a sentence of its own.
-pub(super) fn sentence(error: &str) -> String {
-    let mut letters = error.chars();
-    letters.next().map_or_else(String::new, |first| format!("{}{}.", first.to_uppercase(), letters.as_str()))
 }

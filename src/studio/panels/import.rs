@@ -1,6 +1,6 @@
 //! How an outline is read, and what would be read: a part of the import's dialog.
 
-use super::dialogs::sentence;
+use super::widgets::sentence;
 use crate::mesh::MAX_FIBERS;
 use crate::operations::FiberCount;
 use crate::outline::{Background, Holes, Import, Pieces, Remedy};
@@ -72,13 +72,16 @@ fn names(ui: &mut Ui, name: &str, tip: &str, none: &str, text: &mut String) {
 
 /// The picture of what would be read, with a line for each guess, and a button for each that has another answer.
 fn shown(ui: &mut Ui, session: &Session, edited: &mut PathDialog) {
-    let Some(seen) = session.files.preview.of(&edited.path) else { return };
+    let Some((seen, fresh)) = session.files.preview.of(&edited.path, &edited.import) else { return };
+    // What was asked for last has its own line.
+    let tells = fresh && edited.trouble.is_none();
     let previewed = match seen {
         Ok(previewed) => previewed,
-        Err(why) => {
+        Err(why) if tells => {
             ui.label(RichText::new(sentence(why)).color(ui.visuals().error_fg_color));
             return;
         }
+        Err(_) => return,
     };
     ui.add_space(4.0);
     ui.horizontal_top(|ui| {
@@ -90,7 +93,7 @@ fn shown(ui: &mut Ui, session: &Session, edited: &mut PathDialog) {
                 for line in &previewed.legend {
                     ui.label(RichText::new(line).small());
                 }
-                if let Some(error) = &previewed.refused {
+                if let Some(error) = previewed.refused.as_ref().filter(|_| tells) {
                     ui.label(RichText::new(sentence(&words::outline(error))).color(ui.visuals().error_fg_color));
                     switch(ui, error.remedy(), &mut edited.import.options.import);
                 }

@@ -12,16 +12,18 @@ pub struct ImportPreview {
     /// What was asked for last.
     asked: Option<(PathBuf, Import)>,
     running: Option<Running>,
-    shown: Option<(PathBuf, Result<Box<Previewed>, String>)>,
+    shown: Option<(PathBuf, Import, Result<Box<Previewed>, String>)>,
     /// Counts what was shown.
     serial: u64,
 }
 
 impl ImportPreview {
-    /// What was found in the file with a path.
-    pub fn of(&self, path: &str) -> Option<Result<&Previewed, &str>> {
-        let (shown, result) = self.shown.as_ref()?;
-        (shown == Path::new(path.trim())).then(|| result.as_deref().map_err(String::as_str))
+    /// What was found in the file with a path, and whether that is with the settings as they are.
+    pub fn of(&self, path: &str, choice: &ImportChoice) -> Option<(Result<&Previewed, &str>, bool)> {
+        let (shown, import, result) = self.shown.as_ref()?;
+        let path = Path::new(path.trim());
+        let fresh = *import == choice.options(path).import;
+        (shown == path).then(|| (result.as_deref().map_err(String::as_str), fresh))
     }
 
     /// Tells one picture from the next.
@@ -46,11 +48,11 @@ impl ImportPreview {
     }
 
     /// A job is over, or broke.
-    pub(crate) fn take(&mut self, serial: u64, path: PathBuf, result: Result<Box<Previewed>, String>) {
+    pub(crate) fn take(&mut self, serial: u64, path: PathBuf, import: Import, result: Result<Box<Previewed>, String>) {
         if Running::is(self.running.as_ref(), serial) {
             self.running = None;
             self.serial += 1;
-            self.shown = Some((path, result));
+            self.shown = Some((path, import, result));
         }
     }
 

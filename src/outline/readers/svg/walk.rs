@@ -1,6 +1,5 @@
 //! What is painted, element by element.
 
-use super::FLATTEN_FRACTION;
 use super::flatten::flatten;
 use crate::outline::even::{self, EVEN_FRACTION, Evened};
 use crate::outline::readers::ground::{Mark, holds_box};
@@ -10,6 +9,11 @@ use i_overlay::core::fill_rule::FillRule;
 use usvg::tiny_skia_path::PathStroker;
 use usvg::{Group, ImageKind, Node, Paint, Transform};
 
+/// Farthest that a flattened curve may lie from the true one, as a fraction of the drawing's longer side: 6 um on
+/// 300 mm, below the simplification that follows.
+const FLATTEN_FRACTION: f64 = 2e-5;
+/// Paint whose most opaque place is below this is a shadow or a tint, and no body.
+pub(super) const FAINT: f32 = 0.4;
 /// Groups and paths that are visited at most: clips and masks may refer to each other, which multiplies them.
 const MAX_VISITS: usize = 400_000;
 /// Clips and masks that are cut with at most, and how deep they may be clipped and masked themselves.
@@ -222,7 +226,7 @@ fn gather(marks: &mut Vec<Mark>) {
         return;
     }
     let late = marks.split_off(SEPARATE);
-    let (faint, others): (Vec<Mark>, Vec<Mark>) = late.into_iter().partition(|mark| mark.opacity < super::FAINT);
+    let (faint, others): (Vec<Mark>, Vec<Mark>) = late.into_iter().partition(|mark| mark.opacity < FAINT);
     for of_kind in [faint, others] {
         let opacity = of_kind.iter().map(|mark| mark.opacity).fold(0.0, f32::max);
         let area: Shapes = of_kind.into_iter().flat_map(|mark| mark.area).collect();
