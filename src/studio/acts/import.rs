@@ -51,7 +51,7 @@ pub fn ask_again(session: &mut Session, refused: Refused) {
     session.files.dialog = Some(Dialog::Path(PathDialog {
         purpose: Purpose::Import,
         path: path.to_string_lossy().into_owned(),
-        import: choice,
+        import: Box::new(choice),
         export: export::Options::default(),
         trouble: Some(why),
     }));

@@ -24,7 +24,7 @@ const SHOWN_PX: f32 = 220.0;
 
 /// The settings of an import, and what would be read with them.
 pub fn settings(ui: &mut Ui, session: &Session, edited: &mut PathDialog) {
-    let ImportChoice { options, layers, blocks } = &mut edited.import;
+    let ImportChoice { options, layers, blocks } = &mut *edited.import;
     ui.horizontal(|ui| {
         let tip = "Of the silhouette; 0: the size that the file has";
         let mut height = options.import.height_mm.unwrap_or(0.0);

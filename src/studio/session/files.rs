@@ -23,7 +23,7 @@ pub enum FileAction {
     OpenExample(usize),
     ImportPath {
         path: PathBuf,
-        choice: ImportChoice,
+        choice: Box<ImportChoice>,
     },
     SavePath(PathBuf),
     ExportPath {
@@ -88,7 +88,7 @@ pub enum Why {
 pub struct PathDialog {
     pub purpose: Purpose,
     pub path: String,
-    pub import: ImportChoice,
+    pub import: Box<ImportChoice>,
     pub export: export::Options,
     /// Why what was asked for last could not be had.
     pub trouble: Option<String>,
