@@ -1,9 +1,9 @@
 //! `bench`: whole studies of the solvers, as tables, CSV and plots.
 
 use super::error::CommandError;
-use super::new::Reading;
 use super::output::{check_folder, say_json, say_lines, write_folder};
 use super::progress;
+use super::reading::Reading;
 use super::solve::QualityChoice;
 use crate::bench::drags::{Path as DragPath, SWEEP_FRAMES};
 use crate::bench::{

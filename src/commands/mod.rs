@@ -28,6 +28,7 @@ mod place;
 mod play;
 mod pose;
 mod progress;
+mod reading;
 mod remesh;
 mod render;
 pub mod report;

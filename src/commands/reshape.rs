@@ -1,8 +1,8 @@
 //! `reshape`: another silhouette for a design that is already posed and rigged.
 
 use super::error::CommandError;
-use super::new::Reading;
 use super::output::{refuse_input, say, say_json};
+use super::reading::Reading;
 use super::words::CleanUp;
 use super::{document, meant, remesh, words};
 use crate::operations::reshape::{self, Options, Report, Reshaped, Source};

@@ -7,7 +7,7 @@ use crate::defaults;
 use crate::fabrication::ExportError;
 use crate::motion::MotionError;
 use crate::operations::explore::Point;
-use crate::operations::{NoSuchPose, Progress, Unbalanced, new_design, reshape};
+use crate::operations::{NoSuchPose, Progress, Unbalanced, new_design, preview, reshape};
 use crate::outline::{Change, Changes, Note, OutlineError, Remedy};
 use crate::rigging;
 use serde::Serialize;
@@ -19,6 +19,15 @@ pub fn unmade(path: &Path, error: new_design::Error) -> CommandError {
         new_design::Error::Outline(error) => unread(path, &error),
         new_design::Error::Mesh(error) => CommandError::input(path, error),
         new_design::Error::Cancelled(_) => CommandError::Cancelled,
+    }
+}
+
+/// Why there is no preview of an outline.
+pub fn unshown(path: &Path, error: preview::Error) -> CommandError {
+    match error {
+        preview::Error::Outline(error) => CommandError::input(path, outline(&error)),
+        preview::Error::Picture(error) => CommandError::Failed(error.to_string()),
+        preview::Error::Cancelled(_) => CommandError::Cancelled,
     }
 }
 
@@ -150,7 +159,7 @@ fn outline(error: &OutlineError) -> String {
 fn option(remedy: Remedy) -> &'static str {
     match remedy {
         Remedy::Height => "--height sets another height",
-        Remedy::Unit => "--unit sets another",
+        Remedy::Unit => "--unit sets another, --height the size",
         Remedy::Threshold => "--threshold sets another value",
         Remedy::Opacity => "--threshold 1 counts all that shows",
         Remedy::Background => "--background keep keeps it",

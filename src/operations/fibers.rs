@@ -34,8 +34,20 @@ impl FiberCount {
 
 /// More fibres than were asked for: the fewest that the outline allows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the outline needs more than {asked} fibers; it has {count}")]
+#[error("the outline needs more than {asked} fibers; it has {count}{}", hint(*.asked, *.count))]
 pub struct MoreFibers {
     pub asked: usize,
     pub count: usize,
+}
+
+/// A body needs this many times the fibres asked for where its outline is fur or noise.
+const FAR_MORE: usize = 8;
+
+/// What is the matter with an outline that needs far more fibres than asked for.
+fn hint(asked: usize, count: usize) -> &'static str {
+    if count > FAR_MORE * asked {
+        ", for its rim is very fine: smoothing or a least width makes it plainer"
+    } else {
+        ""
+    }
 }

@@ -3,6 +3,7 @@
 //! | operation | from, to |
 //! | --- | --- |
 //! | [`new_design`] | the bytes of an outline to a meshed design |
+//! | [`preview`] | the bytes of an outline to a picture of what would be read |
 //! | [`remesh`] | a design to the same one at another resolution |
 //! | [`reshape`] | a design and another outline to the design with that body |
 //! | [`pose`] | places of the body to pins, and to targets of a pose |
@@ -51,6 +52,7 @@ pub mod new_design;
 pub mod play;
 pub mod pose;
 mod posing;
+pub mod preview;
 pub mod propose;
 pub mod remesh;
 pub mod render;

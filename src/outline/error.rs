@@ -10,7 +10,7 @@ pub enum OutlineError {
     #[error("{0}")]
     Unopened(String),
     #[error(
-        "no outline that can be read: SVG, PDF, DXF, pictures (PNG, JPEG, WebP, GIF, BMP, TIFF), flat meshes (OBJ, STL) and drawings of parts are"
+        "neither an SVG, PDF or DXF drawing, nor a picture (PNG, JPEG, WebP, GIF, BMP, TIFF), flat mesh (OBJ, STL) or drawing of parts"
     )]
     UnknownFormat,
     #[error("{format} is not read; {advice}")]

@@ -5,7 +5,7 @@
 
 use super::regions::{self, Shapes};
 use super::simplify::simplify;
-use super::{OutlineError, Point};
+use super::{OutlineError, Point, polygon};
 
 /// Gaps narrower than this part of the drawing's size are none: 0.25 mm on 250 mm, which scissors cannot part.
 pub(super) const GAP_FRACTION: f64 = 1e-3;
@@ -15,6 +15,8 @@ const SIMPLIFY: f64 = 0.05;
 const OVERLAP: f64 = 0.2;
 /// Additions smaller than this, in `r^2`, are rounded corners.
 const SPECK: f64 = 1e-3;
+/// Parts lie along each other for at least so long, in `r`.
+const LONG: f64 = 8.0;
 /// Most bridges.
 const MAX_BRIDGES: usize = 4000;
 
@@ -65,7 +67,10 @@ fn between(shapes: &Shapes, filled: &Shapes, r: f64) -> Shapes {
             if bridges.len() > MAX_BRIDGES {
                 return bridges;
             }
-            bridges.extend(regions::intersection(&regions::intersection(&grown[a], &grown[b]), filled));
+            let mut meeting = regions::intersection(&regions::intersection(&grown[a], &grown[b]), filled);
+            // Parts that touch in a corner alone are no parts of one.
+            meeting.retain(|rings| 0.5 * polygon::perimeter(&rings[0]) > LONG * r);
+            bridges.extend(meeting);
         }
     }
     bridges
@@ -74,7 +79,6 @@ fn between(shapes: &Shapes, filled: &Shapes, r: f64) -> Shapes {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::outline::polygon;
 
     fn rectangle(low: Point, high: Point) -> Vec<Vec<Point>> {
         vec![vec![low, [high[0], low[1]], high, [low[0], high[1]]]]

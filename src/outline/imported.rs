@@ -19,8 +19,6 @@ pub enum Why {
     Background,
     /// Hardly seen.
     Faint,
-    /// On a layer that is hidden.
-    Hidden,
     /// Islands too small.
     Specks,
     /// Smaller pieces, left out as asked.

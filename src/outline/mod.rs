@@ -2,9 +2,10 @@
 //!
 //! | file | holds |
 //! | --- | --- |
-//! | `readers/` | files to painted areas: SVG, PNG and JPEG, DXF, OBJ, drawings; one reader a file, and the table of them |
+//! | `readers/` | files to painted areas: SVG, PDF, pictures, DXF, flat meshes, drawings; one reader a file, and the table of them |
 //! | `options`, `notes`, `error` | how to read, what there is to say about it, why it failed |
 //! | `clean` | painted areas to one outline, and what was changed |
+//! | `even`, `gaps`, `lines`, `basins` | noise, parts that all but touch, figures drawn in lines |
 //! | `import` | from the bytes of a file to one clean outline |
 //! | `texture` | what a file shows within the silhouette's box |
 //! | `drawing/` | outlines drawn by hand |

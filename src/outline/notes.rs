@@ -20,6 +20,8 @@ pub enum Note {
     /// Text in a form that browsers do not show either.
     FlowedText(usize),
     EmbeddedPictures(usize),
+    /// Of so many pages the first was read.
+    Pages(usize),
     Filters,
     OffPage,
     /// Styles of the drawing that are not followed.
@@ -30,6 +32,8 @@ pub enum Note {
     NoUnit(&'static str),
     /// The triangles of a mesh were taken as areas.
     NotOnePiece,
+    /// A mesh has faces of more than four corners, so its area is meshed anew.
+    Polygons,
     /// A body was taken for what it covers, seen along an axis.
     Projected {
         along: &'static str,
@@ -192,6 +196,7 @@ impl Note {
 impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
+            Self::Background(Ground::Page) => f.write_str("a background rectangle as large as the page was left out"),
             Self::Background(ground) => write!(f, "{ground} was taken for the background and left out"),
             Self::GroundCounts(ground) => write!(f, "{ground} counts as the body"),
             Self::Faint { count, opacity } => {
@@ -202,6 +207,7 @@ impl fmt::Display for Note {
                 write!(f, "{count} flowed text(s) left out, which browsers do not show either; convert them to paths")
             }
             Self::EmbeddedPictures(count) => write!(f, "{count} embedded picture(s) left out; only drawn shapes count"),
+            Self::Pages(count) => write!(f, "of {count} pages the first was read"),
             Self::Filters => f.write_str("filter effects (shadows, blurs) left out"),
             Self::OffPage => f.write_str("parts of the drawing lie off the page; they count"),
             Self::Styles(what) => write!(f, "a style is not followed: {what}"),
@@ -210,8 +216,9 @@ impl fmt::Display for Note {
             Self::NotOnePiece => {
                 f.write_str("the triangles of the mesh are not one sound piece; their area is meshed anew")
             }
+            Self::Polygons => f.write_str("the mesh has faces of more than four corners; its area is meshed anew"),
             Self::Projected { along, thickness } => {
-                write!(f, "the mesh is {thickness:.1} thick; what it covers seen along {along} is taken")
+                write!(f, "the mesh is {thickness:.1} mm thick; what it covers seen along {along} is taken")
             }
             Self::Upright(along) => write!(f, "the drawing stands upright in space; it is seen from {along}"),
             Self::OpenLines(count) => write!(f, "{count} open line(s) left out; only closed outlines count"),

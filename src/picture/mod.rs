@@ -28,6 +28,7 @@ pub mod element_quality;
 pub mod layers;
 mod pair;
 pub mod palette;
+pub mod preview;
 pub mod raster;
 mod scene;
 mod texture;

@@ -42,6 +42,30 @@ pub fn png(left: &Scene, right: &Scene, size: (u32, u32), background: Color) -> 
     Ok(marked_png(&bytes))
 }
 
+/// Points of mm (y up) to pixels, so that all of them are as large as a margin allows in a picture of a size.
+pub(super) fn fitted<'a>(
+    points: impl Iterator<Item = &'a Point>,
+    (width, height): (u32, u32),
+) -> impl Fn(&Point) -> [f32; 2] {
+    let mut bounds = Bounds { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
+    points.for_each(|p| bounds.add(p));
+    let view = View::fit(&bounds, 0.0, f64::from(width), f64::from(height));
+    move |p| [(view.x0 + view.scale * p[0]) as f32, (view.y0 - view.scale * p[1]) as f32]
+}
+
+/// Closed polygons as one path.
+pub(super) fn path<'a>(rings: impl Iterator<Item = &'a [Point]>, place: &impl Fn(&Point) -> [f32; 2]) -> Option<Path> {
+    let mut builder = PathBuilder::new();
+    for ring in rings {
+        let mut points = ring.iter().map(place);
+        let Some([x, y]) = points.next() else { continue };
+        builder.move_to(x, y);
+        points.for_each(|[x, y]| builder.line_to(x, y));
+        builder.close();
+    }
+    builder.finish()
+}
+
 /// The box around everything that is drawn, mm.
 struct Bounds {
     low: Point,

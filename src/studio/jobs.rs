@@ -6,10 +6,11 @@ use crate::design::Design;
 use crate::operations::explore::Point;
 use crate::operations::key::{self, Keyed};
 use crate::operations::new_design::Note;
+use crate::operations::preview::Previewed;
 use crate::operations::remesh::{self, Remeshed};
 use crate::operations::reshape::{self, Reshaped};
 use crate::operations::rig::{self, Rigged};
-use crate::outline::Changes;
+use crate::outline::{Changes, Import};
 use crate::picture::Texture;
 use crate::rigging::Proposal;
 use std::any::Any;
@@ -41,6 +42,12 @@ pub enum Outcome {
     Followed(Result<Vec<Keyed>, key::Error>),
     Judged(Box<Judgement>),
     Imported(Result<Box<New>, Box<Refused>>),
+    /// What would be read of an outline.
+    Previewed {
+        path: PathBuf,
+        import: Box<Import>,
+        result: Result<Box<Previewed>, String>,
+    },
     Exported {
         folder: PathBuf,
         /// Its remarks.

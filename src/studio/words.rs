@@ -2,7 +2,7 @@
 
 use crate::fabrication::ExportError;
 use crate::motion::MotionError;
-use crate::operations::{MoreFibers, Progress, key, new_design, play, remesh, reshape, rig};
+use crate::operations::{MoreFibers, Progress, key, new_design, play, preview, remesh, reshape, rig};
 use crate::outline::{Change, Changes, Note, OutlineError, Remedy};
 use crate::rigging::{self, RigError};
 
@@ -15,7 +15,7 @@ pub fn changes(changes: &Changes) -> impl Iterator<Item = String> {
 }
 
 /// A note of a reader or the clean-up, and the control that would have it otherwise.
-fn note(note: &Note) -> String {
+pub fn note(note: &Note) -> String {
     note.remedy().map_or_else(|| note.to_string(), |remedy| format!("{note}; {}", control(remedy)))
 }
 
@@ -39,7 +39,7 @@ pub fn unplayed(error: &play::Error) -> String {
 fn control(remedy: Remedy) -> &'static str {
     match remedy {
         Remedy::Height => "“Height” sets another height",
-        Remedy::Unit => "“Unit” sets another",
+        Remedy::Unit => "“Unit” sets another, “Height” the size",
         Remedy::Threshold => "“Ink from” sets another level",
         Remedy::Opacity => "“Ink from” 1 counts all that shows",
         Remedy::Background => "“Background” keeps it",
@@ -61,6 +61,14 @@ pub fn unmade(error: &new_design::Error) -> String {
     match error {
         new_design::Error::Outline(error) => outline(error),
         new_design::Error::Mesh(_) | new_design::Error::Cancelled(_) => error.to_string(),
+    }
+}
+
+/// Why it cannot be shown what would be read of a file.
+pub fn unshown(error: &preview::Error) -> String {
+    match error {
+        preview::Error::Outline(error) => outline(error),
+        preview::Error::Picture(_) | preview::Error::Cancelled(_) => error.to_string(),
     }
 }
 

@@ -278,3 +278,30 @@ fn crc(bytes: &[u8]) -> u32 {
         (0..8).fold(crc ^ u32::from(byte), |crc, _| if crc & 1 == 1 { 0xedb8_8320 ^ (crc >> 1) } else { crc >> 1 })
     })
 }
+
+#[test]
+fn a_preview_is_written_with_a_design_or_without() {
+    let folder = Folder::new();
+    let body = "<rect width='100' height='100' fill='white'/><path d='M20 20h50v60h-50z'/>";
+    let file = folder.put("a.svg", &svg(body));
+    let preview = folder.0.path().join("a.png");
+    let to = ["--preview", preview.to_str().unwrap()];
+    folder.accepted(&file, &to);
+    assert!(image::open(&preview).unwrap().width() > 200);
+    std::fs::remove_file(&preview).unwrap();
+    let output =
+        std::process::Command::new(env!("CARGO_BIN_EXE_plushwright")).arg("new").arg(&file).args(to).output().unwrap();
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success() && preview.exists(), "{output:?}");
+    for part in ["50.0 x 60.0 mm", "blue: taken for the background", "--background keep"] {
+        assert!(said.contains(part), "{part}: {said}");
+    }
+    // Pieces are shown, and refused all the same.
+    let pieces = folder.put("b.svg", &svg("<rect width='40' height='60'/><rect x='60' width='30' height='60'/>"));
+    let preview = folder.0.path().join("b.png");
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_plushwright"))
+        .args(["new".as_ref(), pieces.as_os_str(), "--preview".as_ref(), preview.as_os_str()])
+        .output()
+        .unwrap();
+    assert!(output.status.code() == Some(2) && preview.exists(), "{output:?}");
+}

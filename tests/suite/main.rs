@@ -10,6 +10,7 @@ mod document;
 mod drag;
 mod examples;
 mod export;
+mod exports;
 mod extremes;
 #[cfg(unix)]
 mod files;

@@ -132,7 +132,7 @@ fn what_is_asked_for_is_the_same_both_ways() {
     let design = imported("plain.svg", NUMBERS.as_bytes(), &args, |window| {
         enter(window, Role::SpinButton, "Height", "150");
         enter(window, Role::SpinButton, "Muscle fibres", "200");
-        click(window, "Fill holes");
+        click(window, "Holes: fill");
         click(window, "Reading and clean-up");
         enter(window, Role::SpinButton, "Smooth", "0.5");
     });

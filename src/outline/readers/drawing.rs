@@ -16,8 +16,8 @@ impl OutlineReader for OfParts {
     }
 
     /// A parenthesis, and the first words.
-    fn can_read(&self, head: &[u8]) -> bool {
-        is_drawing(head)
+    fn can_read(&self, bytes: &[u8]) -> bool {
+        is_drawing(bytes)
     }
 
     fn options(&self) -> &'static [ReadingOption] {
@@ -57,8 +57,10 @@ impl Drawing {
 }
 
 /// Whether a file begins as drawings do: a parenthesis, and the first words.
-fn is_drawing(head: &[u8]) -> bool {
-    let text = String::from_utf8_lossy(head);
+fn is_drawing(bytes: &[u8]) -> bool {
+    /// Comments may stand before the first words.
+    const HEAD: usize = 4000;
+    let text = String::from_utf8_lossy(&bytes[..bytes.len().min(HEAD)]);
     let code = text.lines().map(|line| line.split("//").next().unwrap_or_default()).collect::<String>();
     let code = code.trim_start_matches('\u{feff}').trim_start();
     code.strip_prefix("Drawing")

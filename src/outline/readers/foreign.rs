@@ -27,7 +27,8 @@ const PHOTO: &str =
 const PICTURE: &str = "save it as PNG";
 const POSTSCRIPT: &str = "open it in Inkscape or Illustrator and save it as SVG, or make a PDF of it";
 /// Packed folders, by what one of their first files is called.
-const PACKED: [(&str, &[u8], &str); 6] = [
+const PACKED: [(&str, &[u8], &str); 7] = [
+    ("a 3MF model", b"3D/3dmodel.model", "export it as STL or OBJ"),
     ("a Krita document", b"application/x-krita", PICTURE),
     ("an OpenRaster picture", b"image/openraster", PICTURE),
     ("an OpenDocument drawing", b"application/vnd.oasis", "export it as SVG"),
@@ -70,7 +71,7 @@ mod tests {
             (b"AC1032\0", "DXF"),
             (b"PK\x03\x04 mimetypeapplication/x-krita", "Krita"),
             (b"PK\x03\x04 other", "unpack"),
-            (b"what else", "SVG, PDF"),
+            (b"what else", "neither an SVG"),
         ] {
             assert!(unknown(bytes).to_string().contains(says), "{}", unknown(bytes));
         }

@@ -4,11 +4,12 @@ mod drawing;
 mod dxf;
 mod encoding;
 mod finish;
+mod flat;
 mod foreign;
 mod ground;
 mod layers;
-mod obj;
 mod packed;
+mod pdf;
 mod picture;
 mod reader;
 pub mod svg;
@@ -20,15 +21,12 @@ pub(super) use reader::Painting;
 pub use reader::{OutlineReader, ReadingOption};
 
 /// All readers; the first that can read a file does. A new one is a file and its two lines here.
-const READERS: [&dyn OutlineReader; 5] = [&picture::Picture, &dxf::Dxf, &svg::Svg, &drawing::OfParts, &obj::Obj];
-
-/// Bytes by which a kind of file is told.
-const HEAD: usize = 4000;
+const READERS: [&dyn OutlineReader; 7] =
+    [&picture::Picture, &pdf::Pdf, &dxf::Dxf, &svg::Svg, &drawing::OfParts, &flat::Obj, &flat::Stl];
 
 /// The reader of a file, whatever it is called; `None` where it is no outline.
 pub fn reader_of(bytes: &[u8]) -> Option<&'static dyn OutlineReader> {
-    let head = &bytes[..bytes.len().min(HEAD)];
-    READERS.into_iter().find(|reader| reader.can_read(head))
+    READERS.into_iter().find(|reader| reader.can_read(bytes))
 }
 
 /// How files with outlines are called.

@@ -13,8 +13,8 @@ pub trait OutlineReader: Sync {
     /// How they are called; what they are is told by their first bytes.
     fn extensions(&self) -> &'static [&'static str];
 
-    /// Whether a file that begins so is of this kind.
-    fn can_read(&self, head: &[u8]) -> bool;
+    /// Whether a file is of this kind: told by how it begins, or is built.
+    fn can_read(&self, bytes: &[u8]) -> bool;
 
     /// Options of [`Import`] that mean something for this kind, beside those of the clean-up.
     fn options(&self) -> &'static [ReadingOption];

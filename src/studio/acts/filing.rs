@@ -62,7 +62,7 @@ fn go_on(session: &mut Session, action: FileAction) {
         },
         FileAction::OpenPath(path) => open::open_path(session, path),
         FileAction::OpenExample(index) => open::open_example(session, index),
-        FileAction::ImportPath { path, choice } => import::import(session, path, choice),
+        FileAction::ImportPath { path, choice } => import::import(session, path, *choice),
         FileAction::Dropped(path) if session.files.dialog.is_some() => {
             let path = files::shown(&path);
             session.messages.warning(format!("{path} was not opened: answer the dialog first."));

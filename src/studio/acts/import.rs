@@ -3,7 +3,7 @@
 use super::replace;
 use crate::files;
 use crate::operations::new_design::{self, Made, Note, Options};
-use crate::operations::{Context, export};
+use crate::operations::{Context, export, preview};
 use crate::outline;
 use crate::studio::jobs::{New, Outcome, Refused};
 use crate::studio::keeping::Kept;
@@ -51,10 +51,33 @@ pub fn ask_again(session: &mut Session, refused: Refused) {
     session.files.dialog = Some(Dialog::Path(PathDialog {
         purpose: Purpose::Import,
         path: path.to_string_lossy().into_owned(),
-        import: choice,
+        import: Box::new(choice),
         export: export::Options::default(),
         trouble: Some(why),
     }));
+}
+
+/// Reads what the dialog names whenever that or its settings change.
+pub fn follow(session: &mut Session) {
+    let Some(Dialog::Path(dialog)) = &session.files.dialog else { return session.files.preview.forget() };
+    if dialog.purpose != Purpose::Import {
+        return session.files.preview.forget();
+    }
+    let Some((path, import)) = session.files.preview.wanted(&dialog.path, &dialog.import) else { return };
+    let running = session.jobs.start("Preview", move |cancel| {
+        let result = previewed(&path, &import, cancel);
+        Outcome::Previewed { path, import: Box::new(import), result }
+    });
+    session.files.preview.begin(running);
+}
+
+fn previewed(path: &Path, import: &outline::Import, cancel: &AtomicBool) -> Result<Box<preview::Previewed>, String> {
+    /// Sides of the picture, pixels: twice what is shown, for screens of many pixels.
+    const SIZE: (u32, u32) = (440, 440);
+    let bytes = files::read(path, outline::MAX_FILE_BYTES as u64).map_err(|e| format!("it cannot be opened: {e}"))?;
+    let previewed =
+        preview::run(&bytes, import, SIZE, &Context::new(cancel)).map_err(|error| words::unshown(&error))?;
+    Ok(Box::new(previewed))
 }
 
 fn made(path: &Path, options: &Options, within: Option<&Path>, cancel: &AtomicBool) -> Result<New, String> {

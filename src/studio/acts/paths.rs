@@ -22,7 +22,7 @@ pub fn show_path_dialog(session: &mut Session, purpose: Purpose) {
     session.files.dialog = Some(Dialog::Path(PathDialog {
         purpose,
         path: path.to_string_lossy().into_owned(),
-        import: ImportChoice::default(),
+        import: Box::new(ImportChoice::default()),
         export: export::Options::default(),
         trouble: None,
     }));

@@ -1,6 +1,6 @@
 //! Once a frame: what the threads report, the playhead, what should be seen next.
 
-use super::{animate, discover, edit, filing, follow, judge, mesh, motors, rig, sheet, texture};
+use super::{animate, discover, edit, filing, follow, import, judge, mesh, motors, rig, sheet, texture};
 use crate::design::animation;
 use crate::engine::Setpoint;
 use crate::studio::canvas::Plushie;
@@ -28,6 +28,7 @@ pub fn tick(session: &mut Session, now_s: f64, passed_s: f64, hands_off: bool) {
     session.rigging.curve.follow(session.document.design());
     texture::follow_texture(session);
     follow::follow(session, hands_off);
+    import::follow(session);
     // Nobody sees the plushies while the outline is drawn.
     if !session.sketching.open {
         ask(session);
@@ -65,6 +66,7 @@ fn take(session: &mut Session, Finished { serial, outcome }: Finished) {
         Outcome::Followed(keyed) => follow::take(session, serial, keyed),
         Outcome::Judged(judgement) => session.judging.take(serial, *judgement),
         Outcome::Imported(result) => filing::take_import(session, result),
+        Outcome::Previewed { path, import, result } => session.files.preview.take(serial, path, *import, result),
         Outcome::Exported { folder, result } => filing::take_export(session, &folder, result),
         Outcome::Textured { path, texture } => texture::take_texture(session, path, texture),
         Outcome::Picked { path, at_once } => filing::take_path(session, serial, path, at_once),
@@ -95,6 +97,7 @@ fn break_off(session: &mut Session, serial: u64) {
         session.following.settle(&design);
     }
     session.judging.break_off(serial);
+    session.files.preview.break_off(serial);
     // As if there were none: a path can be typed.
     filing::take_path(session, serial, None, true);
     session.tasks.break_off(serial);

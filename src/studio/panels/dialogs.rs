@@ -1,33 +1,23 @@
 //! Dialogs over the window: unsaved changes, and paths where the desktop has no dialogs of its own.
 
 use super::blueprint_parts::parts_and_sheets;
-use super::widgets::primary;
+use super::import;
+use super::widgets::{primary, sentence};
 use crate::files::shown;
-use crate::mesh::MAX_FIBERS;
 use crate::motion::{TooFast, families};
-use crate::operations::{FiberCount, export};
-use crate::outline::{Background, Holes, Import, Pieces};
+use crate::operations::export;
 use crate::studio::action::{Action, Actions, FileAction};
-use crate::studio::session::ImportChoice;
 use crate::studio::session::Session;
 use crate::studio::session::{Dialog, PathDialog, Purpose, Why};
 use crate::studio::words;
-use eframe::egui::{
-    Align, CollapsingHeader, Context, DragValue, Grid, Id, Key, Layout, Modal, RichText, TextEdit, Ui, emath,
-};
-use std::ops::RangeInclusive;
+use eframe::egui::{Align, Context, Id, Key, Layout, Modal, RichText, TextEdit, Ui};
 use std::path::Path;
-
-/// What can be typed for the silhouette's height, mm, and for the number of fibres; 0 for what is usual.
-const HEIGHTS_MM: RangeInclusive<f64> = 0.0..=5000.0;
-const FIBERS: RangeInclusive<f64> = 0.0..=MAX_FIBERS as f64;
-/// The largest length of the clean-up, mm.
-const LARGEST_MM: f64 = 1000.0;
 
 pub fn show(ctx: &Context, session: &Session, actions: &mut Actions) {
     let Some(dialog) = &session.files.dialog else { return };
+    let is_import = matches!(dialog, Dialog::Path(dialog) if dialog.purpose == Purpose::Import);
     let modal = Modal::new(Id::unique("dialog")).show(ctx, |ui| {
-        ui.set_width(430.0);
+        ui.set_width(if is_import { 560.0 } else { 430.0 });
         match dialog {
             Dialog::Unsaved(_) => unsaved(ui, session, actions),
             Dialog::Path(dialog) => path(ui, session, dialog, actions),
@@ -131,7 +121,7 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, actions: &mut Actio
         let width = ui.available_width() - if session.files.native_dialogs { 84.0 } else { 0.0 };
         let hint = match dialog.purpose {
             Purpose::Open | Purpose::SaveAs => "Path of a .plush file",
-            Purpose::Import => "Path of an SVG, PNG, JPEG, DXF, OBJ or drawing (RON) file",
+            Purpose::Import => "Path of a drawing (SVG, PDF, DXF), picture, flat mesh or drawing of parts",
             Purpose::Export => "Path of a new folder",
         };
         let field = ui.add(TextEdit::singleline(&mut edited.path).hint_text(hint).desired_width(width));
@@ -145,7 +135,7 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, actions: &mut Actio
         }
     });
     if dialog.purpose == Purpose::Import {
-        import_settings(ui, &mut edited);
+        import::settings(ui, session, &mut edited);
     }
     if dialog.purpose == Purpose::Export {
         export_settings(ui, &mut edited.export);
@@ -206,124 +196,4 @@ fn export_settings(ui: &mut Ui, options: &mut export::Options) {
             }
         }
     });
-}
-
-fn import_settings(ui: &mut Ui, edited: &mut PathDialog) {
-    let ImportChoice { options, layers } = &mut edited.import;
-    ui.horizontal(|ui| {
-        let tip = "Of the silhouette; 0: the size that the file has";
-        let mut height = options.import.height_mm.unwrap_or(0.0);
-        or_usual(ui, ("Height", tip), &mut height, ("as in the file", " mm"), HEIGHTS_MM);
-        options.import.height_mm = (height > 0.0).then_some(height);
-        ui.add_space(12.0);
-        let tip = "0: those of a file that brings its own mesh; otherwise 414, or more where the outline needs them";
-        let mut fibers = match options.fibers {
-            FiberCount::Usual => 0.0,
-            FiberCount::AtLeast(fibers) | FiberCount::Exactly(fibers) => fibers as f64,
-        };
-        or_usual(ui, ("Muscle fibres", tip), &mut fibers, ("as usual", ""), FIBERS);
-        let fibers = fibers.round() as usize;
-        options.fibers = FiberCount::asked((fibers > 0).then_some(fibers));
-    });
-    ui.horizontal(|ui| {
-        let mut largest = options.import.pieces == Pieces::Largest;
-        ui.checkbox(&mut largest, "Largest piece only")
-            .on_hover_text("Of a drawing in several pieces, which is refused otherwise");
-        options.import.pieces = if largest { Pieces::Largest } else { Pieces::Refuse };
-        ui.add_space(12.0);
-        let tip = "Holes of a drawing in thin lines alone are filled; or keep them, or fill all";
-        let holes = [(Holes::Found, "as found"), (Holes::Keep, "keep"), (Holes::Fill, "fill")];
-        choice(ui, ("Holes", tip), &mut options.import.holes, &holes);
-    });
-    let tip =
-        "Show on the plushie what the SVG, PNG or JPEG shows; saving puts it beside the plushie, NAME.texture.png";
-    ui.checkbox(&mut options.texture, "Keep the picture as texture").on_hover_text(tip);
-    ui.horizontal(|ui| {
-        let label = ui.label("Layers");
-        let field = TextEdit::singleline(layers).hint_text("all").desired_width(f32::INFINITY);
-        let tip = "Of an SVG or DXF drawing: the names of those that count, between commas";
-        ui.add(field).labelled_by(label.id).on_hover_text(tip);
-    });
-    CollapsingHeader::new("Reading and clean-up")
-        .id_salt("import details")
-        .show(ui, |ui| details(ui, &mut options.import));
-}
-
-/// What is seldom asked for.
-fn details(ui: &mut Ui, import: &mut Import) {
-    ui.horizontal(|ui| {
-        let tip = "Paper, cards and frames that everything else lies on: what is surely one is left out; or leave out any, or keep it";
-        let grounds =
-            [(Background::Found, "as found"), (Background::Drop, "leave out"), (Background::Keep, "keep")];
-        choice(ui, ("Background", tip), &mut import.background, &grounds);
-    });
-    Grid::new("import details").num_columns(2).spacing([8.0, 4.0]).show(ui, |ui| {
-        let tip = "How far smoothing may move the boundary; corners stay. -1: where it is finer than scissors follow; 0: not at all";
-        optional(ui, ("Smooth", tip), &mut import.smooth_mm);
-        ui.end_row();
-        let tip = "Parts less than this apart are joined; -1: what scissors cannot part; 0: none";
-        optional(ui, ("Gaps up to", tip), &mut import.gap_mm);
-        ui.end_row();
-        let tip = "Ends of lines less than this apart are joined; -1: a small part of the size; 0: none";
-        optional(ui, ("Join ends up to", tip), &mut import.join_mm);
-        ui.end_row();
-        // A least width of nothing widens nothing, which is not the usual.
-        let tip = "Parts thinner than this are widened; -1: hairlines alone, as long as that changes little; 0: none";
-        optional(ui, ("Least width", tip), &mut import.min_width_mm);
-        ui.end_row();
-        let tip = "What a plain number of a DXF or OBJ file or a pixel measures; 0: what the file says";
-        let mut unit = import.unit_mm.unwrap_or(0.0);
-        or_usual(ui, ("Unit", tip), &mut unit, ("as in the file", " mm"), 0.0..=LARGEST_MM);
-        import.unit_mm = (unit > 0.0).then_some(unit);
-        ui.end_row();
-        let tip = "Pictures: difference from the background, 0 to 255, from which a pixel is ink; -1: it is found";
-        let mut level = import.threshold.map_or(-1.0, f64::from);
-        or_usual(ui, ("Ink from", tip), &mut level, ("as found", ""), -1.0..=255.0);
-        import.threshold = (level >= 0.0).then_some(level as u8);
-        ui.end_row();
-    });
-}
-
-/// One of a few, as buttons beside each other.
-fn choice<T: PartialEq + Copy>(ui: &mut Ui, (name, tip): (&str, &str), value: &mut T, all: &[(T, &str)]) {
-    ui.label(name).on_hover_text(tip);
-    for (one, label) in all {
-        let button = ui.selectable_value(value, *one, *label).on_hover_text(tip);
-        button.accessible_name(format!("{name}: {label}"));
-    }
-}
-
-/// A length that has a usual value, which -1 stands for.
-fn optional(ui: &mut Ui, label: (&str, &str), value: &mut Option<f64>) {
-    let mut shown = value.unwrap_or(-1.0);
-    or_usual(ui, label, &mut shown, ("as usual", " mm"), -1.0..=LARGEST_MM);
-    *value = (shown >= 0.0).then_some(shown);
-}
-
-/// A number whose least value stands for what is usual, and is shown as that in words.
-fn or_usual(
-    ui: &mut Ui,
-    (name, tip): (&str, &str),
-    value: &mut f64,
-    (usual, unit): (&'static str, &'static str),
-    range: RangeInclusive<f64>,
-) {
-    let least = *range.start();
-    let label = ui.label(name).on_hover_text(tip);
-    let shown = move |value: f64, decimals: RangeInclusive<usize>| match value {
-        value if value <= least => usual.to_owned(),
-        value => format!("{}{unit}", emath::format_with_decimals_in_range(value, decimals)),
-    };
-    let typed = move |text: &str| match text.trim() {
-        text if text.is_empty() || text == usual => Some(least),
-        text => text.trim_end_matches(unit.trim_start()).trim().parse().ok(),
-    };
-    let drag = DragValue::new(value).range(range).speed(1.0).custom_formatter(shown).custom_parser(typed);
-    ui.add(drag).labelled_by(label.id).on_hover_text(tip);
-}
-
-/// An error as a sentence of its own.
-fn sentence(error: &str) -> String {
-    let mut letters = error.chars();
-    letters.next().map_or_else(String::new, |first| format!("{}{}.", first.to_uppercase(), letters.as_str()))
 }

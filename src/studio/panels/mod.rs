@@ -8,6 +8,7 @@ pub mod buttons;
 mod curve;
 pub mod dialogs;
 mod discovery;
+mod import;
 pub mod inspector;
 mod mesh;
 pub mod messages;

@@ -49,3 +49,9 @@ pub fn name_field(ui: &mut Ui, session: &Session, label: &str, actions: &mut Act
     }
     None
 }
+
+/// An error as a sentence of its own.
+pub fn sentence(error: &str) -> String {
+    let mut letters = error.chars();
+    letters.next().map_or_else(String::new, |first| format!("{}{}.", first.to_uppercase(), letters.as_str()))
+}

@@ -1,6 +1,7 @@
 //! Dialogs about files, and what is asked for by them.
 
 use super::import_choice::ImportChoice;
+use super::import_preview::ImportPreview;
 use crate::design::Design;
 use crate::operations::export;
 use crate::studio::jobs::{New, Running};
@@ -22,7 +23,7 @@ pub enum FileAction {
     OpenExample(usize),
     ImportPath {
         path: PathBuf,
-        choice: ImportChoice,
+        choice: Box<ImportChoice>,
     },
     SavePath(PathBuf),
     ExportPath {
@@ -87,7 +88,7 @@ pub enum Why {
 pub struct PathDialog {
     pub purpose: Purpose,
     pub path: String,
-    pub import: ImportChoice,
+    pub import: Box<ImportChoice>,
     pub export: export::Options,
     /// Why what was asked for last could not be had.
     pub trouble: Option<String>,
@@ -110,6 +111,8 @@ pub struct Files {
     pub(crate) picking: Option<Picking>,
     /// Whether the desktop has dialogs.
     pub native_dialogs: bool,
+    /// What would be read of the outline that the dialog names.
+    pub preview: ImportPreview,
     /// The window should close.
     pub quit: bool,
 }

@@ -9,14 +9,18 @@ pub struct ImportChoice {
     pub options: Options,
     /// Names of layers between commas as they are typed; none for all.
     pub layers: String,
+    /// Names of blocks of a DXF, likewise; none for the drawing itself.
+    pub blocks: String,
 }
 
 impl ImportChoice {
     /// For the outline in a file, after which the design is called.
     pub(crate) fn options(&self, path: &Path) -> Options {
         let mut options = Options { name: new_design::name_of(path), ..self.options.clone() };
-        let names = self.layers.split(',').map(str::trim).filter(|name| !name.is_empty());
-        options.import.layers = names.map(str::to_owned).collect();
+        let names =
+            |text: &str| text.split(',').map(str::trim).filter(|name| !name.is_empty()).map(str::to_owned).collect();
+        options.import.layers = names(&self.layers);
+        options.import.blocks = names(&self.blocks);
         options
     }
 }

@@ -163,7 +163,7 @@ fn a_refused_import_can_be_asked_for_anew() {
     press(&mut window, Modifiers::NONE, Key::Enter);
     type_path(&mut window, &picture);
     assert!(window.query_by_label("There is no such file.").is_none());
-    click(&mut window, "Fill holes");
+    click(&mut window, "Holes: fill");
     click(&mut window, "Create");
     wait(&mut window, |s| !s.is_working());
     settle(&mut window);
@@ -172,6 +172,36 @@ fn a_refused_import_can_be_asked_for_anew() {
     assert!(window.query_by_label_contains("2 separate pieces").is_none());
     click(&mut window, "Create");
     wait(&mut window, |s| s.design().name == "dots");
+}
+
+#[test]
+fn an_import_shows_what_it_reads_before_it_is_made() {
+    let folder = tempfile::tempdir().unwrap();
+    let drawing = folder.path().join("sheet.svg");
+    let svg = r##"<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="200mm" viewBox="0 0 200 200">
+        <rect x="20" y="20" width="120" height="90" fill="#fff"/><path d="M40 40h60v50h-60z" fill="#a50"/></svg>"##;
+    std::fs::write(&drawing, svg).unwrap();
+    let mut window = window(bar());
+    press(&mut window, Modifiers::COMMAND, Key::N);
+    type_path(&mut window, &drawing);
+    let shows = |window: &mut Window, text: &str| {
+        let start = std::time::Instant::now();
+        while window.query_by_label_contains(text).is_none() {
+            assert!(start.elapsed() < std::time::Duration::from_secs(60), "{text}");
+            std::thread::sleep(std::time::Duration::from_millis(10));
+            window.run_steps(2);
+        }
+    };
+    shows(&mut window, "60 x 50 mm");
+    assert!(window.query_by_label("What would be read").is_some());
+    assert!(window.query_by_label_contains("was taken for the background and left out").is_some());
+    click(&mut window, "Keep it");
+    shows(&mut window, "120 x 90 mm");
+    assert!(window.query_by_label_contains("was taken for the background").is_none());
+    click(&mut window, "Create");
+    wait(&mut window, |s| s.design().name == "sheet");
+    let (_, high) = session(&window).design().outline.bounding_box();
+    assert!((high[0] - 120.0).abs() < 1e-3 && (high[1] - 90.0).abs() < 1e-3, "{high:?}");
 }
 
 #[test]

@@ -221,7 +221,7 @@ mod tests {
             let (a, b) = (corner(i), corner(i + 1));
             let away = |p: Point, s: f64| [p[0] + s * off, p[1] - s * off];
             let line = vec![away(a, 0.5), away(b, -0.5)];
-            (if i % 2 == 0 { line } else { line.into_iter().rev().collect() }, false)
+            (if i.is_multiple_of(2) { line } else { line.into_iter().rev().collect() }, false)
         };
         [3, 0, 5, 1, 4, 2].map(side).to_vec()
     }

@@ -2,7 +2,7 @@
 
 use super::pixels::Pixels;
 use super::sheet::Sheet;
-use super::{Traced, traced};
+use super::traced::{Traced, traced};
 use crate::outline::readers::Painting;
 use crate::outline::regions::{self, Shapes};
 use crate::outline::{Aside, Background, Ground, Note, OutlineError, Why, polygon};

@@ -14,18 +14,16 @@ mod figure;
 mod pixels;
 mod resolution;
 mod sheet;
+mod traced;
 
 use super::finish::finish;
 use super::{OutlineReader, Painting, ReadingOption};
-use crate::outline::regions::{self, Shapes};
 use crate::outline::resample::{MAX_TEXTURE_PX, cut, fitted};
-use crate::outline::simplify::simplify;
-use crate::outline::trace::Field;
-use crate::outline::{Background, Import, Imported, Note, OutlineError, Point, Sizing, polygon};
-use i_overlay::core::fill_rule::FillRule;
+use crate::outline::{Background, Import, Imported, Note, OutlineError, Point, Sizing};
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits, RgbaImage};
 use pixels::{Pixels, working_factor};
 use std::io::Cursor;
+use traced::traced;
 
 /// Most pixels of a picture of a silhouette. With the common form, and what a JPEG in passes needs, 400 MB.
 const MAX_PIXELS: u64 = 40_000_000;
@@ -35,14 +33,8 @@ const MAX_TEXTURE_PIXELS: u64 = 4 * (MAX_TEXTURE_PX as u64).pow(2);
 const PIXEL_BYTES: u64 = 4;
 /// What decoding may take beside the pixels, bytes: the texts of a file, its rows.
 const DECODER_BYTES: u64 = 64 << 20;
-/// Regions and holes smaller than this are noise of the picture, in working pixels.
-const NOISE_PX2: f64 = 12.0;
-/// The same as a part of the area traced.
-const NOISE_FRACTION: f64 = 3e-4;
 /// Pixels without a stated size count as CSS px, 96 to the inch.
 const MM_PER_PX: f64 = 25.4 / 96.0;
-/// How far the traced line may be simplified, in working pixels.
-const TOLERANCE_PX: f64 = 0.15;
 
 pub(super) struct Picture;
 
@@ -149,40 +141,4 @@ fn upright(bytes: &[u8], most: u64) -> image::ImageResult<Option<(DynamicImage, 
     let mut picture = DynamicImage::from_decoder(decoder)?;
     picture.apply_orientation(orientation);
     Ok(Some((picture, format)))
-}
-
-/// Regions that were traced, in working pixels, y up.
-struct Traced {
-    shapes: Shapes,
-    specks: usize,
-    /// Smaller ones were left out, in working pixels.
-    least: f64,
-}
-
-impl Traced {
-    fn take(self, painting: &mut Painting) {
-        if self.specks > 0 {
-            painting.notes.push(Note::Specks { count: self.specks, pixels: self.least });
-        }
-        painting.shapes = self.shapes;
-    }
-}
-
-/// The regions at or above the level, without noise.
-fn traced(field: Field, level: f64) -> Result<Traced, OutlineError> {
-    let contours = field.contours(level);
-    let areas: Vec<f64> = contours.iter().map(|ring| polygon::signed_area(ring).abs()).collect();
-    let least = NOISE_PX2.max(NOISE_FRACTION * areas.iter().copied().fold(0.0, f64::max));
-    let kept: Vec<Vec<Point>> = contours
-        .iter()
-        .zip(&areas)
-        .filter(|(_, area)| **area >= least)
-        .map(|(ring, _)| simplify(ring, TOLERANCE_PX))
-        .filter(|ring| ring.len() >= 3)
-        .collect();
-    if kept.is_empty() {
-        return Err(OutlineError::NothingPainted("the picture has no area that differs from its background"));
-    }
-    let specks = contours.len() - kept.len();
-    Ok(Traced { shapes: regions::resolve(&kept, FillRule::EvenOdd)?, specks, least })
 }

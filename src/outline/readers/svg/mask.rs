@@ -39,6 +39,7 @@ impl Walk {
         open: &mut Shapes,
     ) -> Result<(), OutlineError> {
         self.visit()?;
+        let place = place.pre_concat(group.transform());
         let opacity = opacity * group.opacity().get();
         for node in group.children() {
             match node {

@@ -24,15 +24,10 @@ use crate::outline::{Aside, Import, Imported, Note, Outline, OutlineError, Point
 use image::RgbaImage;
 use tree::Parsed;
 use usvg::{Group, Node, Transform, Tree};
-use walk::Walk;
+use walk::{FAINT, Walk};
 
-/// Farthest that a flattened curve may lie from the true one, as a fraction of the drawing's longer side: 6 um on
-/// 300 mm, below the simplification that follows.
-const FLATTEN_FRACTION: f64 = 2e-5;
 /// Parts of the drawing beyond the page that are worth a note, as a part of the drawing's box.
 const OFF_PAGE_FRACTION: f64 = 0.01;
-/// Paint whose most opaque place is below this is a shadow or a tint, and no body.
-const FAINT: f32 = 0.4;
 /// Faint paint that changes the silhouette by less than this part of it is not worth a note.
 const FAINT_FRACTION: f64 = 1e-3;
 
@@ -59,13 +54,20 @@ impl OutlineReader for Svg {
     }
 
     fn read(&self, bytes: &[u8], import: &Import) -> Result<Imported, OutlineError> {
-        finish(painting(bytes, import)?, import)
+        self::import(bytes, import)
     }
 
     fn texture(&self, bytes: &[u8], import: &Import, drawn_box: [Point; 2]) -> Result<RgbaImage, OutlineError> {
-        render::texture(bytes, import, drawn_box)
+        texture(bytes, import, drawn_box)
     }
 }
+
+/// The clean outline of a drawing.
+pub(super) fn import(svg: &[u8], import: &Import) -> Result<Imported, OutlineError> {
+    finish(painting(svg, import)?, import)
+}
+
+pub(super) use render::texture;
 
 /// Reads the silhouette of an SVG, scaled so that it is `height_mm` high, or in its physical size, with the default
 /// clean-up.

@@ -22,7 +22,11 @@ const LAYER_MARGIN: f32 = 2.0;
 const LEAST_PX: f64 = 64.0;
 
 /// The picture of the drawing between the corners of a box (px, y up), with fewer pixels the more lies over each other.
-pub(super) fn texture(svg: &[u8], import: &Import, [low, high]: [Point; 2]) -> Result<RgbaImage, OutlineError> {
+pub(in crate::outline::readers) fn texture(
+    svg: &[u8],
+    import: &Import,
+    [low, high]: [Point; 2],
+) -> Result<RgbaImage, OutlineError> {
     let tree = parsed(svg, import)?.tree;
     let size = [high[0] - low[0], high[1] - low[1]];
     let window = Rect::from_xywh(low[0] as f32, -high[1] as f32, size[0] as f32, size[1] as f32)

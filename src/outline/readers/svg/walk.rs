@@ -1,6 +1,5 @@
 //! What is painted, element by element.
 
-use super::FLATTEN_FRACTION;
 use super::flatten::flatten;
 use crate::outline::even::{self, EVEN_FRACTION, Evened};
 use crate::outline::readers::ground::{Mark, holds_box};
@@ -10,6 +9,11 @@ use i_overlay::core::fill_rule::FillRule;
 use usvg::tiny_skia_path::PathStroker;
 use usvg::{Group, ImageKind, Node, Paint, Transform};
 
+/// Farthest that a flattened curve may lie from the true one, as a fraction of the drawing's longer side: 6 um on
+/// 300 mm, below the simplification that follows.
+const FLATTEN_FRACTION: f64 = 2e-5;
+/// Paint whose most opaque place is below this is a shadow or a tint, and no body.
+pub(super) const FAINT: f32 = 0.4;
 /// Groups and paths that are visited at most: clips and masks may refer to each other, which multiplies them.
 const MAX_VISITS: usize = 400_000;
 /// Clips and masks that are cut with at most, and how deep they may be clipped and masked themselves.
@@ -47,15 +51,15 @@ impl Walk {
         Self { tolerance, size, evens, evened, visits, cuts, cut_depth, points, pictures, filters, texts: Vec::new() }
     }
 
-    /// What a group paints, in px with y up, in painting order. `place` comes after the group's own absolute transform (it is
-    /// the identity but inside clips and masks, whose content has a coordinate system of its own); `opacity` is that of the groups
-    /// around it.
+    /// What a group paints, in px with y up, in painting order. `place` is that of the group around it, whose opacity is `opacity`. (The
+    /// absolute transforms of `usvg` would do, but are wrong below a `use` of a symbol whose overflow is visible.)
     pub fn painted(&mut self, group: &Group, place: Transform, opacity: f32) -> Result<Vec<Mark>, OutlineError> {
         let opacity = opacity * group.opacity().get();
         if opacity == 0.0 {
             return Ok(Vec::new());
         }
         self.visit()?;
+        let place = place.pre_concat(group.transform());
         self.filters += group.filters().len();
         let mut marks = Vec::new();
         for node in group.children() {
@@ -70,8 +74,7 @@ impl Walk {
                 Node::Image(image) => match image.kind() {
                     // A nested drawing; its own page is the picture's box.
                     ImageKind::SVG(tree) if image.is_visible() => {
-                        let to_page = place.pre_concat(image.abs_transform());
-                        marks.extend(self.painted(tree.root(), to_page, opacity)?);
+                        marks.extend(self.painted(tree.root(), place, opacity)?);
                     }
                     _ => self.pictures += 1,
                 },
@@ -86,7 +89,7 @@ impl Walk {
         regions::union(marks.into_iter().flat_map(|mark| mark.area).collect())
     }
 
-    /// What the clips and masks of a group leave of its marks.
+    /// What the clips and masks of a group leave of its marks; `place` is its own.
     fn cut(&mut self, mut marks: Vec<Mark>, group: &Group, place: Transform) -> Result<Vec<Mark>, OutlineError> {
         if group.clip_path().is_none() && group.mask().is_none() {
             return Ok(marks);
@@ -94,15 +97,14 @@ impl Walk {
         gather(&mut marks);
         let mut clip = group.clip_path();
         while let Some(path) = clip.filter(|_| !marks.is_empty()) {
-            let to_page = place.pre_concat(group.abs_transform()).pre_concat(path.transform());
+            let to_page = place.pre_concat(path.transform());
             let window = self.aside(|walk| walk.area(path.root(), to_page))?;
             within(&mut marks, &window)?;
             clip = path.clip_path();
         }
         let mut mask = group.mask();
         while let Some(cover) = mask.filter(|_| !marks.is_empty()) {
-            let to_page = place.pre_concat(group.abs_transform());
-            let window = self.aside(|walk| walk.shown(cover, to_page))?;
+            let window = self.aside(|walk| walk.shown(cover, place))?;
             within(&mut marks, &window)?;
             mask = cover.mask();
         }
@@ -155,13 +157,13 @@ impl Walk {
             Some(usvg::FillRule::EvenOdd) => FillRule::EvenOdd,
             _ => FillRule::NonZero,
         };
-        let contours = self.flat(path.data(), place.pre_concat(path.abs_transform()))?;
+        let contours = self.flat(path.data(), place)?;
         regions::resolve(&contours, rule)
     }
 
     pub fn stroke(&mut self, path: &usvg::Path, place: Transform) -> Result<Shapes, OutlineError> {
         let Some(stroke) = path.stroke() else { return Ok(Shapes::new()) };
-        let transform = place.pre_concat(path.abs_transform());
+        let transform = place;
         // The stroker is accurate to about a quarter px at a given scale: let it see `tolerance` as that.
         let scale = PathStroker::compute_resolution_scale(&transform) * (0.25 / self.tolerance) as f32;
         let stroke = stroke.to_tiny_skia();
@@ -224,7 +226,7 @@ fn gather(marks: &mut Vec<Mark>) {
         return;
     }
     let late = marks.split_off(SEPARATE);
-    let (faint, others): (Vec<Mark>, Vec<Mark>) = late.into_iter().partition(|mark| mark.opacity < super::FAINT);
+    let (faint, others): (Vec<Mark>, Vec<Mark>) = late.into_iter().partition(|mark| mark.opacity < FAINT);
     for of_kind in [faint, others] {
         let opacity = of_kind.iter().map(|mark| mark.opacity).fold(0.0, f32::max);
         let area: Shapes = of_kind.into_iter().flat_map(|mark| mark.area).collect();

@@ -1,8 +1,8 @@
 //! Which declaration wins on each element (CSS Cascading Level 4, one author).
 
+use super::properties::{Styles, TRANSFORMS, geometry};
 use super::selector::Matcher;
 use super::sheet::{self, Declaration, Rule};
-use super::{Styles, TRANSFORMS, geometry};
 use crate::outline::OutlineError;
 use std::cell::Cell;
 use std::collections::BTreeMap;

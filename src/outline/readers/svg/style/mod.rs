@@ -5,19 +5,19 @@
 //! what it would have in a browser in its own `style`, `transform` and attributes, and the sheets are gone.
 
 mod cascade;
+mod properties;
 mod selector;
 mod sheet;
 mod transform;
 
 use crate::outline::{Note, OutlineError};
 use cascade::Cascade;
+use properties::{Styles, TRANSFORMS, geometry};
 use std::collections::BTreeMap;
 use transform::Reference;
 use usvg::Tree;
 use usvg::roxmltree::{Document, Node};
 
-/// Properties that move an element or give its form.
-const TRANSFORMS: [&str; 3] = ["transform", "transform-origin", "transform-box"];
 /// Letters of what is not followed that a note shows.
 const SHOWN: usize = 40;
 /// The name of elements whose box is asked for; what follows is a number.
@@ -51,9 +51,6 @@ pub(super) fn written(
     let text = writer.text();
     Ok(Some(text))
 }
-
-/// What an element is given by styles, by the order of their weight.
-type Styles<'a, 'i> = Vec<(Node<'a, 'i>, BTreeMap<String, String>)>;
 
 /// Whether an element stands in the text where its parent does.
 fn is_in_place(node: Node) -> bool {
@@ -179,18 +176,6 @@ impl Writer<'_, '_> {
         }
         written.push_str(&text[copied..]);
         written
-    }
-}
-
-/// The properties that give an element its form, which are its attributes elsewhere.
-fn geometry(node: Node) -> &'static [&'static str] {
-    match node.tag_name().name() {
-        "circle" => &["cx", "cy", "r"],
-        "ellipse" => &["cx", "cy", "rx", "ry"],
-        "rect" => &["x", "y", "width", "height", "rx", "ry"],
-        "image" | "use" => &["x", "y", "width", "height"],
-        "path" => &["d"],
-        _ => &[],
     }
 }
 
