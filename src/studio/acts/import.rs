@@ -2,8 +2,8 @@
 
 use super::replace;
 use crate::files;
+use crate::operations::Context;
 use crate::operations::new_design::{self, Made, Note, Options};
-use crate::operations::{Context, export};
 use crate::outline;
 use crate::studio::jobs::{New, Outcome, Refused};
 use crate::studio::keeping::Kept;
@@ -51,8 +51,8 @@ pub fn ask_again(session: &mut Session, refused: Refused) {
     session.files.dialog = Some(Dialog::Path(PathDialog {
         purpose: Purpose::Import,
         path: path.to_string_lossy().into_owned(),
-        import: choice,
-        export: export::Options::default(),
+        import: Box::new(choice),
+        export: Box::default(),
         trouble: Some(why),
     }));
 }

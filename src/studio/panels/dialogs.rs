@@ -209,7 +209,7 @@ fn export_settings(ui: &mut Ui, options: &mut export::Options) {
 }
 
 fn import_settings(ui: &mut Ui, edited: &mut PathDialog) {
-    let ImportChoice { options, layers } = &mut edited.import;
+    let ImportChoice { options, layers } = &mut *edited.import;
     ui.horizontal(|ui| {
         let tip = "Of the silhouette; 0: the size that the file has";
         let mut height = options.import.height_mm.unwrap_or(0.0);

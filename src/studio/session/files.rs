@@ -87,8 +87,8 @@ pub enum Why {
 pub struct PathDialog {
     pub purpose: Purpose,
     pub path: String,
-    pub import: ImportChoice,
-    pub export: export::Options,
+    pub import: Box<ImportChoice>,
+    pub export: Box<export::Options>,
     /// Why what was asked for last could not be had.
     pub trouble: Option<String>,
 }
@@ -166,9 +166,9 @@ impl PathDialog {
         let path = PathBuf::from(self.path.trim());
         match self.purpose {
             Purpose::Open => FileAction::OpenPath(path),
-            Purpose::Import => FileAction::ImportPath { path, choice: self.import.clone() },
+            Purpose::Import => FileAction::ImportPath { path, choice: (*self.import).clone() },
             Purpose::SaveAs => FileAction::SavePath(path),
-            Purpose::Export => FileAction::ExportPath { folder: path, options: self.export.clone() },
+            Purpose::Export => FileAction::ExportPath { folder: path, options: (*self.export).clone() },
         }
     }
 }
