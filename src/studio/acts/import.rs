@@ -2,8 +2,9 @@
 
 use super::replace;
 use crate::files;
+use crate::operations::Context;
 use crate::operations::new_design::{self, Made, Note, Options};
-use crate::operations::{Context, export, preview};
+use crate::operations::preview;
 use crate::outline;
 use crate::studio::jobs::{New, Outcome, Refused};
 use crate::studio::keeping::Kept;
@@ -52,7 +53,7 @@ pub fn ask_again(session: &mut Session, refused: Refused) {
         purpose: Purpose::Import,
         path: path.to_string_lossy().into_owned(),
         import: Box::new(choice),
-        export: export::Options::default(),
+        export: Box::default(),
         trouble: Some(why),
     }));
 }

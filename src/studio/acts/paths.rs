@@ -1,9 +1,8 @@
 //! Asking for a path.
 
-use crate::operations::export;
 use crate::outline;
 use crate::studio::jobs::Outcome;
-use crate::studio::session::{Dialog, ImportChoice, PathDialog, Picking, Purpose, Session};
+use crate::studio::session::{Dialog, PathDialog, Picking, Purpose, Session};
 use std::time::{Duration, Instant};
 
 /// Asks with the desktop's dialog, or in the window where there is none.
@@ -22,8 +21,8 @@ pub fn show_path_dialog(session: &mut Session, purpose: Purpose) {
     session.files.dialog = Some(Dialog::Path(PathDialog {
         purpose,
         path: path.to_string_lossy().into_owned(),
-        import: Box::new(ImportChoice::default()),
-        export: export::Options::default(),
+        import: Box::default(),
+        export: Box::default(),
         trouble: None,
     }));
 }

@@ -89,7 +89,7 @@ pub struct PathDialog {
     pub purpose: Purpose,
     pub path: String,
     pub import: Box<ImportChoice>,
-    pub export: export::Options,
+    pub export: Box<export::Options>,
     /// Why what was asked for last could not be had.
     pub trouble: Option<String>,
 }
@@ -171,7 +171,7 @@ impl PathDialog {
             Purpose::Open => FileAction::OpenPath(path),
             Purpose::Import => FileAction::ImportPath { path, choice: self.import.clone() },
             Purpose::SaveAs => FileAction::SavePath(path),
-            Purpose::Export => FileAction::ExportPath { folder: path, options: self.export.clone() },
+            Purpose::Export => FileAction::ExportPath { folder: path, options: (*self.export).clone() },
         }
     }
 }
