@@ -37,7 +37,7 @@ pub enum Action {
     /// Winds a motor that is driven live to so many mm of cable.
     WindMotor(usize, f64),
     /// The line to the motors that is wanted.
-    SetMotors(play::Options),
+    SetMotors(Box<play::Options>),
     SelectPose(Option<usize>),
     Select(Selection),
     SetQuality(Quality),

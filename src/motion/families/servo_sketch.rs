@@ -114,7 +114,7 @@ fn table(servos: &Servos, machine: &Machine, trajectory: &Trajectory) -> Vec<(u6
     let mut before = 0;
     (0..=kept)
         .map(|row| {
-            let k = if kept == 0 { 0 } else { row * last / kept };
+            let k = (row * last).checked_div(kept).unwrap_or(0);
             let passed = (ms(k) - before).min(LONGEST_MS);
             before = ms(k);
             (passed, trajectory.lengths_mm[k].iter().map(|&length| servos.pulse(length)).collect())

@@ -78,7 +78,7 @@ fn motion(machine: &Machine, trajectory: &Trajectory, winch: usize) -> Vec<Strin
 pub(super) fn thinned(steps: usize) -> Vec<usize> {
     let last = steps.saturating_sub(1);
     let kept = last.min(MOST_STEPS);
-    (0..=kept).map(|k| if kept == 0 { 0 } else { k * last / kept }).collect()
+    (0..=kept).map(|k| (k * last).checked_div(kept).unwrap_or(0)).collect()
 }
 
 fn stop(machine: &Machine) -> Vec<String> {

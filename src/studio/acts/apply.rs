@@ -20,7 +20,7 @@ pub fn apply(session: &mut Session, action: Action) {
         Action::MovePart(part, to) => edit::move_part(session, part, to),
         Action::Wind(winch, wound_mm) => wind::wind(session, winch, wound_mm),
         Action::WindMotor(winch, length_mm) => motors::wind(session, winch, length_mm),
-        Action::SetMotors(choice) => session.motors.choice = choice,
+        Action::SetMotors(choice) => session.motors.choice = *choice,
         Action::SelectPose(pose) => edit::select_pose(session, pose),
         Action::Select(selection) => session.picked.selection = selection,
         Action::SetQuality(quality) => session.solver.quality = quality,

@@ -98,7 +98,7 @@ impl Motors {
         ui.checkbox(&mut stretch, words::STRETCH).on_hover_text(tip);
         choice.too_fast = if stretch { TooFast::Stretch } else { TooFast::Refuse };
         if choice != session.motors().choice {
-            actions.push(Action::SetMotors(choice));
+            actions.push(Action::SetMotors(Box::new(choice)));
         }
     }
 
