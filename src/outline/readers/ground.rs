@@ -1,8 +1,8 @@
 //! What lies below everything else and is no part of the figure: pages, sheets, cards, frames.
 //!
 //! Areas are judged in painting order, after clips and masks, by what they cover. What covers the page is a background. A rectangle that
-//! all else lies on, and a line around all else, are one if the rest is a figure, and where there is little doubt: it is white, or as
-//! large as the page with sharp corners. A television or a signpost is a rectangle with a figure on it too; so of all others a note tells
+//! all else lies on, and a line around all else, are one if the rest is a figure, and where there is little doubt: of white, sharp
+//! corners and the size of the page it has two. A television or a signpost is a rectangle with a figure on it too; so of all others a note tells
 //! that they count, and how they are left out.
 
 use crate::outline::regions::{self, Shapes};
@@ -27,6 +27,8 @@ const FIGURE: f64 = 0.6;
 /// How far a figure may reach beyond the sheet that it lies on, as a part of the sheet's side, and how much of it.
 const BEYOND: f64 = 0.05;
 const BEYOND_AREA: f64 = 0.02;
+/// Of white, sharp corners and a size like the page's a sheet has so many.
+const SIGNS: usize = 2;
 /// Grounds that may lie on each other.
 const MAX_GROUNDS: usize = 4;
 
@@ -144,7 +146,8 @@ fn ground(marks: &[Mark], page: Option<[Point; 2]>) -> Result<Option<(usize, Gro
             (false, true) => Ground::Sheet,
             (false, false) => Ground::Card,
         };
-        return Ok(Some((k, ground, frame || mark.white || (sharp && like_page))));
+        let signs = [mark.white, sharp, like_page].into_iter().filter(|sign| *sign).count();
+        return Ok(Some((k, ground, frame || signs >= SIGNS)));
     }
     Ok(None)
 }
