@@ -178,7 +178,7 @@ mod tests {
         let mut strung = design.clone();
         strung.networks[0].tendons[0].ratio = 0.5;
         strung.networks[0].name.push('x');
-        assert_eq!(outdated(&design, &strung), [pose.clone()]);
+        assert_eq!(outdated(&design, &strung), std::slice::from_ref(&pose));
         let mut free = strung.clone();
         free.keyframes.iter_mut().for_each(|keyframe| keyframe.pose = None);
         assert_eq!(outdated(&design, &free), [""; 0]);
