@@ -19,6 +19,8 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     run(&folder)
 }
 
+/// # Errors
+/// A file cannot be written, a drawing cannot be read.
 pub fn run(folder: &Path) -> Result<(), Box<dyn Error>> {
     for (name, drawing) in ICONS {
         let tree = Tree::from_str(drawing, &Options::default())?;

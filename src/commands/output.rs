@@ -104,7 +104,7 @@ impl Kind {
     /// photograph and a problem stay; what a command has written before is replaced, by whatever name.
     fn is_foreign(self, path: &Path) -> bool {
         /// Enough to know a picture or a drawing, bytes.
-        const HEAD: u64 = 512;
+        const HEAD: u64 = 1024;
         let mut head = Vec::new();
         if !files::is_taken(path) {
             return false;

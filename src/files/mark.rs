@@ -11,8 +11,8 @@ const JPEG_MARK_AT: usize = 20;
 
 /// The comment of a GIF file that says it: introducer, label, length, text, end.
 const GIF_MARK: &[u8] = b"\x21\xfe\x0bplushwright\0";
-/// Where it stands: after the header, where no table of colours for all pictures follows.
-const GIF_MARK_AT: usize = 13;
+/// Length of a GIF's header.
+const GIF_HEADER: usize = 13;
 
 /// The bytes of a PNG file with the mark.
 pub fn marked_png(png: &[u8]) -> Vec<u8> {
@@ -24,14 +24,20 @@ pub fn marked_jpeg(jpeg: &[u8]) -> Vec<u8> {
     with(jpeg, JPEG_MARK, JPEG_MARK_AT)
 }
 
-/// The bytes of a GIF file without a table of colours for all its pictures, with the mark.
+/// The bytes of a GIF file with the mark.
 pub fn marked_gif(gif: &[u8]) -> Vec<u8> {
-    with(gif, GIF_MARK, GIF_MARK_AT)
+    with(gif, GIF_MARK, gif_mark_at(gif))
+}
+
+/// Where the mark of a GIF stands: after the header, and the table of colours of all pictures where there is one.
+fn gif_mark_at(head: &[u8]) -> usize {
+    let flags = head.get(10).copied().unwrap_or(0);
+    GIF_HEADER + if flags & 0x80 == 0 { 0 } else { 6 << (flags & 7) }
 }
 
 /// Whether a file that begins like this is a GIF of ours.
 pub fn is_marked_gif(head: &[u8]) -> bool {
-    head.starts_with(b"GIF8") && head.get(GIF_MARK_AT..).is_some_and(|rest| rest.starts_with(GIF_MARK))
+    head.starts_with(b"GIF8") && head.get(gif_mark_at(head)..).is_some_and(|rest| rest.starts_with(GIF_MARK))
 }
 
 /// Whether a file that begins like this is a PNG of ours.

@@ -164,12 +164,17 @@ mod tests {
             let (due_s, last) = own[own.len() - 1];
             assert!((due_s + last.duration_s - 3.0).abs() < 1e-9 && last.to_mm == 0.0);
         }
-        // The third rests from the second second on, the first in the middle one: then the other has the line for itself.
+        // The third rests from the second second on, the first in the middle one: then the other has the line for itself, but for one slot in
+        // which the one that rests goes the last hundredths of its way.
         let within = |from_s: f64, to_s: f64| all.iter().filter(move |b| b.due_s > from_s && b.due_s < to_s);
-        assert!(
-            within(1.2, 1.8).all(|beat| beat.moves[0].winch == 2)
-                && within(2.2, 2.9).all(|beat| beat.moves[0].winch == 0)
-        );
+        for (from_s, to_s, runs) in [(1.2, 1.8, 2), (2.2, 2.9, 0)] {
+            let others: Vec<Move> =
+                within(from_s, to_s).map(|beat| beat.moves[0]).filter(|step| step.winch != runs).collect();
+            assert!(
+                others.len() <= 1 && others.iter().all(|step| (step.to_mm - step.from_mm).abs() < 0.1),
+                "{others:?}"
+            );
+        }
     }
 
     #[test]

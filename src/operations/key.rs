@@ -105,7 +105,9 @@ pub fn outdated(before: &Design, now: &Design) -> Vec<String> {
         design.poses.iter().find(|pose| pose.name == name).map(|pose| pose.targets.clone()).unwrap_or_default()
     };
     let same_body = BodySpec::of(before) == BodySpec::of(now);
-    let old = |name: &String| !same_body || targets(before, name) != targets(now, name);
+    // A pose that was not on the timeline yet was worked out when it came there.
+    let had = |name: &String| before.keyframes.iter().any(|keyframe| keyframe.pose.as_ref() == Some(name));
+    let old = |name: &String| had(name) && (!same_body || targets(before, name) != targets(now, name));
     on_timeline(now).into_iter().filter(old).collect()
 }
 

@@ -1,7 +1,8 @@
 //! Parts that all but touch become one piece.
 //!
 //! With `r` half the gap, growing by `r` and shrinking again fills what no disc of radius `r` can enter from outside. Two parts that are grown
-//! each on its own overlap across the gap and beyond, into both parts; of that, what lies in the filled shape joins them.
+//! each on its own overlap in the gap. That is grown again, to reach into both parts; what of it lies in the filled shape joins
+//! them.
 
 use super::regions::{self, Shapes};
 use super::simplify::simplify;
@@ -70,7 +71,9 @@ fn between(shapes: &Shapes, filled: &Shapes, r: f64) -> Shapes {
             let mut meeting = regions::intersection(&regions::intersection(&grown[a], &grown[b]), filled);
             // Parts that touch in a corner alone are no parts of one.
             meeting.retain(|rings| 0.5 * polygon::perimeter(&rings[0]) > LONG * r);
-            bridges.extend(meeting);
+            // Across a gap nearly as wide as `2 r`, what both reach is a strip in its middle that touches neither.
+            let across = regions::grown(&meeting, (1.0 + OVERLAP) * r);
+            bridges.extend(regions::intersection(&across, filled));
         }
     }
     bridges

@@ -13,8 +13,10 @@ use std::path::Path;
 
 /// A file of a blueprint as text; motions that no motor can follow are stretched.
 fn text(design: &Design, name: &str) -> String {
-    let (files, _) =
-        blueprint(design, &Options { too_fast: TooFast::Stretch, ..Options::default() }).expect("a blueprint");
+    // Large enough for all pieces of anything.
+    let sheet = SheetSize { size_mm: [1e4; 2] };
+    let options = Options { too_fast: TooFast::Stretch, sheet, ..Options::default() };
+    let (files, _) = blueprint(design, &options).expect("a blueprint");
     let file = files.into_iter().find(|f| f.name == name).expect(name);
     String::from_utf8(file.bytes).expect("text")
 }

@@ -246,7 +246,13 @@ fn cad_programs() {
     let hatch = format!("0 HATCH 8 0 10 0 20 0 2 SOLID 70 1 71 0 91 1 92 3 72 0 73 1 93 {}{path} 97 0", points.len());
     reads("hatch", &dxf("", "", &hatch), &Import::default(), &[Note::Hatches(1)]);
     // Seen from below: the spline's points are the world's, the block is mirrored.
-    let fit: String = points.iter().map(|p| format!(" 11 {} 21 {} 31 0", p[0], 100.0 - p[1])).collect();
+    // It swings about the corners of the tail where its points lie far apart, so they lie at most 2 apart.
+    let sides = points.iter().zip(points.iter().cycle().skip(1));
+    let dense = sides.flat_map(|(a, b)| {
+        let n = ((b[0] - a[0]).hypot(b[1] - a[1]) / 2.0).ceil() as usize;
+        (0..n).map(move |i| [0, 1].map(|k| a[k] + (b[k] - a[k]) * i as f64 / n as f64))
+    });
+    let fit: String = dense.map(|p| format!(" 11 {} 21 {} 31 0", p[0], 100.0 - p[1])).collect();
     reads("spline", &dxf("", "", &format!("0 SPLINE 210 0 220 0 230 -1 70 9 71 3{fit}")), &Import::default(), &[]);
     let mirrored: Vec<Point> = points.iter().map(|p| [-p[0], p[1]]).collect();
     let block = format!("0 BLOCK 2 F 10 0 20 0 {} 0 ENDBLK", polyline("0", &mirrored));

@@ -9,6 +9,7 @@ use plushwright::fabrication::Manifest;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::time::{Duration, Instant};
 
 /// 120 x 40 mm.
 const BAR: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" width="120mm" height="40mm" viewBox="0 0 120 40">
@@ -44,7 +45,9 @@ fn enter(window: &mut Window, role: Role, name: &str, text: &str) {
 fn same(window: &Window, path: &Path) {
     let text = file::to_text(session(window).design()).unwrap();
     let told: Vec<&str> = session(window).messages().list().iter().map(|m| m.text.as_str()).collect();
-    assert!(text == fs::read_to_string(path).unwrap(), "{}: another design; {told:?}", path.display());
+    let by_hand = fs::read_to_string(path).unwrap();
+    let apart = text.lines().zip(by_hand.lines()).find(|(a, b)| a != b);
+    assert!(text == by_hand, "{}: another design; {told:?}; {apart:?}", path.display());
 }
 
 /// A folder with the design of a bar, and the window on it.
@@ -94,6 +97,19 @@ fn rigged() -> (tempfile::TempDir, Window) {
     (folder, window)
 }
 
+/// Waits until the dialog shows what would be read: it grows then, and its buttons move away from where they were looked for.
+#[track_caller]
+fn shown(window: &mut Window) {
+    let started = Instant::now();
+    while window.query_by_label("What would be read").is_none() {
+        assert!(started.elapsed() < Duration::from_secs(60), "no preview");
+        std::thread::sleep(Duration::from_millis(10));
+        window.run_steps(2);
+    }
+    // The dialog takes some frames to find its size.
+    window.run_steps(8);
+}
+
 /// Imports a file with options on both ways.
 #[track_caller]
 fn imported(name: &str, bytes: &[u8], args: &[&str], choose: impl Fn(&mut Window)) -> Design {
@@ -105,6 +121,7 @@ fn imported(name: &str, bytes: &[u8], args: &[&str], choose: impl Fn(&mut Window
     let mut window = window(plushwright::design::bundled::ALL[0].design().unwrap(), None);
     press(&mut window, Modifiers::COMMAND, Key::N);
     type_path(&mut window, &path);
+    shown(&mut window);
     choose(&mut window);
     click(&mut window, "Create");
     same(&window, &design);
@@ -327,6 +344,8 @@ fn a_rig_with_fixed_options_is_the_same_both_ways() {
     click(&mut window, "All poses");
     enter(&mut window, Role::SpinButton, "Most winches", "1");
     enter(&mut window, Role::TextInput, "Tendons of each winch", "1");
+    window.get_by_label("Hold the parameters").scroll_to_me();
+    settle(&mut window);
     click(&mut window, "Hold the parameters");
     window.get_by_label("Rig all poses").scroll_to_me();
     settle(&mut window);
@@ -348,6 +367,8 @@ fn a_rig_of_the_curve_is_the_same_both_ways() {
     click(&mut window, "All poses");
     enter(&mut window, Role::SpinButton, "Most winches", "1");
     enter(&mut window, Role::TextInput, "Tendons of each winch", "1");
+    window.get_by_label("Hold the parameters").scroll_to_me();
+    settle(&mut window);
     click(&mut window, "Hold the parameters");
     window.get_by_label("Compare numbers of winches").scroll_to_me();
     settle(&mut window);

@@ -17,7 +17,7 @@ const TOLD: usize = 8;
 pub(super) fn make(source: &Source<'_>) -> Result<Part, ExportError> {
     let stuffed = source.stuffed();
     let guide = "  Dashed: the stitch line as it is cut. Solid: the silhouette when the body is firmly stuffed, of felt that wrinkles and does not stretch.
-  Narrow parts become round: a flat strip is 0.64 of its width then; curved tubes curl more. --compensate widens the pattern for that.
+  Narrow parts become round: a flat strip is 0.64 of its width then; curved tubes curl more. Compensation widens the pattern for that.
 ";
     let mut remarks = vec![narrowing(source, stuffed)];
     remarks.extend(source.uncompensated.map(|why| uncompensated(source, why)));

@@ -113,7 +113,7 @@ fn remarks(source: &Source<'_>, names: &[String], housing: &Housing) -> Vec<Stri
         if fits == 0 {
             remarks.push(format!(
                 "No motor of the catalogue fits winch {name:?}: it asks for {:.0} N mm at {:.0} rpm. Give its cables fewer turns, move its keyframes \
-                 apart, use a smaller spool, or add a stronger motor (--motors).",
+                 apart, use a smaller spool, or add a stronger motor to the table.",
                 demand.torque_nmm, demand.speed_rpm
             ));
         }

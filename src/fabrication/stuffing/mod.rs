@@ -78,7 +78,7 @@ mod tests {
     #[test]
     fn a_long_strip_becomes_a_tube() {
         let (l, w) = (400.0, 40.0);
-        let found = stuffed(&body(vec![[0.0, 0.0], [l, 0.0], [l, w], [0.0, w]], 300));
+        let found = stuffed(&body(vec![[0.0, 0.0], [l, 0.0], [l, w], [0.0, w]], 1200));
         let diameter = 2.0 * w / PI;
         assert!((found.thickness_mm / diameter - 1.0).abs() < 0.03, "{} of {diameter}", found.thickness_mm);
         let rim = &found.rings[0];

@@ -1,7 +1,7 @@
 //! Motors that are driven live, on simulated controllers in the time of the wall.
 
-use crate::support::window::{Window, bar, click, network, press, session, window};
-use eframe::egui::{Key, Modifiers};
+use crate::support::window::{Window, bar, click, drag, network, press, session, window};
+use eframe::egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::Queryable;
 use plushwright::design::{Design, Easing, Keyframe};
 use plushwright::live::Status;
@@ -63,11 +63,11 @@ fn the_animation_plays_on_motors_and_the_views_show_it() {
 fn a_slider_winds_a_motor_and_escape_stops_it() {
     let mut window = connected();
     window.step();
-    window.get_by_label("Motor of winch 1").focus();
-    window.step();
-    for _ in 0..3 {
-        press(&mut window, Modifiers::NONE, Key::ArrowRight);
-    }
+    window.get_by_label("Motor of winch 1").scroll_to_me();
+    window.run_steps(4);
+    let rect = window.get_by_label("Motor of winch 1").rect();
+    let from = rect.left_center() + vec2(4.0, 0.0);
+    drag(&mut window, from, from + vec2(30.0, 0.0));
     until(&mut window, "wound", |s| {
         let asked = s.motors().asked_mm()[0];
         asked > 0.0 && s.motors().status() == Some(Status::Ready(vec![asked]))

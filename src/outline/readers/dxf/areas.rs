@@ -161,9 +161,14 @@ fn depths(groups: &[Shapes]) -> Vec<usize> {
 /// Without rectangles around everything.
 fn without_frames(groups: Vec<Shapes>, background: Background, areas: &mut Areas) -> Result<Vec<Shapes>, OutlineError> {
     let depths = depths(&groups);
+    let boxes: Vec<(Point, Point)> = groups.iter().map(regions::bounding_box).collect();
+    let within = |i: usize, k: usize| {
+        i != k && (0..2).all(|axis| boxes[i].0[axis] >= boxes[k].0[axis] && boxes[i].1[axis] <= boxes[k].1[axis])
+    };
     // As they would be drawn: what is around others is a line, what lies within an area.
     let marks = groups.iter().enumerate().map(|(k, area)| {
-        let around = depths[k] < MAX_FRAMES && is_rectangle(area);
+        let clear = || (0..groups.len()).filter(|&i| within(i, k)).all(|i| !runs_along(&groups[i], boxes[k]));
+        let around = depths[k] < MAX_FRAMES && is_rectangle(area) && clear();
         Mark { area: if around { as_line(area) } else { area.clone() }, opacity: 1.0, white: false }
     });
     let marks: Vec<Mark> = marks.collect();
@@ -182,12 +187,26 @@ fn without_frames(groups: Vec<Shapes>, background: Background, areas: &mut Areas
 const MAX_FRAMES: usize = 3;
 /// Part of its box that a rectangle fills.
 const RECTANGLE: f64 = 0.998;
+/// Part of its outline that an area within a frame may have on it.
+const SHARED: f64 = 0.25;
 /// Width of a frame's line as a part of its shorter side.
 const LINE: f64 = 0.004;
 
 fn is_rectangle(area: &Shapes) -> bool {
     let (low, high) = regions::bounding_box(area);
     area.len() == 1 && area[0].len() == 1 && regions::area(area) > RECTANGLE * (high[0] - low[0]) * (high[1] - low[1])
+}
+
+/// Whether an area has much of its outline on the sides of a rectangle: then that is no frame, but an area of which this is cut off.
+fn runs_along(area: &Shapes, (low, high): (Point, Point)) -> bool {
+    let near = LINE * (high[0] - low[0]).min(high[1] - low[1]);
+    let on = |p: Point, q: Point| {
+        (0..2).any(|i| [low[i], high[i]].iter().any(|side| [p, q].iter().all(|end| (end[i] - side).abs() < near)))
+    };
+    let sides = || area.iter().filter_map(|rings| rings.first()).flat_map(|ring| polygon::sides(ring));
+    let long: f64 = sides().map(|(p, q)| polygon::length(p, q)).sum();
+    let along: f64 = sides().filter(|&(p, q)| on(p, q)).map(|(p, q)| polygon::length(p, q)).sum();
+    along > SHARED * long
 }
 
 fn as_line(area: &Shapes) -> Shapes {
@@ -238,5 +257,9 @@ mod tests {
         let (area, notes, _) = areas(vec![frame(100.0), circle(60.0, 60.0, 8.0), circle(-60.0, 60.0, 8.0)]);
         assert!((area / (40_000.0 - 128.0 * PI) - 1.0).abs() < 1e-3, "{area}");
         assert_eq!(notes, [Note::HolesWithin(2)]);
+        // A plate with a corner cut off.
+        let square = |side: f64| ground::rectangle([0.0; 2], [side; 2]);
+        let (area, notes, _) = areas(vec![square(120.0), square(100.0)]);
+        assert!((area - 4400.0).abs() < 1.0, "{area} {notes:?}");
     }
 }

@@ -1,9 +1,11 @@
 //! Lines that meet end to end become closed outlines.
 //!
 //! Ends that lie at one place are joined first, of several the pair that goes on most nearly straight; then what is left, the nearest ends
-//! first, within the tolerance. So a large tolerance does no harm where lines do meet.
+//! first, within the tolerance. So a large tolerance does no harm where lines do meet. Lines that lead nowhere come last,
+//! as they bound nothing.
 
 use crate::outline::{Point, polygon};
+use std::cell::Cell;
 use std::collections::BTreeMap;
 
 /// Ends this near each other lie at one place, as a fraction of the drawing's size: the gaps that CAD programs leave.
@@ -17,6 +19,10 @@ const COPY_OF_LENGTH: f64 = 0.05;
 const LOOP: f64 = 3.0;
 /// Pairs of ends that are compared at most.
 const MAX_PAIRS: usize = 4_000_000;
+/// Ends that are looked at to find where lines lead at most; beyond that, all lead on.
+const MAX_TRIES: usize = 40_000_000;
+/// Lines in a row that are found to lead nowhere.
+const DEAD_LINES: usize = 8;
 
 /// Closed outlines, and what became of the other lines.
 #[derive(Default)]
@@ -48,8 +54,9 @@ pub(super) fn closed(lines: Vec<(Vec<Point>, bool)>, size: f64, join: f64) -> Cl
     }
     result.copies = drop_copies(&mut open, COPY_FRACTION * size);
     let mut partner: Vec<Option<(usize, f64)>> = vec![None; 2 * open.len()];
-    matched(&open, &mut partner, same, true);
-    matched(&open, &mut partner, join, false);
+    let dead = dead_ends(&open, join.max(same));
+    matched(&open, &dead, &mut partner, same, true);
+    matched(&open, &dead, &mut partner, join, false);
     chains(&open, &partner, same, &mut result);
     result.contours.retain(|contour| contour.len() >= 3);
     result
@@ -112,8 +119,49 @@ fn end(open: &[Vec<Point>], e: usize) -> (Point, Point) {
     if e.is_multiple_of(2) { (line[0], line[1]) } else { (line[line.len() - 1], line[line.len() - 2]) }
 }
 
-/// Joins loose ends within `reach`: the straightest pairs first, or the nearest.
-fn matched(open: &[Vec<Point>], partner: &mut [Option<(usize, f64)>], reach: f64, by_turn: bool) {
+/// Which lines lead nowhere: no other line that leads on begins within `reach` of one of their ends, nor do their own ends meet.
+fn dead_ends(open: &[Vec<Point>], reach: f64) -> Vec<bool> {
+    let cell = |p: Point| p.map(|v| (v / reach).floor() as i64);
+    let mut cells: BTreeMap<[i64; 2], Vec<usize>> = BTreeMap::new();
+    for e in 0..2 * open.len() {
+        cells.entry(cell(end(open, e).0)).or_default().push(e);
+    }
+    let mut dead = vec![false; open.len()];
+    // A row of many lines may lead nowhere: its last ones first.
+    let tries = Cell::new(0);
+    for _ in 0..DEAD_LINES {
+        let mut found = Vec::new();
+        for line in (0..open.len()).filter(|&line| !dead[line]) {
+            let leads_on = |e: usize| {
+                let p = end(open, e).0;
+                let [x, y] = cell(p);
+                (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| [x.saturating_add(dx), y.saturating_add(dy)])).any(|at| {
+                    cells.get(&at).into_iter().flatten().any(|&f| {
+                        tries.set(tries.get() + 1);
+                        tries.get() > MAX_TRIES || (f / 2 != line && polygon::length(p, end(open, f).0) <= reach)
+                    })
+                })
+            };
+            let (from, to) = (end(open, 2 * line).0, end(open, 2 * line + 1).0);
+            if polygon::length(from, to) > reach && !(leads_on(2 * line) && leads_on(2 * line + 1)) {
+                found.push(line);
+            }
+        }
+        if found.is_empty() {
+            break;
+        }
+        for line in found {
+            dead[line] = true;
+        }
+        for ends in cells.values_mut() {
+            ends.retain(|&e| !dead[e / 2]);
+        }
+    }
+    dead
+}
+
+/// Joins loose ends within `reach`: those of lines that lead on first, and of these the straightest pairs, or the nearest.
+fn matched(open: &[Vec<Point>], dead: &[bool], partner: &mut [Option<(usize, f64)>], reach: f64, by_turn: bool) {
     let cell = |p: Point| p.map(|v| (v / reach).floor() as i64);
     let loose: Vec<usize> = (0..partner.len()).filter(|&e| partner[e].is_none()).collect();
     let mut cells: BTreeMap<[i64; 2], Vec<usize>> = BTreeMap::new();
@@ -139,7 +187,8 @@ fn matched(open: &[Vec<Point>], partner: &mut [Option<(usize, f64)>], reach: f64
             break;
         }
     }
-    pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2)));
+    let last = |pair: &(f64, usize, usize, f64)| dead[pair.1 / 2] || dead[pair.2 / 2];
+    pairs.sort_by(|a, b| last(a).cmp(&last(b)).then(a.0.total_cmp(&b.0)).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2)));
     for (_, e, f, away) in pairs {
         if partner[e].is_none() && partner[f].is_none() {
             (partner[e], partner[f]) = (Some((f, away)), Some((e, away)));

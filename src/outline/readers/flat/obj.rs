@@ -4,7 +4,7 @@ use super::{Faces, MAX_ELEMENTS, read};
 use crate::outline::readers::{OutlineReader, ReadingOption};
 use crate::outline::{Import, Imported, OutlineError};
 
-pub(in crate::outline::readers) struct Obj;
+pub(in crate::outline) struct Obj;
 
 impl OutlineReader for Obj {
     fn names(&self) -> [&'static str; 2] {

@@ -10,7 +10,7 @@ const TRIANGLE: usize = 50;
 /// Bytes in which a text names its first facet.
 const HEAD: usize = 1000;
 
-pub(in crate::outline::readers) struct Stl;
+pub(in crate::outline) struct Stl;
 
 impl OutlineReader for Stl {
     fn names(&self) -> [&'static str; 2] {

@@ -22,7 +22,7 @@ const LAYER_MARGIN: f32 = 2.0;
 const LEAST_PX: f64 = 64.0;
 
 /// The picture of the drawing between the corners of a box (px, y up), with fewer pixels the more lies over each other.
-pub(in crate::outline::readers) fn texture(
+pub(in crate::outline) fn texture(
     svg: &[u8],
     import: &Import,
     [low, high]: [Point; 2],

@@ -24,7 +24,9 @@ fn selectors_choose_what_browsers_choose() {
         ("rect { fill: none } @media print { rect { fill: red } } :is(.a, .z) { fill: red }", [30.0, 20.0]),
         ("rect:last-of-type { display: none } @media all { #b { fill: red } }", [30.0, 20.0]),
         ("rect:not(.a) { fill: none !important } rect { fill: red } #b { fill: red }", [30.0, 20.0]),
-        (":where(#b) { fill: none } rect ~ rect:hover { fill: none }", [50.0, 40.0]),
+        // It weighs nothing, but holds; and nothing is pointed at.
+        (":where(#b) { fill: none } rect + rect:hover { fill: red }", [30.0, 20.0]),
+        (":where(#b) { fill: none } rect { fill: red } rect ~ rect:hover { fill: none }", [50.0, 40.0]),
     ] {
         assert_eq!(box_of(style, body), size, "{style}");
     }
