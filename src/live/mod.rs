@@ -3,7 +3,7 @@
 //! A [`Link`] carries bytes: [`SerialLink`] to real controllers, [`SimulatedLink`] to simulated ones in virtual time. A [`Player`] speaks the words of a family
 //! ([`Stream`](crate::motion::Stream)) over it: it reads every reply, keeps the time, winds back to zero first, refuses to begin beyond the limits, and switches
 //! all motors off on any fault. A [`Remote`] is a player on a thread of its own, for a window. A [`Simulation`] answers as the manuals say, with
-//! [`Fault`]s on request; [`pseudo_terminal`] puts it behind a port that other programs can open.
+//! [`Fault`]s on request; `pseudo_terminal` puts it behind a port that other programs can open.
 //!
 //! ```
 //! use plushwright::design::{Easing, Keyframe, bundled};

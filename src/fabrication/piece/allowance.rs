@@ -39,7 +39,7 @@ pub enum Corners {
 }
 
 /// The outline grown by a seam allowance. Each shape is an outer polygon (counter-clockwise) followed by what is cut out of it; the body's own
-/// holes shrink, and a notch narrower than twice the allowance closes. Slits and cut-outs narrower than [`LEAST_SLIT_MM`] are filled.
+/// holes shrink, and a notch narrower than twice the allowance closes. Slits and cut-outs narrower than `LEAST_SLIT_MM` are filled.
 pub fn grown(outline: &Outline, allowance_mm: f64, corners: Corners) -> Vec<Vec<Vec<Point>>> {
     let contours: Vec<Vec<Point>> = outline.polygons().map(Vec::from).collect();
     if allowance_mm <= 0.0 {

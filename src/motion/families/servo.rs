@@ -1,4 +1,4 @@
-//! Hobby servos on a microcontroller that runs one of our sketches ([`super::servo_sketch`]), told by a host.
+//! Hobby servos on a microcontroller that runs one of our sketches (`servo_sketch`), told by a host.
 //!
 //! A line is a word and numbers: `on`, `go MS US US ...` (all servos to these pulses within so many milliseconds), `off`, `setup`, `?` (where they are).
 //! The answer is `ok`, `error ...`, or the pulses after `?`. Pulses are whole microseconds. A servo has no encoder that anybody could ask: the sketch tells what
