@@ -11,12 +11,14 @@ use std::f64::consts::PI;
 use std::fs;
 use std::path::Path;
 
+/// A sheet that is large enough for all pieces of anything.
+fn on_one_sheet() -> Options {
+    Options { too_fast: TooFast::Stretch, sheet: SheetSize { size_mm: [1e4; 2] }, ..Options::default() }
+}
+
 /// A file of a blueprint as text; motions that no motor can follow are stretched.
 fn text(design: &Design, name: &str) -> String {
-    // Large enough for all pieces of anything.
-    let sheet = SheetSize { size_mm: [1e4; 2] };
-    let options = Options { too_fast: TooFast::Stretch, sheet, ..Options::default() };
-    let (files, _) = blueprint(design, &options).expect("a blueprint");
+    let (files, _) = blueprint(design, &on_one_sheet()).expect("a blueprint");
     let file = files.into_iter().find(|f| f.name == name).expect(name);
     String::from_utf8(file.bytes).expect("text")
 }
@@ -619,10 +621,12 @@ fn any_valid_design_makes_a_blueprint() {
                 }
             })
             .collect();
+        let (files, _) = blueprint(&design, &on_one_sheet()).expect("a blueprint");
         for name in ["pattern.svg", "routing-front.svg", "routing-back.svg"] {
-            let xml = text(&design, name);
+            let file = files.iter().find(|file| file.name == name).expect(name);
+            let xml = std::str::from_utf8(&file.bytes).expect("text");
             assert!(!xml.contains("NaN") && !xml.contains("inf"), "{name}");
-            Document::parse(&xml).expect("XML");
+            Document::parse(xml).expect("XML");
         }
     }
 }
