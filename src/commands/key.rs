@@ -3,10 +3,10 @@
 use super::error::CommandError;
 use super::output::{say, say_json};
 use super::{document, words};
-use crate::design::Easing;
+use crate::design::{Design, Easing};
 use crate::files::shown;
 use crate::operations::Context;
-use crate::operations::key::{self, Error, Keyed, Note, Options};
+use crate::operations::key::{self, Error, Note, Options};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 use std::io::Write;
@@ -23,11 +23,14 @@ pub struct Key {
     /// Design file to read; it needs winches (see `plushwright rig`)
     pub design: PathBuf,
     /// Name of the pose; `rest` means no activation unless the design has a pose of that name
-    #[arg(long, value_name = "P")]
-    pub pose: String,
+    #[arg(long, value_name = "P", required_unless_present = "again")]
+    pub pose: Option<String>,
     /// Time of the keyframe in s
-    #[arg(long, value_name = "S", value_parser = parse_time, allow_hyphen_values = true)]
-    pub time: f64,
+    #[arg(long, value_name = "S", value_parser = parse_time, allow_hyphen_values = true, required_unless_present = "again")]
+    pub time: Option<f64>,
+    /// Work out the keyframes of all poses again, for the winches and targets that there are by now
+    #[arg(long, conflicts_with_all = ["pose", "time", "ease"])]
+    pub again: bool,
     /// How the animation moves on to the next keyframe
     #[arg(long, value_enum, default_value_t = Ease::Smooth)]
     pub ease: Ease,
@@ -38,16 +41,24 @@ pub struct Key {
     pub json: bool,
 }
 
+/// The name for no activation, unless a pose has it.
+const REST: &str = "rest";
 /// Format of what `key --json` prints.
 const FORMAT: &str = "plushwright-key/1";
 
 /// What `key --json` prints.
 #[derive(Serialize)]
-struct Summary<'a> {
+struct Summary {
     design: String,
-    pose: &'a str,
+    keyframes: Vec<Keyed>,
+}
+
+/// A keyframe as it is told.
+#[derive(Serialize)]
+struct Keyed {
+    pose: String,
     time_s: f64,
-    activations_mm: &'a [f64],
+    activations_mm: Vec<f64>,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -63,35 +74,52 @@ pub enum Ease {
 impl Key {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
         let (mut design, edit) = self.target.open(&self.design, cancel)?;
-        let known = design.poses.iter().any(|p| p.name == self.pose);
+        let keyed = self.keyed(&mut design, &Context::new(cancel)).map_err(|error| self.failed(error))?;
+        edit.save(&design, cancel)?;
+        let told = |key::Keyed { keyframe, .. }: &key::Keyed| Keyed {
+            pose: keyframe.pose.clone().unwrap_or_else(|| REST.into()),
+            time_s: keyframe.time_s,
+            activations_mm: keyframe.activations_mm.clone(),
+        };
+        let keyframes: Vec<Keyed> = keyed.iter().map(told).collect();
+        let path = shown(self.target.path(&self.design));
+        if self.json {
+            say_json(out, FORMAT, &Summary { design: path, keyframes })?;
+        } else if keyframes.is_empty() {
+            say(out, &format!("{path}: no keyframe is of a pose"))?;
+        } else {
+            for Keyed { pose, time_s, activations_mm } in &keyframes {
+                let wound = activations_mm.iter().map(|a| format!("{a:.2}")).collect::<Vec<_>>().join(" ");
+                say(out, &format!("{path}: {pose} at {time_s} s, winches at {wound} mm"))?;
+            }
+        }
+        words::balanced(keyed.iter().flat_map(|keyed| &keyed.notes).map(|Note::Unbalanced(unbalanced)| unbalanced))
+    }
+
+    /// The keyframes, put into the design.
+    fn keyed(&self, design: &mut Design, context: &Context) -> Result<Vec<key::Keyed>, Error> {
+        if self.again {
+            if design.networks.is_empty() {
+                return Err(Error::NoNetworks);
+            }
+            let keyed = key::again(design, &key::on_timeline(design), context)?;
+            for keyed in keyed.clone() {
+                keyed.apply(design)?;
+            }
+            return Ok(keyed);
+        }
+        let name = self.pose.as_deref().unwrap_or(REST);
+        let known = design.poses.iter().any(|p| p.name == name);
         let options = Options {
-            pose: (known || self.pose != "rest").then(|| self.pose.clone()),
-            time_s: self.time,
+            pose: (known || name != REST).then(|| name.to_owned()),
+            time_s: self.time.unwrap_or_default(),
             easing: match self.ease {
                 Ease::Linear => Easing::Linear,
                 Ease::Smooth => Easing::Smooth,
                 Ease::Hold => Easing::Hold,
             },
         };
-        let Keyed { keyframe, notes } =
-            key::run(&mut design, &options, &Context::new(cancel)).map_err(|error| self.failed(error))?;
-        let text = keyframe.activations_mm.iter().map(|a| format!("{a:.2}")).collect::<Vec<_>>().join(" ");
-        edit.save(&design, cancel)?;
-        if self.json {
-            let (design, activations_mm) = (shown(self.target.path(&self.design)), &keyframe.activations_mm[..]);
-            say_json(out, FORMAT, &Summary { design, pose: &self.pose, time_s: self.time, activations_mm })?;
-            return words::balanced(notes.iter().map(|Note::Unbalanced(unbalanced)| unbalanced));
-        }
-        say(
-            out,
-            &format!(
-                "{}: {} at {} s, winches at {text} mm",
-                shown(self.target.path(&self.design)),
-                self.pose,
-                self.time
-            ),
-        )?;
-        words::balanced(notes.iter().map(|Note::Unbalanced(unbalanced)| unbalanced))
+        Ok(vec![key::run(design, &options, context)?])
     }
 
     fn failed(&self, error: Error) -> CommandError {

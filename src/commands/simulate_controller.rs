@@ -47,8 +47,8 @@ impl SimulateController {
         // Drives that lost their line go on to where they were told to.
         let settled_s = simulation.now_s() + SETTLING_S;
         simulation.pass_to(settled_s);
-        for (winch, axis) in simulation.axes().into_iter().enumerate() {
-            let Axis { position, farthest, on, moving } = axis;
+        for (winch, (axis, farthest)) in simulation.axes().into_iter().zip(simulation.farthest()).enumerate() {
+            let Axis { position, on, moving } = axis;
             let state = if !on {
                 "off"
             } else if moving {

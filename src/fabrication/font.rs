@@ -14,6 +14,11 @@ const UNKNOWN_WIDTH: f64 = 0.6;
 const UNKNOWN: char = '?';
 
 static FONT: LazyLock<Option<FontRef<'static>>> = LazyLock::new(|| FontRef::new(BYTES).ok());
+/// The characters of most texts, looked up once: labels try many places for the same words.
+static USUAL: LazyLock<Vec<Set>> =
+    LazyLock::new(|| (0..=MOST_USUAL).filter_map(char::from_u32).map(looked_up).collect());
+/// The last of them: those of European languages.
+const MOST_USUAL: u32 = 0x24F;
 
 /// A character as it is set: its number in the font and its width over its height.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,6 +29,10 @@ pub struct Set {
 
 /// The glyph of a character; a question mark for one that the font lacks.
 pub fn set(c: char) -> Set {
+    USUAL.get(c as usize).copied().unwrap_or_else(|| looked_up(c))
+}
+
+fn looked_up(c: char) -> Set {
     let Some(font) = FONT.as_ref() else { return Set { glyph: 0, width: UNKNOWN_WIDTH } };
     let glyph = font.charmap().map(c).or_else(|| font.charmap().map(UNKNOWN)).unwrap_or(GlyphId::NOTDEF);
     let metrics = font.glyph_metrics(Size::new(1.0), LocationRef::default());

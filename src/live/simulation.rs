@@ -25,7 +25,12 @@ pub struct Simulation {
     now_s: f64,
     /// When the line is free again.
     free_s: f64,
+    /// The largest distance from zero that every winch ever had.
+    farthest: Vec<f64>,
 }
+
+/// The winches are looked at this often while time passes, s: a turn back between two looks is hardly missed.
+const LOOK_S: f64 = 0.005;
 
 /// Noise instead of a reply, and its end.
 const NOISE: &[u8] = b"\x00#\x7F~";
@@ -51,6 +56,7 @@ impl Simulation {
             gone: false,
             now_s: 0.0,
             free_s: 0.0,
+            farthest: vec![0.0; winches],
         }
     }
 
@@ -67,6 +73,11 @@ impl Simulation {
     /// The winches.
     pub fn axes(&self) -> Vec<Axis> {
         self.controller.axes()
+    }
+
+    /// The largest distance from zero that every winch ever had, in the units of the family.
+    pub fn farthest(&self) -> &[f64] {
+        &self.farthest
     }
 
     /// Commands that have come.
@@ -90,9 +101,13 @@ impl Simulation {
 
     /// Lets time pass; none where it is later.
     pub fn pass_to(&mut self, time_s: f64) {
-        if time_s > self.now_s {
-            self.controller.pass(time_s - self.now_s);
-            self.now_s = time_s;
+        while time_s > self.now_s {
+            let next_s = time_s.min(self.now_s + LOOK_S);
+            self.controller.pass(next_s - self.now_s);
+            self.now_s = next_s;
+            for (farthest, axis) in self.farthest.iter_mut().zip(self.controller.axes()) {
+                *farthest = farthest.max(axis.position.abs());
+            }
         }
     }
 

@@ -128,15 +128,10 @@ fn without_networks(design: &Design) -> Design {
 
 /// Solves every keyframe of a pose anew for the present winches; the others are at rest.
 fn key_again(design: &mut Design, before: &[Keyframe], context: &Context) -> Result<Vec<Note>, Error> {
-    let mut notes = Vec::new();
-    for &Keyframe { time_s, ref activations_mm, ref pose, easing } in before {
-        let Some(pose) = pose else {
-            let moved = activations_mm.iter().any(|a| *a != 0.0);
-            notes.extend(moved.then_some(Note::AtRest { time_s }));
-            continue;
-        };
-        let options = key::Options { pose: Some(pose.clone()), time_s, easing };
-        let keyed = key::run(design, &options, context)?;
+    let by_hand = before.iter().filter(|k| k.pose.is_none() && k.activations_mm.iter().any(|a| *a != 0.0));
+    let mut notes: Vec<Note> = by_hand.map(|k| Note::AtRest { time_s: k.time_s }).collect();
+    for keyed in key::again(design, &key::on_timeline(design), context)? {
+        keyed.clone().apply(design)?;
         notes.extend(keyed.notes.into_iter().map(Note::Key));
     }
     Ok(notes)

@@ -209,6 +209,24 @@ fn a_pose_travels_from_the_command_line_to_the_check() {
 }
 
 #[test]
+fn keyframes_of_poses_are_worked_out_again_where_targets_have_changed() {
+    let folder = tempfile::tempdir().unwrap();
+    let (f, pig) = (folder.path(), folder.path().join("pig.plush"));
+    fs::copy(Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/pig.plush"), &pig).unwrap();
+    let read = || plushwright::design::file::read(&pig).unwrap().keyframes;
+    let wound = |keyframes: &[plushwright::design::Keyframe]| keyframes[1].activations_mm[0];
+    let before = read();
+    assert!(succeed(f, &["key", "pig.plush", "--again"]).contains("ear-and-leg at 1 s"));
+    assert!((wound(&read()) - wound(&before)).abs() < 1e-6 * wound(&before), "{:?}", read());
+    succeed(f, &["pose", "pig.plush", "--name", "ear-and-leg", "--target", "67,214=50,200", "--target", "83,10=70,30"]);
+    succeed(f, &["key", "pig.plush", "--again"]);
+    let after = read();
+    assert!(wound(&after) < 0.9 * wound(&before), "{after:?}");
+    assert!(after.len() == 3 && after[0] == before[0] && after[2] == before[2] && after[1].time_s == 1.0);
+    assert!(fail(f, 2, &["key", "pig.plush", "--again", "--pose", "ear-and-leg"]).contains("--again"));
+}
+
+#[test]
 fn friction_is_told_where_it_is_asked_for() {
     let folder = tempfile::tempdir().unwrap();
     let f = folder.path();

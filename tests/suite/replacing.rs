@@ -147,7 +147,10 @@ fn a_folder_with_anything_foreign_in_it_stays() {
         fs::write(f.join(dir).join("figures.json"), "{}").unwrap();
         fs::write(f.join(dir).join("holiday.jpg"), "mine").unwrap();
     }
-    let bench = |out: &'static str| ["bench", "import", ".", "--fibers", "0", "--out", out];
+    // A folder of its own: what other commands write beside it is no outline.
+    fs::create_dir(f.join("outlines")).unwrap();
+    fs::copy(f.join("bar.svg"), f.join("outlines/bar.svg")).unwrap();
+    let bench = |out: &'static str| ["bench", "import", "outlines", "--fibers", "0", "--out", out];
     let commands: [&[&str]; 4] = [
         &["export", "bar.plush", "-o", "photos"],
         &["demo", "--out", "photos"],

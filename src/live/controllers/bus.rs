@@ -14,7 +14,6 @@ struct Own {
     drive: Drive,
     on: bool,
     limits: [i64; 2],
-    farthest: f64,
 }
 
 /// Position of rest, steps.
@@ -33,7 +32,7 @@ impl BusServos {
         let mut drive = Drive::new(SPEED, ACCELERATION);
         drive.position = REST;
         drive.halt();
-        Self { servos: vec![Own { drive, on: false, limits: [0, 4095], farthest: 0.0 }; winches] }
+        Self { servos: vec![Own { drive, on: false, limits: [0, 4095] }; winches] }
     }
 
     fn answer(id: u8, code: u8, data: Vec<u8>) -> String {
@@ -73,14 +72,12 @@ impl Controller for BusServos {
     fn pass(&mut self, duration_s: f64) {
         for own in self.servos.iter_mut().filter(|own| own.on) {
             own.drive.pass(duration_s);
-            own.farthest = own.farthest.max((own.drive.position - REST).abs());
         }
     }
 
     fn axes(&self) -> Vec<Axis> {
         let axis = |own: &Own| Axis {
             position: own.drive.position - REST,
-            farthest: own.farthest,
             on: own.on,
             moving: own.on && !own.drive.is_there(),
         };

@@ -23,7 +23,6 @@ struct Own {
     /// Target that `M` starts for, and the limits that it plans with: speed, acceleration, deceleration.
     loaded: f64,
     planned: [f64; 3],
-    farthest: f64,
 }
 
 /// From the factory: counts of a revolution, rpm, rev/s^2.
@@ -43,7 +42,6 @@ impl Drives {
             limited: false,
             loaded: 0.0,
             planned: [drive.speed, drive.acceleration, drive.deceleration],
-            farthest: 0.0,
         };
         Self { drives: vec![own; winches] }
     }
@@ -82,14 +80,12 @@ impl Controller for Drives {
     fn pass(&mut self, duration_s: f64) {
         for own in self.drives.iter_mut().filter(|own| own.enabled) {
             own.drive.pass(duration_s);
-            own.farthest = own.farthest.max(own.drive.position.abs());
         }
     }
 
     fn axes(&self) -> Vec<Axis> {
         let axis = |own: &Own| Axis {
             position: own.drive.position,
-            farthest: own.farthest,
             on: own.enabled,
             moving: own.enabled && !own.drive.is_there(),
         };
@@ -165,6 +161,6 @@ mod tests {
         assert_eq!(answers(&mut drives, &setup), ["OK", "OK", "OK", "OK", "OK", "Invalid parameter", "OK", "OK"]);
         drives.pass(1.0);
         assert_eq!(answers(&mut drives, &["1POS", "2POS", "1DI"]), ["90", "0", "OK"]);
-        assert_eq!(drives.axes()[0], Axis { position: 90.0, farthest: 90.0, on: false, moving: false });
+        assert_eq!(drives.axes()[0], Axis { position: 90.0, on: false, moving: false });
     }
 }

@@ -5,8 +5,6 @@
 pub struct Axis {
     /// In the units of the family: counts, steps, mm, microseconds.
     pub position: f64,
-    /// The largest distance from zero that it ever had, in these units.
-    pub farthest: f64,
     pub on: bool,
     pub moving: bool,
 }

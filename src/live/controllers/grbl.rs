@@ -6,7 +6,7 @@ use std::collections::VecDeque;
 
 /// One controller for all axes; lengths in mm.
 pub(super) struct Machine {
-    axes: Vec<[f64; 2]>,
+    axes: Vec<f64>,
     /// Position of the machine where the work's zero is.
     zero: Vec<f64>,
     queue: VecDeque<Block>,
@@ -40,7 +40,7 @@ const LONGEST: usize = 80;
 impl Machine {
     pub fn new(winches: usize) -> Self {
         Self {
-            axes: vec![[0.0; 2]; winches],
+            axes: vec![0.0; winches],
             zero: vec![0.0; winches],
             queue: VecDeque::new(),
             inverse: false,
@@ -102,7 +102,7 @@ impl Machine {
         if has('G', 10.0) {
             for (axis, letter) in AXES.iter().enumerate().take(self.axes.len()) {
                 if let Some((_, value)) = words.iter().find(|(word, _)| word == letter) {
-                    self.zero[axis] = self.axes[axis][0] - value;
+                    self.zero[axis] = self.axes[axis] - value;
                 }
             }
         } else if has('G', 4.0) {
@@ -123,7 +123,7 @@ impl Machine {
 
     /// Where the queue ends.
     fn end(&self) -> Vec<f64> {
-        self.queue.back().map_or_else(|| self.axes.iter().map(|axis| axis[0]).collect(), |block| block.to.clone())
+        self.queue.back().map_or_else(|| self.axes.clone(), |block| block.to.clone())
     }
 
     fn at_once(&mut self, code: char) -> Vec<String> {
@@ -155,7 +155,7 @@ impl Machine {
             State::Ready if self.queue.is_empty() => "Idle",
             State::Ready => "Run",
         };
-        let place = |(axis, zero): (&[f64; 2], &f64)| format!("{:.3}", axis[0] - zero);
+        let place = |(axis, zero): (&f64, &f64)| format!("{:.3}", axis - zero);
         let places: Vec<String> = self.axes.iter().zip(&self.zero).map(place).collect();
         format!("<{state}|WPos:{}|FS:0,0>", places.join(","))
     }
@@ -200,7 +200,7 @@ impl Controller for Machine {
     fn pass(&mut self, duration_s: f64) {
         let mut rest = duration_s;
         while rest > 0.0 && !self.held {
-            let here: Vec<f64> = self.axes.iter().map(|axis| axis[0]).collect();
+            let here = self.axes.clone();
             let Some(block) = self.queue.front_mut() else { return };
             let from = block.from.get_or_insert(here);
             let step = rest.min(block.duration_s - block.passed_s);
@@ -208,9 +208,8 @@ impl Controller for Machine {
             rest -= step;
             let over = block.passed_s >= block.duration_s - 1e-12;
             let part = if over { 1.0 } else { block.passed_s / block.duration_s };
-            for ((axis, from), (to, zero)) in self.axes.iter_mut().zip(&*from).zip(block.to.iter().zip(&self.zero)) {
-                axis[0] = from + (to - from) * part;
-                axis[1] = axis[1].max((axis[0] - zero).abs());
+            for ((axis, from), to) in self.axes.iter_mut().zip(&*from).zip(&block.to) {
+                *axis = from + (to - from) * part;
             }
             if over {
                 self.queue.pop_front();
@@ -220,12 +219,7 @@ impl Controller for Machine {
 
     fn axes(&self) -> Vec<Axis> {
         let moving = self.state == State::Ready && !self.held && !self.queue.is_empty();
-        let axis = |(axis, zero): (&[f64; 2], &f64)| Axis {
-            position: axis[0] - zero,
-            farthest: axis[1],
-            on: self.holds,
-            moving,
-        };
+        let axis = |(axis, zero): (&f64, &f64)| Axis { position: axis - zero, on: self.holds, moving };
         self.axes.iter().zip(&self.zero).map(axis).collect()
     }
 }

@@ -19,7 +19,6 @@ struct Own {
     mode: i64,
     limits: [f64; 2],
     target: f64,
-    farthest: f64,
 }
 
 /// Counts of a revolution.
@@ -42,7 +41,6 @@ impl Drives {
             mode: 1,
             limits: [f64::NEG_INFINITY, f64::INFINITY],
             target: 0.0,
-            farthest: 0.0,
         };
         Self { drives: vec![own; winches] }
     }
@@ -88,14 +86,12 @@ impl Controller for Drives {
     fn pass(&mut self, duration_s: f64) {
         for own in self.drives.iter_mut().filter(|own| own.is_on()) {
             own.drive.pass(duration_s);
-            own.farthest = own.farthest.max(own.drive.position.abs());
         }
     }
 
     fn axes(&self) -> Vec<Axis> {
         let axis = |own: &Own| Axis {
             position: own.drive.position,
-            farthest: own.farthest,
             on: own.is_on(),
             moving: own.is_on() && !own.drive.is_there(),
         };

@@ -10,24 +10,15 @@ pub(super) struct Sketch {
     passed_s: f64,
     lasts_s: f64,
     on: bool,
-    farthest: Vec<f64>,
 }
 
-/// Pulses at rest and the farthest ones: those of servos as they are usually sold.
+/// Pulses at rest and at the other end: those of servos as they are usually sold.
 const ENDS_US: [f64; 2] = [500.0, 2500.0];
 
 impl Sketch {
     pub fn new(winches: usize) -> Self {
         let rest = vec![ENDS_US[0]; winches];
-        Self {
-            at: rest.clone(),
-            from: rest.clone(),
-            to: rest,
-            passed_s: 0.0,
-            lasts_s: 0.0,
-            on: false,
-            farthest: vec![0.0; winches],
-        }
+        Self { at: rest.clone(), from: rest.clone(), to: rest, passed_s: 0.0, lasts_s: 0.0, on: false }
     }
 
     fn go(&mut self, to: Vec<f64>, lasts_s: f64) {
@@ -102,14 +93,12 @@ impl Controller for Sketch {
         let part = if self.lasts_s > 0.0 { (self.passed_s / self.lasts_s).min(1.0) } else { 1.0 };
         for (k, at) in self.at.iter_mut().enumerate() {
             *at = self.from[k] + (self.to[k] - self.from[k]) * part;
-            self.farthest[k] = self.farthest[k].max((*at - ENDS_US[0]).abs());
         }
     }
 
     fn axes(&self) -> Vec<Axis> {
         let axis = |k: usize| Axis {
             position: self.at[k] - ENDS_US[0],
-            farthest: self.farthest[k],
             on: self.on,
             moving: self.on && self.at[k] != self.to[k],
         };

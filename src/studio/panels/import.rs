@@ -3,6 +3,7 @@
 use super::widgets::sentence;
 use crate::mesh::MAX_FIBERS;
 use crate::operations::FiberCount;
+use crate::operations::preview::Previewed;
 use crate::outline::{Background, Holes, Import, Pieces, Remedy};
 use crate::picture::preview::Preview;
 use crate::studio::session::{ImportChoice, PathDialog, Session};
@@ -71,42 +72,50 @@ fn names(ui: &mut Ui, name: &str, tip: &str, none: &str, text: &mut String) {
 }
 
 /// The picture of what would be read, with a line for each guess, and a button for each that has another answer.
+/// Its place is kept before it is there, so that nothing moves away from under the pointer.
 fn shown(ui: &mut Ui, session: &Session, edited: &mut PathDialog) {
-    let Some((seen, fresh)) = session.files.preview.of(&edited.path, &edited.import) else { return };
-    // What was asked for last has its own line.
-    let tells = fresh && edited.trouble.is_none();
-    let previewed = match seen {
-        Ok(previewed) => previewed,
-        Err(why) if tells => {
-            ui.label(RichText::new(sentence(why)).color(ui.visuals().error_fg_color));
-            return;
-        }
-        Err(_) => return,
-    };
     ui.add_space(4.0);
     ui.horizontal_top(|ui| {
-        picture(ui, session.files.preview.serial(), &previewed.picture);
-        ScrollArea::vertical().id_salt("preview notes").max_height(SHOWN_PX).show(ui, |ui| {
-            ui.vertical(|ui| {
-                let [width, height] = previewed.size_mm;
-                ui.label(format!("{width:.0} x {height:.0} mm"));
-                for line in &previewed.legend {
-                    ui.label(RichText::new(line).small());
-                }
-                if let Some(error) = previewed.refused.as_ref().filter(|_| tells) {
-                    ui.label(RichText::new(sentence(&words::outline(error))).color(ui.visuals().error_fg_color));
-                    switch(ui, error.remedy(), &mut edited.import.options.import);
-                }
-                for change in &previewed.changes.steps {
-                    ui.label(RichText::new(change.line()).small());
-                }
-                for note in &previewed.changes.notes {
-                    ui.label(RichText::new(words::note(note)).small());
-                    switch(ui, note.remedy(), &mut edited.import.options.import);
-                }
-            });
-        });
+        ui.set_min_height(SHOWN_PX);
+        let Some((seen, fresh)) = session.files.preview.of(&edited.path, &edited.import) else {
+            ui.weak("What would be read is shown here.");
+            return;
+        };
+        // What was asked for last has its own line.
+        let tells = fresh && edited.trouble.is_none();
+        match seen {
+            Ok(previewed) => {
+                picture(ui, session.files.preview.serial(), &previewed.picture);
+                ScrollArea::vertical().id_salt("preview notes").max_height(SHOWN_PX).show(ui, |ui| {
+                    ui.vertical(|ui| told(ui, previewed, tells, &mut edited.import.options.import));
+                });
+            }
+            Err(why) if tells => {
+                ui.label(RichText::new(sentence(why)).color(ui.visuals().error_fg_color));
+            }
+            Err(_) => {}
+        }
     });
+}
+
+/// The size, what the colours mean, and each guess.
+fn told(ui: &mut Ui, previewed: &Previewed, tells: bool, import: &mut Import) {
+    let [width, height] = previewed.size_mm;
+    ui.label(format!("{width:.0} x {height:.0} mm"));
+    for line in &previewed.legend {
+        ui.label(RichText::new(line).small());
+    }
+    if let Some(error) = previewed.refused.as_ref().filter(|_| tells) {
+        ui.label(RichText::new(sentence(&words::outline(error))).color(ui.visuals().error_fg_color));
+        switch(ui, error.remedy(), import);
+    }
+    for change in &previewed.changes.steps {
+        ui.label(RichText::new(change.line()).small());
+    }
+    for note in &previewed.changes.notes {
+        ui.label(RichText::new(words::note(note)).small());
+        switch(ui, note.remedy(), import);
+    }
 }
 
 fn picture(ui: &mut Ui, serial: u64, picture: &Preview) {

@@ -70,27 +70,35 @@ fn length(line: &[Point]) -> f64 {
 fn drop_copies(open: &mut Vec<Vec<Point>>, reach: f64) -> usize {
     let mut kept: Vec<(Vec<Point>, Point, f64)> = Vec::new();
     let mut cells: BTreeMap<[i64; 2], Vec<usize>> = BTreeMap::new();
-    let cell = |p: Point| p.map(|v| (v / reach).floor() as i64);
     let before = open.len();
     for line in open.drain(..) {
         let long = length(&line);
         let middle = along(&line, 0.5 * long);
         let near = reach.min(COPY_OF_LENGTH * long);
-        let [x, y] = cell(middle);
-        let neighbours = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| [x.saturating_add(dx), y.saturating_add(dy)]));
-        let is_copy = neighbours.filter_map(|at| cells.get(&at)).flatten().any(|&k: &usize| {
+        let is_copy = around(middle, reach).filter_map(|at| cells.get(&at)).flatten().any(|&k: &usize| {
             let (other, at, other_long) = &kept[k];
             polygon::length(*at, middle) <= near
                 && (long - other_long).abs() <= 2.0 * near
                 && [false, true].into_iter().any(|back| follows(&line, other, long, *other_long, back, near))
         });
         if !is_copy {
-            cells.entry([x, y]).or_default().push(kept.len());
+            cells.entry(cell(middle, reach)).or_default().push(kept.len());
             kept.push((line, middle, long));
         }
     }
     open.extend(kept.into_iter().map(|(line, ..)| line));
     before - open.len()
+}
+
+/// The cell of a place in a grid of squares as wide as `reach`.
+fn cell(p: Point, reach: f64) -> [i64; 2] {
+    p.map(|v| (v / reach).floor() as i64)
+}
+
+/// The cells in which lies what is within `reach` of a place.
+fn around(p: Point, reach: f64) -> impl Iterator<Item = [i64; 2]> {
+    let [x, y] = cell(p, reach);
+    (-1..=1).flat_map(move |dx| (-1..=1).map(move |dy| [x.saturating_add(dx), y.saturating_add(dy)]))
 }
 
 /// Whether two lines lie near each other at their ends and between.
@@ -121,10 +129,9 @@ fn end(open: &[Vec<Point>], e: usize) -> (Point, Point) {
 
 /// Which lines lead nowhere: no other line that leads on begins within `reach` of one of their ends, nor do their own ends meet.
 fn dead_ends(open: &[Vec<Point>], reach: f64) -> Vec<bool> {
-    let cell = |p: Point| p.map(|v| (v / reach).floor() as i64);
     let mut cells: BTreeMap<[i64; 2], Vec<usize>> = BTreeMap::new();
     for e in 0..2 * open.len() {
-        cells.entry(cell(end(open, e).0)).or_default().push(e);
+        cells.entry(cell(end(open, e).0, reach)).or_default().push(e);
     }
     let mut dead = vec![false; open.len()];
     // A row of many lines may lead nowhere: its last ones first.
@@ -134,8 +141,7 @@ fn dead_ends(open: &[Vec<Point>], reach: f64) -> Vec<bool> {
         for line in (0..open.len()).filter(|&line| !dead[line]) {
             let leads_on = |e: usize| {
                 let p = end(open, e).0;
-                let [x, y] = cell(p);
-                (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| [x.saturating_add(dx), y.saturating_add(dy)])).any(|at| {
+                around(p, reach).any(|at| {
                     cells.get(&at).into_iter().flatten().any(|&f| {
                         tries.set(tries.get() + 1);
                         tries.get() > MAX_TRIES || (f / 2 != line && polygon::length(p, end(open, f).0) <= reach)
@@ -162,17 +168,15 @@ fn dead_ends(open: &[Vec<Point>], reach: f64) -> Vec<bool> {
 
 /// Joins loose ends within `reach`: those of lines that lead on first, and of these the straightest pairs, or the nearest.
 fn matched(open: &[Vec<Point>], dead: &[bool], partner: &mut [Option<(usize, f64)>], reach: f64, by_turn: bool) {
-    let cell = |p: Point| p.map(|v| (v / reach).floor() as i64);
     let loose: Vec<usize> = (0..partner.len()).filter(|&e| partner[e].is_none()).collect();
     let mut cells: BTreeMap<[i64; 2], Vec<usize>> = BTreeMap::new();
     for &e in &loose {
-        cells.entry(cell(end(open, e).0)).or_default().push(e);
+        cells.entry(cell(end(open, e).0, reach)).or_default().push(e);
     }
     let mut pairs: Vec<(f64, usize, usize, f64)> = Vec::new();
     for &e in &loose {
         let (p, p_from) = end(open, e);
-        let [x, y] = cell(p);
-        for at in (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| [x.saturating_add(dx), y.saturating_add(dy)])) {
+        for at in around(p, reach) {
             for &f in cells.get(&at).into_iter().flatten().filter(|&&f| f > e) {
                 let (q, q_from) = end(open, f);
                 let away = polygon::length(p, q);
