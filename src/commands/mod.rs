@@ -4,6 +4,7 @@
 //! interrupt leaves nothing behind. It prints figures on the writer it is given and returns a [`CommandError`], which
 //! knows its exit code and is shown as exactly one line.
 
+mod arrange;
 mod bench;
 mod check;
 mod completions;
@@ -36,6 +37,7 @@ mod reshape;
 mod rig;
 mod simulate_controller;
 mod solve;
+mod starch;
 mod table;
 mod usage;
 mod words;
@@ -86,6 +88,8 @@ pub enum Command {
     Reshape(reshape::Reshape),
     Drawing(drawing::DrawingCommand),
     Pose(pose::Pose),
+    Arrange(arrange::Arrange),
+    Starch(starch::Starch),
     Rig(rig::Rig),
     Network(network::NetworkCommand),
     Key(key::Key),
@@ -121,6 +125,8 @@ impl Command {
             Self::Mesh(_)
             | Self::Drawing(_)
             | Self::Pose(_)
+            | Self::Arrange(_)
+            | Self::Starch(_)
             | Self::Network(_)
             | Self::SimulateController(_)
             | Self::Completions(_)
@@ -173,6 +179,8 @@ pub fn run(command: &Command, out: &mut dyn Write, cancel: &AtomicBool) -> Resul
         Command::Reshape(command) => command.run(out, cancel),
         Command::Drawing(command) => command.run(out, cancel),
         Command::Pose(command) => command.run(out, cancel),
+        Command::Arrange(command) => command.run(out, cancel),
+        Command::Starch(command) => command.run(out, cancel),
         Command::Rig(command) => command.run(out, cancel),
         Command::Network(command) => command.run(out, cancel),
         Command::Key(command) => command.run(out, cancel),

@@ -307,6 +307,14 @@ pub fn set_drawing(design: &mut Design, drawing: Option<Drawing>) -> Result<(), 
     set(design, |d| std::mem::replace(&mut d.drawing, drawing), |d, old| d.drawing = old)
 }
 
+/// Replaces the factors on the stiffness of the triangles, or takes them away.
+///
+/// # Errors
+/// Another number of factors than triangles, or one out of range; the design stays as it was.
+pub fn set_stiffness_map(design: &mut Design, map: Option<Vec<f64>>) -> Result<(), EditError> {
+    set(design, |d| std::mem::replace(&mut d.stiffness_map, map), |d, old| d.stiffness_map = old)
+}
+
 /// Replaces the tracks of the drawing. An outline that was not drawn is traced, so that there is one.
 ///
 /// # Errors

@@ -103,6 +103,37 @@ pub struct Pin {
     /// N/mm.
     #[serde(default = "pin_stiffness")]
     pub stiffness: f64,
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub hold: Hold,
+}
+
+/// The part of a body that a pin holds, and in which directions.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Hold {
+    /// The point: the body may turn about it.
+    #[default]
+    Point,
+    /// The point slides along a line through its anchor, at this angle from the x axis.
+    Line { degrees: f64 },
+    /// All nodes within the radius keep their places about the point, turned by the angle: the body cannot turn there.
+    Region {
+        radius_mm: f64,
+        #[serde(default, skip_serializing_if = "is_zero")]
+        degrees: f64,
+    },
+}
+
+impl Pin {
+    /// Holds a point of the body where it is at rest.
+    pub fn at_rest(at: BodyPoint, stiffness: f64) -> Self {
+        Self { at, position: None, stiffness, hold: Hold::Point }
+    }
+
+    /// World anchor, mm.
+    pub fn anchor(&self, mesh: &Mesh) -> Point {
+        self.position.unwrap_or_else(|| mesh.position(&self.at, &mesh.nodes))
+    }
 }
 
 /// A named pose: where points of the body should go.

@@ -66,6 +66,8 @@ ranges! {
     HOUSING: "sewing.housing_mm", "mm", 0.0, 1e3, "0 is a bare spool";
     BETWEEN_HOUSINGS: "sewing.between_housings_mm", "mm", 0.0, 1e3, "wider than any plushie";
     PIN_STIFFNESS: "pins[].stiffness", "N/mm", 1e-6, 1e6, "beyond, the matrix loses its digits";
+    PIN_RADIUS: "pins[].hold.radius_mm", "mm", 0.0, 1e5, "larger than any plushie; holds all of it";
+    PIN_ANGLE: "pins[].hold.degrees", "degrees", -360.0, 360.0, "once round";
     POSITION: "pins[].position, poses[].targets[].to, texture_box", "mm", -1e6, 1e6, "a kilometre, as the body";
     WEIGHT: "poses[].targets[].weight", "", 0.0, 1e6, "beyond, nothing else counts";
     RATIO: "networks[].tendons[].ratio", "", 1e-3, 1e3, "spools on one shaft";

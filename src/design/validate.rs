@@ -5,6 +5,7 @@
 //! (`pins[1].at.triangle`), 0-based, and what is wrong there.
 
 use super::fault::{Check, DesignError, Fault, at_least, fail, finite, require, same_length};
+use super::Hold;
 use super::ranges::{self, Range, at_most};
 use super::{
     Design, DriveSettings, FORMAT_VERSION, FiberSet, Keyframe, MaterialPoint, Network, Pin, Pose, Target, Tendon, Term,
@@ -224,6 +225,14 @@ pub(super) fn pin(at: &str, mesh: &Mesh, pin: &Pin) -> Check {
     body_point(&format!("{at}.at"), mesh, &pin.at)?;
     if let Some(position) = &pin.position {
         coordinates(&format!("{at}.position"), position, &ranges::POSITION)?;
+    }
+    match pin.hold {
+        Hold::Point => {}
+        Hold::Line { degrees } => ranges::PIN_ANGLE.check(&format!("{at}.hold.degrees"), degrees)?,
+        Hold::Region { radius_mm, degrees } => {
+            ranges::PIN_RADIUS.check(&format!("{at}.hold.radius_mm"), radius_mm)?;
+            ranges::PIN_ANGLE.check(&format!("{at}.hold.degrees"), degrees)?;
+        }
     }
     ranges::PIN_STIFFNESS.check(&format!("{at}.stiffness"), pin.stiffness)
 }

@@ -7,6 +7,8 @@
 //! | [`remesh`] | a design to the same one at another resolution |
 //! | [`reshape`] | a design and another outline to the design with that body |
 //! | [`pose`] | places of the body to pins, and to targets of a pose |
+//! | [`arrange`] | targets and pins to the same ones moved, turned, scaled, weighed or mirrored together |
+//! | [`starch`] | a place of the body to a stiffer or softer patch |
 //! | [`network`] | places and numbers to winches and tendons that are changed |
 //! | [`propose`] | a pose to networks that reach it, the best first |
 //! | [`rig`] | all poses to networks, and to a timeline where there is none |
@@ -41,6 +43,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod arrange;
 pub mod check;
 mod context;
 pub mod explore;
@@ -58,6 +61,7 @@ pub mod remesh;
 pub mod render;
 pub mod reshape;
 pub mod rig;
+pub mod starch;
 
 pub use context::{Cancelled, Context, Progress};
 pub use fibers::{FiberCount, MoreFibers};

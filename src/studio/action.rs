@@ -4,8 +4,9 @@ use super::canvas::{Camera, Hit};
 use super::change::Change;
 use super::commands::command::Command;
 pub use super::session::FileAction;
-use super::session::{Overlay, Renamed, Resolution, RigChoice, Selection, Task};
+use super::session::{Brush, Overlay, Renamed, Resolution, RigChoice, Selection, Task};
 use crate::engine::Quality;
+use crate::operations::arrange::Handle;
 use crate::operations::network::Part;
 use crate::operations::play;
 use crate::outline::Point;
@@ -22,6 +23,8 @@ pub enum Action {
     Change(Change),
     /// Part of a gesture (a slider, a dragged keyframe): one undo step when the hand is off the controls.
     Live(Change),
+    /// Part of a gesture that begins anew from where the document was, so that nothing adds up on the way.
+    Again(Change),
     /// A command, and what it is about.
     Run(&'static Command, Hit),
     /// What stands over the window instead of what did.
@@ -40,6 +43,11 @@ pub enum Action {
     SetMotors(Box<play::Options>),
     SelectPose(Option<usize>),
     Select(Selection),
+    /// Picks targets and pins out together.
+    Gather(Vec<Handle>),
+    SetBrush(Brush),
+    /// Moves the pin, mm; part of a gesture.
+    DragPin(usize, Point),
     SetQuality(Quality),
     SetCamera(Camera),
     Scrub(f64),

@@ -1,6 +1,7 @@
 //! The window: state, and one update a frame.
 
 use super::action::{Action, FileAction};
+use super::focus::Focus;
 use super::pacing::Pacing;
 use super::panels;
 use super::session::{Services, Session, desktop_has_dialogs};
@@ -26,6 +27,7 @@ pub struct Studio {
     sheet: canvas::State,
     tools: Toolbox,
     pacing: Pacing,
+    focus: Focus,
     title: String,
 }
 
@@ -46,6 +48,7 @@ impl Studio {
             sheet: canvas::State::default(),
             tools,
             pacing: Pacing::default(),
+            focus: Focus::default(),
             title: String::new(),
         }
     }
@@ -117,6 +120,7 @@ impl Studio {
         self.keep_awake(&ctx);
         self.set_title(&ctx);
         self.guard_closing(&ctx);
+        self.focus.paint(&ctx, style::accent(self.session.look.theme));
     }
 
     fn layout(&mut self, ui: &mut egui::Ui, actions: &mut Vec<Action>) {
@@ -126,7 +130,7 @@ impl Studio {
         Panel::top("toolbar").frame(bar).exact_size(42.0).resizable(false).show(ui, |ui| {
             panels::toolbar::show(ui, session, actions);
         });
-        let status = Panel::bottom("status")
+        Panel::bottom("status")
             .frame(Frame::new())
             .exact_size(panels::status::HEIGHT)
             .resizable(false)
@@ -135,35 +139,39 @@ impl Studio {
             });
         if session.sketching().open {
             let outline = Panel::right("outline").frame(panels::frame()).default_size(288.0).size_range(288.0..=420.0);
-            outline.show(ui, |ui| panels::outline::show(ui, session, &mut self.sheet, actions));
+            outline.show(ui, |ui| {
+                panels::messages::show(ui, session, actions);
+                panels::outline::show(ui, session, &mut self.sheet, actions);
+            });
             let (tool, entry) = self.tools.tool(session);
             CentralPanel::no_frame()
                 .show(ui, |ui| canvas::show(ui, session, &mut self.sheet, tool, entry.hint, actions));
-            panels::messages::show(ui.ctx(), session, status.response.rect.height(), actions);
             panels::dialogs::show(ui.ctx(), session, actions);
             return;
         }
         let timeline =
             Panel::bottom("timeline").frame(bar).default_size(132.0).size_range(96.0..=320.0).resizable(true);
-        let timeline = timeline.show(ui, |ui| {
+        timeline.show(ui, |ui| {
             panels::timeline::show(ui, session, &mut self.timeline, actions);
         });
         let poses = Panel::left("poses").frame(panels::frame()).default_size(204.0).size_range(160.0..=360.0);
-        poses.show(ui, |ui| panels::poses::show(ui, session, actions));
+        poses.show(ui, |ui| {
+            panels::messages::show(ui, session, actions);
+            panels::poses::show(ui, session, actions);
+        });
         let inspector = Panel::right("inspector").frame(panels::frame()).default_size(288.0).size_range(288.0..=420.0);
         inspector.show(ui, |ui| panels::inspector::show(ui, session, &mut self.inspector, actions));
         CentralPanel::no_frame().show(ui, |ui| {
             let (tool, _) = self.tools.tool(session);
             viewport::show(ui, session, &mut self.views, tool, actions);
         });
-        let above = status.response.rect.height() + timeline.response.rect.height();
-        panels::messages::show(ui.ctx(), session, above, actions);
         panels::dialogs::show(ui.ctx(), session, actions);
     }
 
     fn overlays(&mut self, ctx: &egui::Context, actions: &mut Vec<Action>) {
         panels::palette::show(ctx, &self.session, &mut self.palette, actions);
         panels::shortcuts::show(ctx, &self.session, actions);
+        panels::log::show(ctx, &self.session, actions);
     }
 
     /// Asks for the next frame where something moves by itself; otherwise nothing is drawn until something happens.

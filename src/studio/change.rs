@@ -2,15 +2,18 @@
 
 use crate::design::edit::{self, EditError};
 use crate::design::{
-    ControllerSettings, Design, Easing, FabricationSettings, FiberSettings, Keyframe, Material, Network, Pose, Target,
+    ControllerSettings, Design, Easing, FabricationSettings, FiberSettings, Hold, Keyframe, Material, Network, Pin, Pose, Target,
     TendonSettings, Term,
 };
-use crate::mesh::BodyPoint;
+use crate::mesh::{Axis, BodyPoint};
+use crate::operations::arrange::{self, Handle, Motion};
 use crate::operations::network::{self, Part};
-use crate::operations::pose::{at_hand, put_pin, put_target, rounded};
+use crate::operations::pose::{at_hand, pin_middle, put_pin, put_target, rounded};
+use crate::operations::starch;
 use crate::outline::{Drawing, Point};
 use crate::physics::TermKind;
 use crate::sewing::Rules;
+use crate::studio::session::Brush;
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Change {
@@ -40,6 +43,52 @@ pub enum Change {
     ClearTargets(usize),
     AddPin(BodyPoint),
     RemovePin(usize),
+    /// Another anchor, mm; none: where its point is at rest.
+    MovePin {
+        index: usize,
+        to: Option<Point>,
+    },
+    /// Another point of the body.
+    SitePin {
+        index: usize,
+        at: BodyPoint,
+    },
+    HoldPin {
+        index: usize,
+        hold: Hold,
+    },
+    PinMiddle,
+    /// Targets and pins together.
+    Arrange {
+        pose: Option<usize>,
+        handles: Vec<Handle>,
+        motion: Motion,
+    },
+    WeighTargets {
+        pose: usize,
+        handles: Vec<Handle>,
+        weight: f64,
+    },
+    /// Their mirror images are added.
+    Mirror {
+        pose: Option<usize>,
+        handles: Vec<Handle>,
+        axis: Axis,
+    },
+    MirrorPose {
+        pose: usize,
+        axis: Axis,
+    },
+    RemoveHandles {
+        pose: Option<usize>,
+        handles: Vec<Handle>,
+    },
+    /// A dab around a place at rest, mm.
+    Starch {
+        at: Point,
+        brush: Brush,
+    },
+    ClearStarch,
     AcceptNetwork(Network),
     /// A change of winches and tendons.
     Network(network::Edit),
@@ -75,6 +124,7 @@ pub enum Made {
     Pose(usize),
     Target { pose: usize, index: usize },
     Keyframe(usize),
+    Pin(usize),
     Part(Part),
 }
 
@@ -93,6 +143,17 @@ impl Change {
             Self::ClearTargets(_) => "Remove all targets",
             Self::AddPin(_) => "Add pin",
             Self::RemovePin(_) => "Remove pin",
+            Self::MovePin { .. } => "Move pin",
+            Self::SitePin { .. } => "Move pin on the body",
+            Self::HoldPin { .. } => "Kind of pin",
+            Self::PinMiddle => "Pin the middle",
+            Self::Arrange { .. } => "Arrange",
+            Self::WeighTargets { .. } => "Weights of targets",
+            Self::Mirror { .. } => "Mirror",
+            Self::MirrorPose { .. } => "Mirrored pose",
+            Self::RemoveHandles { .. } => "Delete selected",
+            Self::Starch { .. } => "Starch",
+            Self::ClearStarch => "Take starch away",
             Self::AcceptNetwork(_) => "Accept network",
             Self::Network(edit) => edit.label(),
             Self::SetKeyframe(_) => "Set keyframe",
@@ -144,8 +205,19 @@ impl Change {
                 }
                 Made::Nothing
             }
-            Self::AddPin(at) => nothing(put_pin(design, at_hand(&design.mesh, &at))?),
+            Self::AddPin(at) => nothing(put_pin(design, at_hand(&design.mesh, &at), Hold::Point)?),
             Self::RemovePin(index) => nothing(edit::remove_pin(design, index)?),
+            Self::MovePin { .. }
+            | Self::SitePin { .. }
+            | Self::HoldPin { .. }
+            | Self::PinMiddle
+            | Self::Arrange { .. }
+            | Self::WeighTargets { .. }
+            | Self::Mirror { .. }
+            | Self::MirrorPose { .. }
+            | Self::RemoveHandles { .. }
+            | Self::Starch { .. }
+            | Self::ClearStarch => return self.pose(design),
             Self::AcceptNetwork(network) => Made::Part(Part::Winch(edit::accept_network(design, network)?)),
             Self::Network(edit) => network::apply(design, &edit)?.map_or(Made::Nothing, Made::Part),
             Self::SetKeyframe(keyframe) => Made::Keyframe(edit::set_keyframe(design, keyframe)?),
@@ -170,6 +242,35 @@ impl Change {
             Self::Draw { drawing, .. } => nothing(edit::set_drawing(design, Some(drawing))?),
         })
     }
+}
+
+impl Change {
+    /// Pins, several at once, starch.
+    fn pose(self, design: &mut Design) -> Result<Made, EditError> {
+        Ok(match self {
+            Self::MovePin { index, to } => nothing(with_pin(design, index, |pin| pin.position = to.map(rounded))?),
+            Self::SitePin { index, at } => {
+                let at = at_hand(&design.mesh, &at);
+                nothing(with_pin(design, index, |pin| (pin.at, pin.position) = (at, None))?)
+            }
+            Self::HoldPin { index, hold } => nothing(with_pin(design, index, |pin| pin.hold = hold)?),
+            Self::PinMiddle => Made::Pin(pin_middle(design)?),
+            Self::Arrange { pose, handles, motion } => nothing(arrange::shift(design, pose, &handles, &motion)?),
+            Self::WeighTargets { pose, handles, weight } => nothing(arrange::weigh(design, pose, &handles, weight)?),
+            Self::Mirror { pose, handles, axis } => nothing(arrange::mirror(design, pose, &handles, axis)?),
+            Self::MirrorPose { pose, axis } => Made::Pose(arrange::mirrored_pose(design, pose, axis)?),
+            Self::RemoveHandles { pose, handles } => nothing(arrange::remove(design, pose, handles)?),
+            Self::Starch { at, brush } => nothing(starch::dab(design, at, brush.radius_mm, brush.factor)?),
+            Self::ClearStarch => nothing(starch::clear(design)?),
+            _ => Made::Nothing,
+        })
+    }
+}
+
+fn with_pin(design: &mut Design, index: usize, change: impl FnOnce(&mut Pin)) -> Result<(), EditError> {
+    let Some(mut pin) = design.pins.get(index).copied() else { return Ok(()) };
+    change(&mut pin);
+    edit::set_pin(design, index, pin)
 }
 
 fn add_pose(design: &mut Design) -> Result<usize, EditError> {

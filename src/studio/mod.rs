@@ -16,6 +16,7 @@ mod blank;
 pub mod canvas;
 pub mod change;
 pub mod commands;
+mod focus;
 pub mod icons;
 pub mod jobs;
 pub mod keeper;

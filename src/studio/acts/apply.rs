@@ -10,6 +10,7 @@ pub fn apply(session: &mut Session, action: Action) {
     match action {
         Action::Change(change) => edit::change(session, change),
         Action::Live(change) => edit::live(session, change),
+        Action::Again(change) => edit::again(session, change),
         Action::Run(command, at) => match command.refused(session, at) {
             None => (command.run)(session, at),
             Some(why) => session.messages.info(why),
@@ -22,7 +23,13 @@ pub fn apply(session: &mut Session, action: Action) {
         Action::WindMotor(winch, length_mm) => motors::wind(session, winch, length_mm),
         Action::SetMotors(choice) => session.motors.choice = *choice,
         Action::SelectPose(pose) => edit::select_pose(session, pose),
-        Action::Select(selection) => session.picked.selection = selection,
+        Action::Select(selection) => {
+            session.picked.selection = selection;
+            session.group.set(Vec::new());
+        }
+        Action::Gather(handles) => edit::gather(session, handles),
+        Action::SetBrush(brush) => session.posing.brush = brush,
+        Action::DragPin(index, to) => edit::drag_pin(session, index, to),
         Action::SetQuality(quality) => session.solver.quality = quality,
         Action::SetCamera(camera) => {
             session.look.camera = Some(camera);

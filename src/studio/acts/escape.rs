@@ -18,6 +18,7 @@ pub fn escape(session: &mut Session) {
         session.picked.mode = Mode::Pose;
     } else {
         session.picked.selection = Selection::Nothing;
+        session.group.set(Vec::new());
         session.discovery.shown = None;
     }
     edit::clamp(session);

@@ -24,6 +24,8 @@ pub fn tick(session: &mut Session, now_s: f64, passed_s: f64, hands_off: bool) {
         session.playback.advance(passed_s, animation::duration_s(session.document.design()));
     }
     edit::clamp(session);
+    let design = session.document.design().clone();
+    session.posing.follow(&design);
     discover::follow(session);
     session.rigging.curve.follow(session.document.design());
     texture::follow_texture(session);

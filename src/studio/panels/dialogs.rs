@@ -16,7 +16,8 @@ use std::path::Path;
 pub fn show(ctx: &Context, session: &Session, actions: &mut Actions) {
     let Some(dialog) = &session.files.dialog else { return };
     let is_import = matches!(dialog, Dialog::Path(dialog) if dialog.purpose == Purpose::Import);
-    let modal = Modal::new(Id::unique("dialog")).show(ctx, |ui| {
+    // Each kind remembers a size of its own: a short question does not get the room of a long one.
+    let modal = Modal::new(Id::unique(("dialog", kind(dialog)))).show(ctx, |ui| {
         ui.set_width(if is_import { 560.0 } else { 430.0 });
         match dialog {
             Dialog::Unsaved(_) => unsaved(ui, session, actions),
@@ -27,6 +28,16 @@ pub fn show(ctx: &Context, session: &Session, actions: &mut Actions) {
     });
     if modal.should_close() {
         actions.push(Action::File(FileAction::CloseDialog));
+    }
+}
+
+/// What tells dialogs apart that need different room.
+fn kind(dialog: &Dialog) -> u8 {
+    match dialog {
+        Dialog::Unsaved(_) => 0,
+        Dialog::Replace(_, why) => 1 + *why as u8,
+        Dialog::Recover => 9,
+        Dialog::Path(dialog) => 10 + dialog.purpose as u8,
     }
 }
 

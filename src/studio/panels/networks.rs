@@ -14,6 +14,7 @@ use crate::studio::change::Change;
 use crate::studio::commands::document::DELETE;
 use crate::studio::commands::networks::{DOWN, MUTE, SOLO, UP};
 use crate::studio::icons::{self, Icon};
+use crate::studio::style::plain_number;
 use crate::studio::session::{Renamed, Selection, Session};
 use crate::studio::style;
 use crate::studio::viewport::thumbnail::Thumbnails;
@@ -82,7 +83,7 @@ fn rows(ui: &mut Ui, session: &Session, breaches: &[Breach], actions: &mut Actio
                 let wound = newest.as_ref().and_then(|s| s.activations_mm.get(index));
                 let wound = match network.muted {
                     true => "off".to_owned(),
-                    false => format!("{:>5.1} mm", wound.copied().unwrap_or(0.0)),
+                    false => format!("{:>5} mm", plain_number(wound.copied().unwrap_or(0.0), 1)),
                 };
                 let tendons = network.tendons.len();
                 let detail = format!("{tendons} tendon{}  {wound}", if tendons == 1 { "" } else { "s" });

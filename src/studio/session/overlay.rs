@@ -7,6 +7,8 @@ pub enum Overlay {
     Palette,
     /// What every key does.
     Shortcuts,
+    /// What the window has said.
+    Log,
 }
 
 /// The thing that gets another name.

@@ -4,6 +4,7 @@ use super::discovery::Discovery;
 use super::document::Document;
 use super::files::Files;
 use super::following::Following;
+use super::group::Group;
 use super::judging::Judging;
 use super::look::Look;
 use super::meshing::{Meshing, Resolution};
@@ -11,6 +12,7 @@ use super::motors::Motors;
 use super::overlay::{Overlay, Renamed};
 use super::picked::{Mode, Picked, Selection};
 use super::playback::Playback;
+use super::posing::Posing;
 use super::rigging::Rigging;
 use super::safety::Safety;
 use super::sketching::Sketching;
@@ -56,6 +58,9 @@ pub struct Services {
 pub struct Session {
     pub(crate) document: Document,
     pub(crate) picked: Picked,
+    /// Targets and pins that are picked out together.
+    pub(crate) group: Group,
+    pub(crate) posing: Posing,
     pub(crate) look: Look,
     pub(crate) playback: Playback,
     pub(crate) solver: Solver,
@@ -95,6 +100,8 @@ impl Session {
         let document = Document::new(design, path);
         Self {
             picked: Picked::first(document.design()),
+            group: Group::default(),
+            posing: Posing::default(),
             look: Look::default(),
             playback: Playback::default(),
             solver: Solver::new(document.design(), wake.clone()),
@@ -199,6 +206,16 @@ impl Session {
 
     pub fn selection(&self) -> Selection {
         self.picked.selection
+    }
+
+    /// Targets and pins that are picked out together.
+    pub fn group(&self) -> &Group {
+        &self.group
+    }
+
+    /// The ways of posing that are on.
+    pub fn posing(&self) -> &Posing {
+        &self.posing
     }
 
     pub fn playback(&self) -> &Playback {
