@@ -34,6 +34,7 @@ mod remesh;
 mod render;
 pub mod report;
 mod reshape;
+mod retime;
 mod rig;
 mod simulate_controller;
 mod solve;
@@ -93,6 +94,7 @@ pub enum Command {
     Rig(rig::Rig),
     Network(network::NetworkCommand),
     Key(key::Key),
+    Retime(retime::Retime),
     Check(check::Check),
     Export(export::Export),
     Play(play::Play),
@@ -127,6 +129,7 @@ impl Command {
             | Self::Pose(_)
             | Self::Arrange(_)
             | Self::Starch(_)
+            | Self::Retime(_)
             | Self::Network(_)
             | Self::SimulateController(_)
             | Self::Completions(_)
@@ -184,6 +187,7 @@ pub fn run(command: &Command, out: &mut dyn Write, cancel: &AtomicBool) -> Resul
         Command::Rig(command) => command.run(out, cancel),
         Command::Network(command) => command.run(out, cancel),
         Command::Key(command) => command.run(out, cancel),
+        Command::Retime(command) => command.run(out, cancel),
         Command::Check(command) => command.run(out, cancel),
         Command::Export(command) => command.run(out, cancel),
         Command::Play(command) => command.run(out, cancel),

@@ -200,7 +200,8 @@ pub struct Keyframe {
 }
 
 /// Shape of the motion between two keyframes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub enum Easing {
     Linear,
     /// Starts and ends at rest: `3 s^2 - 2 s^3`.
@@ -208,6 +209,9 @@ pub enum Easing {
     Smooth,
     /// Stays until the next keyframe.
     Hold,
+    /// Starts and ends at rest, as slowly as its handles say: the Bezier curve from (0, 0) to (1, 1) with the handles (out, 0) and
+    /// (1 - into, 1), progress over time. With thirds it is `Smooth`.
+    Slow { out: f64, into: f64 },
 }
 
 impl Network {

@@ -73,6 +73,7 @@ ranges! {
     RATIO: "networks[].tendons[].ratio", "", 1e-3, 1e3, "spools on one shaft";
     SLACK: "networks[].tendons[].slack_mm", "mm", 0.0, 1e4, "longer than any cable";
     TIME: "keyframes[].time_s", "s", 0.0, 36000.0, "ten hours";
+    EASE: "keyframes[].easing.out, keyframes[].easing.into", "", 0.05, 0.9, "less jerks; more stands still and then leaps";
     ACTIVATION: "keyframes[].activations_mm[]", "mm or body lengths over 1000", -1e3, 1e4, "the cable on one spool";
     COORDINATE: "outline.*[], mesh.nodes[]", "mm", -1e6, 1e6, "a kilometre, as imports";
     BODY: "the longer side of the mesh", "mm", 1e-2, 2e6, "as imports";

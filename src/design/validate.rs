@@ -5,7 +5,7 @@
 //! (`pins[1].at.triangle`), 0-based, and what is wrong there.
 
 use super::fault::{Check, DesignError, Fault, at_least, fail, finite, require, same_length};
-use super::Hold;
+use super::{Easing, Hold};
 use super::ranges::{self, Range, at_most};
 use super::{
     Design, DriveSettings, FORMAT_VERSION, FiberSet, Keyframe, MaterialPoint, Network, Pin, Pose, Target, Tendon, Term,
@@ -280,6 +280,10 @@ pub(super) fn keyframe(at: &str, design: &Design, keyframe: &Keyframe) -> Check 
     let size = (design.body_length_mm() / METRE_MM).max(1.0);
     for (i, &a) in activations.iter().enumerate() {
         ranges::ACTIVATION.check_scaled(&format!("{at}.activations_mm[{i}]"), a, size)?;
+    }
+    if let Easing::Slow { out, into } = keyframe.easing {
+        ranges::EASE.check(&format!("{at}.easing.out"), out)?;
+        ranges::EASE.check(&format!("{at}.easing.into"), into)?;
     }
     if let Some(name) = &keyframe.pose {
         shown_name(&format!("{at}.pose"), name, true)?;

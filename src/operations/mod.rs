@@ -14,6 +14,8 @@
 //! | [`rig`] | all poses to networks, and to a timeline where there is none |
 //! | [`explore`] | all poses to the curve of their error against winches and tendons |
 //! | [`key`] | a pose to a keyframe of winch activations |
+//! | [`retime`] | a timeline to one at other times: moved, stretched, copied, or as slow as the motors need |
+//! | [`film`] | an animation to a GIF, numbered pictures, or a page that plays it |
 //! | [`check`] | a design to its figures |
 //! | [`export`] | a design to the folder of its blueprint |
 //! | [`play`] | a design to motors that play its animation |
@@ -49,6 +51,7 @@ mod context;
 pub mod explore;
 pub mod export;
 mod fibers;
+pub mod film;
 pub mod key;
 pub mod network;
 pub mod new_design;
@@ -60,6 +63,7 @@ pub mod propose;
 pub mod remesh;
 pub mod render;
 pub mod reshape;
+pub mod retime;
 pub mod rig;
 pub mod starch;
 

@@ -25,6 +25,7 @@
 //! ```
 
 pub mod element_quality;
+pub mod film;
 pub mod layers;
 mod pair;
 pub mod palette;

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-const COMMANDS: [&str; 22] = [
+const COMMANDS: [&str; 23] = [
     "demo",
     "new",
     "mesh",
@@ -17,6 +17,7 @@ const COMMANDS: [&str; 22] = [
     "rig",
     "network",
     "key",
+    "retime",
     "check",
     "export",
     "play",

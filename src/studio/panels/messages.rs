@@ -6,10 +6,12 @@ use crate::studio::commands::files::LOG;
 use crate::studio::icons::{self, Icon};
 use crate::studio::messages::{Level, Message};
 use crate::studio::session::Session;
-use eframe::egui::{Align, Color32, Frame, Label, Layout, Panel, RichText, ScrollArea, Sense, Ui, Visuals, vec2};
+use eframe::egui::{Color32, Frame, Label, Panel, RichText, ScrollArea, Sense, Ui, Visuals, vec2};
 
 /// Part of the side panel's height that messages take at most.
 const MOST: f32 = 0.4;
+/// What the button takes on the right, logical pixels.
+const CLOSE: f32 = 28.0;
 
 /// Takes room from the bottom of a side panel, as long as there is something to say. Before the rest of the panel.
 pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
@@ -36,14 +38,13 @@ fn row(ui: &mut Ui, message: &Message, actions: &mut Actions) {
         ui.horizontal_top(|ui| {
             let (bar, _) = ui.allocate_exact_size(vec2(3.0, 16.0), Sense::hover());
             ui.painter().rect_filled(bar, 1.5, color);
-            ui.with_layout(Layout::right_to_left(Align::Min), |ui| {
-                if icons::small_button(ui, Icon::Close, "Dismiss message", "Dismiss").clicked() {
-                    actions.push(Action::DismissMessage(message.id));
-                }
-                ui.with_layout(Layout::left_to_right(Align::Min).with_main_wrap(true), |ui| {
-                    ui.add(Label::new(RichText::new(&message.text).small().color(color)).wrap());
-                });
+            ui.vertical(|ui| {
+                ui.set_width((ui.available_width() - CLOSE).max(1.0));
+                ui.add(Label::new(RichText::new(&message.text).small().color(color)).wrap());
             });
+            if icons::small_button(ui, Icon::Close, "Dismiss message", "Dismiss").clicked() {
+                actions.push(Action::DismissMessage(message.id));
+            }
         });
     });
 }

@@ -27,8 +27,21 @@ pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
         if taken(session, Scope::Views).id == STARCH {
             brush(ui, session, actions);
         }
+        ways(ui, session, actions);
         targets(ui, session, actions);
         pins(ui, session, actions);
+    });
+}
+
+/// How a hand poses.
+fn ways(ui: &mut Ui, session: &Session, actions: &mut Actions) {
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 2.0;
+        buttons::choice(ui, session, &SYMMETRIC, actions);
+        buttons::choice(ui, session, &SNAP, actions);
+        if session.group().handles().len() > 1 {
+            buttons::text(ui, session, &MIRROR, actions);
+        }
     });
 }
 
@@ -49,14 +62,6 @@ fn targets(ui: &mut Ui, session: &Session, actions: &mut Actions) {
                 buttons::small_icon(ui, session, &CLEAR_TARGETS, actions);
             }
         });
-    });
-    ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = 2.0;
-        buttons::choice(ui, session, &SYMMETRIC, actions);
-        buttons::choice(ui, session, &SNAP, actions);
-        if session.group().handles().len() > 1 {
-            buttons::text(ui, session, &MIRROR, actions);
-        }
     });
     if session.targets().is_empty() {
         hint(ui, "Drag any point of the body, in either view: the drag becomes a target.");

@@ -88,6 +88,7 @@ fn name(easing: Easing) -> &'static str {
         Easing::Linear => "Linear",
         Easing::Smooth => "Smooth",
         Easing::Hold => "Hold",
+        Easing::Slow { .. } => "Handles",
     }
 }
 
