@@ -4,9 +4,12 @@ use super::render::{self, Error, Note, Rendered, What};
 use super::{Context, Progress};
 use crate::design::Design;
 use crate::design::animation::duration_s;
-use crate::files::folder::{MANIFEST, Manifest};
+use crate::files::folder::{self, MANIFEST, Manifest};
+use crate::files;
 use crate::picture::film;
 use serde::{Deserialize, Serialize};
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 use std::time::Duration;
 
@@ -105,6 +108,32 @@ fn numbered(pngs: Vec<Vec<u8>>) -> Result<Film, Error> {
     Ok(Film::Folder(files))
 }
 
+/// Refuses a place where something stands that is no film of ours: a design, a photograph.
+///
+/// # Errors
+/// It does, in words.
+pub fn check(path: &Path, kind: Kind) -> Result<(), String> {
+    /// Enough to know a GIF or a page, bytes.
+    const HEAD: u64 = 1024;
+    if kind == Kind::Pictures {
+        let (of, _) = FORMAT.split_at(FORMAT.len() - 1);
+        return folder::check(path, of).map(drop).map_err(|error| error.to_string());
+    }
+    if !files::is_taken(path) {
+        return Ok(());
+    }
+    let mut head = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
+    let ours = match kind {
+        Kind::Page => head.starts_with(film::PAGE_MARK.as_bytes()),
+        _ => files::is_marked_gif(&head),
+    };
+    match read.is_ok() && ours {
+        true => Ok(()),
+        false => Err(format!("{} exists and is no film of ours; choose another name", files::shown(path))),
+    }
+}
+
 impl Film {
     /// Puts it on the disk, whole or not at all.
     ///
@@ -112,11 +141,11 @@ impl Film {
     /// What stands in the place is not an earlier one; what the system says.
     pub fn write(&self, path: &Path) -> Result<(), String> {
         match self {
-            Self::File(bytes) => crate::files::write(path, bytes).map_err(|error| error.to_string()),
+            Self::File(bytes) => files::write(path, bytes).map_err(|error| error.to_string()),
             Self::Folder(files) => {
                 let files: Vec<(&str, &[u8])> = files.iter().map(|(name, b)| (name.as_str(), b.as_slice())).collect();
                 let (of, _) = FORMAT.split_at(FORMAT.len() - 1);
-                crate::files::folder::write(path, of, &files).map_err(|error| error.to_string())
+                folder::write(path, of, &files).map_err(|error| error.to_string())
             }
         }
     }

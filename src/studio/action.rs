@@ -45,6 +45,10 @@ pub enum Action {
     Select(Selection),
     /// Picks targets and pins out together.
     Gather(Vec<Handle>),
+    /// Picks keyframes out together.
+    GatherKeys(Vec<usize>),
+    /// Text from the clipboard.
+    Paste(String),
     SetBrush(Brush),
     /// Moves the pin, mm; part of a gesture.
     DragPin(usize, Point),

@@ -109,6 +109,9 @@ impl Studio {
         if self.session.look.theme != theme {
             style::set_theme(&ctx, self.session.look.theme);
         }
+        if let Some(text) = self.session.clipboard.take() {
+            ctx.copy_text(text);
+        }
         if changed && hands_off {
             acts::keep::remember(&mut self.session);
         }

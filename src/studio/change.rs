@@ -9,7 +9,7 @@ use crate::mesh::{Axis, BodyPoint};
 use crate::operations::arrange::{self, Handle, Motion};
 use crate::operations::network::{self, Part};
 use crate::operations::pose::{at_hand, pin_middle, put_pin, put_target, rounded};
-use crate::operations::starch;
+use crate::operations::{retime, starch};
 use crate::outline::{Drawing, Point};
 use crate::physics::TermKind;
 use crate::sewing::Rules;
@@ -93,14 +93,30 @@ pub enum Change {
     /// A change of winches and tendons.
     Network(network::Edit),
     SetKeyframe(Keyframe),
-    MoveKeyframe {
-        index: usize,
-        time_s: f64,
-    },
-    EaseKeyframe(usize, Easing),
     /// What it winds stays, whatever becomes of its pose.
     FixKeyframe(usize),
     RemoveKeyframe(usize),
+    /// Keyframes together, by their numbers.
+    MoveKeyframes {
+        keys: Vec<usize>,
+        by_s: f64,
+    },
+    StretchKeyframes {
+        keys: Vec<usize>,
+        factor: f64,
+    },
+    EaseKeyframes {
+        keys: Vec<usize>,
+        easing: Easing,
+    },
+    /// Copies, the first at a time.
+    PasteKeyframes {
+        copies: Vec<Keyframe>,
+        time_s: f64,
+    },
+    RemoveKeyframes(Vec<usize>),
+    /// Numbers and new times, s.
+    RetimeKeyframes(Vec<(usize, f64)>),
     Rename(String),
     Material(Material),
     /// An energy term in the place of the one of its kind, or none.
@@ -118,12 +134,14 @@ pub enum Change {
 }
 
 /// The part that a change made and that should be picked out now.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Made {
     Nothing,
     Pose(usize),
     Target { pose: usize, index: usize },
     Keyframe(usize),
+    /// By their numbers.
+    Keyframes(Vec<usize>),
     Pin(usize),
     Part(Part),
 }
@@ -157,10 +175,14 @@ impl Change {
             Self::AcceptNetwork(_) => "Accept network",
             Self::Network(edit) => edit.label(),
             Self::SetKeyframe(_) => "Set keyframe",
-            Self::MoveKeyframe { .. } => "Move keyframe",
-            Self::EaseKeyframe(..) => "Keyframe easing",
             Self::FixKeyframe(_) => "Fix keyframe",
             Self::RemoveKeyframe(_) => "Delete keyframe",
+            Self::MoveKeyframes { .. } => "Move keyframes",
+            Self::StretchKeyframes { .. } => "Stretch keyframes",
+            Self::EaseKeyframes { .. } => "Easing of keyframes",
+            Self::PasteKeyframes { .. } => "Paste keyframes",
+            Self::RemoveKeyframes(_) => "Delete keyframes",
+            Self::RetimeKeyframes(_) => "Make it fit",
             Self::Rename(_) => "Rename plushie",
             Self::Material(_) => "Body settings",
             Self::Term(kind, _) => kind.label,
@@ -221,16 +243,17 @@ impl Change {
             Self::AcceptNetwork(network) => Made::Part(Part::Winch(edit::accept_network(design, network)?)),
             Self::Network(edit) => network::apply(design, &edit)?.map_or(Made::Nothing, Made::Part),
             Self::SetKeyframe(keyframe) => Made::Keyframe(edit::set_keyframe(design, keyframe)?),
-            Self::MoveKeyframe { index, time_s } => Made::Keyframe(edit::move_keyframe(design, index, time_s)?),
-            Self::EaseKeyframe(index, easing) => match design.keyframes.get(index).cloned() {
-                Some(keyframe) => Made::Keyframe(edit::set_keyframe(design, Keyframe { easing, ..keyframe })?),
-                None => Made::Nothing,
-            },
             Self::FixKeyframe(index) => match design.keyframes.get(index).cloned() {
                 Some(keyframe) => Made::Keyframe(edit::set_keyframe(design, Keyframe { pose: None, ..keyframe })?),
                 None => Made::Nothing,
             },
             Self::RemoveKeyframe(index) => nothing(edit::remove_keyframe(design, index)?),
+            Self::MoveKeyframes { keys, by_s } => Made::Keyframes(retime::shift(design, &keys, by_s)?),
+            Self::StretchKeyframes { keys, factor } => Made::Keyframes(stretched(design, &keys, factor)?),
+            Self::EaseKeyframes { keys, easing } => nothing(retime::ease(design, &keys, easing)?),
+            Self::PasteKeyframes { copies, time_s } => Made::Keyframes(retime::paste(design, &copies, time_s)?),
+            Self::RemoveKeyframes(keys) => nothing(edit::remove_keyframes(design, &keys)?),
+            Self::RetimeKeyframes(times) => nothing(edit::retime_keyframes(design, &times)?),
             Self::Rename(name) => nothing(edit::rename(design, &name)?),
             Self::Material(material) => nothing(edit::set_material(design, material)?),
             Self::Term(kind, term) => nothing(edit::set_term(design, kind, term)?),
@@ -271,6 +294,15 @@ fn with_pin(design: &mut Design, index: usize, change: impl FnOnce(&mut Pin)) ->
     let Some(mut pin) = design.pins.get(index).copied() else { return Ok(()) };
     change(&mut pin);
     edit::set_pin(design, index, pin)
+}
+
+/// A factor that is none leaves everything where it is.
+fn stretched(design: &mut Design, keys: &[usize], factor: f64) -> Result<Vec<usize>, EditError> {
+    match retime::stretch(design, keys, factor) {
+        Ok(keys) => Ok(keys),
+        Err(retime::Error::Edit(error)) => Err(error),
+        Err(_) => Ok(keys.to_vec()),
+    }
 }
 
 fn add_pose(design: &mut Design) -> Result<usize, EditError> {

@@ -1,6 +1,6 @@
 //! What panels and tools ask for, done.
 
-use super::{animate, edit, filing, motors, sheet, wind};
+use super::{animate, edit, filing, motors, sheet, timing, wind};
 use crate::studio::action::Action;
 use crate::studio::jobs::Outcome;
 use crate::studio::session::{Session, Task};
@@ -26,8 +26,11 @@ pub fn apply(session: &mut Session, action: Action) {
         Action::Select(selection) => {
             session.picked.selection = selection;
             session.group.set(Vec::new());
+            session.timing.keys.clear();
         }
         Action::Gather(handles) => edit::gather(session, handles),
+        Action::GatherKeys(keys) => edit::gather_keys(session, keys),
+        Action::Paste(text) => timing::paste_text(session, &text),
         Action::SetBrush(brush) => session.posing.brush = brush,
         Action::DragPin(index, to) => edit::drag_pin(session, index, to),
         Action::SetQuality(quality) => session.solver.quality = quality,

@@ -36,10 +36,16 @@ pub fn live(session: &mut Session, change: Change) {
 
 /// Part of a gesture that is worked out anew from its beginning every time.
 pub fn again(session: &mut Session, change: Change) {
-    if session.document.history.undo_label() == Some(change.label()) {
-        session.document.history.cancel();
+    let label = change.label();
+    if session.document.history.undo_label() != Some(label) || !session.document.history.in_gesture() {
+        session.document.history.begin(label);
     }
-    live(session, change);
+    match session.document.history.preview_anew(|design| change.apply(design)) {
+        Ok(made) => pick_out(session, made),
+        // On the way over another keyframe: the last place stays.
+        Err(EditError::TimeTaken(_) | EditError::Invalid(_)) => {}
+        Err(error) => session.messages.error(format!("{label}: {error}")),
+    }
 }
 
 /// Picks targets and pins out together; one alone is selected.
@@ -49,7 +55,20 @@ pub fn gather(session: &mut Session, handles: Vec<Handle>) {
         [Handle::Pin(index)] => Selection::Pin(index),
         _ => Selection::Nothing,
     };
+    session.timing.keys.clear();
     session.group.set(handles);
+}
+
+/// Picks keyframes out together; one alone is selected.
+pub fn gather_keys(session: &mut Session, mut keys: Vec<usize>) {
+    keys.sort_unstable();
+    keys.dedup();
+    session.group.set(Vec::new());
+    session.picked.selection = match keys[..] {
+        [key] => Selection::Keyframe(key),
+        _ => Selection::Nothing,
+    };
+    session.timing.keys = if keys.len() > 1 { keys } else { Vec::new() };
 }
 
 /// Moves the anchor of a pin.
@@ -101,7 +120,11 @@ pub fn pick_out(session: &mut Session, made: Made) {
             session.picked.selection = Selection::Target(index);
         }
         Made::Pin(index) => session.picked.selection = Selection::Pin(index),
-        Made::Keyframe(index) => session.picked.selection = Selection::Keyframe(index),
+        Made::Keyframe(index) => {
+            session.picked.selection = Selection::Keyframe(index);
+            session.timing.keys.clear();
+        }
+        Made::Keyframes(keys) => gather_keys(session, keys),
         Made::Part(part) => session.picked.selection = Selection::Part(part),
     }
     clamp(session);
@@ -130,6 +153,7 @@ pub fn clamp(session: &mut Session) {
     let design = session.document.design();
     session.sketching.clamp(design);
     session.group.clamp(design, session.picked.pose);
+    session.timing.keys.retain(|&key| key < design.keyframes.len());
     session.picked.clamp(design);
     if session.picked.mode == Mode::Winding && !session.winding.fits(design) {
         session.picked.mode = Mode::Pose;
@@ -149,6 +173,10 @@ pub fn select_pose(session: &mut Session, pose: Option<usize>) {
 
 /// Deletes whatever is selected.
 pub fn delete_selected(session: &mut Session) {
+    if !session.timing.keys.is_empty() {
+        let keys = std::mem::take(&mut session.timing.keys);
+        return change(session, Change::RemoveKeyframes(keys));
+    }
     if session.group.handles().len() > 1 {
         let (pose, handles) = (session.picked.pose, session.group.handles().to_vec());
         change(session, Change::RemoveHandles { pose, handles });

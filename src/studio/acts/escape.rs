@@ -19,6 +19,7 @@ pub fn escape(session: &mut Session) {
     } else {
         session.picked.selection = Selection::Nothing;
         session.group.set(Vec::new());
+        session.timing.keys.clear();
         session.discovery.shown = None;
     }
     edit::clamp(session);

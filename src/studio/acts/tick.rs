@@ -1,6 +1,6 @@
 //! Once a frame: what the threads report, the playhead, what should be seen next.
 
-use super::{animate, discover, edit, filing, follow, import, judge, mesh, motors, rig, sheet, texture};
+use super::{animate, discover, edit, filing, film, follow, import, judge, mesh, motors, rig, sheet, texture};
 use crate::design::animation;
 use crate::engine::Setpoint;
 use crate::studio::canvas::Plushie;
@@ -26,6 +26,7 @@ pub fn tick(session: &mut Session, now_s: f64, passed_s: f64, hands_off: bool) {
     edit::clamp(session);
     let design = session.document.design().clone();
     session.posing.follow(&design);
+    session.timing.follow(&design);
     discover::follow(session);
     session.rigging.curve.follow(session.document.design());
     texture::follow_texture(session);
@@ -70,6 +71,7 @@ fn take(session: &mut Session, Finished { serial, outcome }: Finished) {
         Outcome::Imported(result) => filing::take_import(session, result),
         Outcome::Previewed { path, import, result } => session.files.preview.take(serial, path, *import, result),
         Outcome::Exported { folder, result } => filing::take_export(session, &folder, result),
+        Outcome::Filmed { path, result } => film::take(session, serial, &path, result),
         Outcome::Textured { path, texture } => texture::take_texture(session, path, texture),
         Outcome::Picked { path, at_once } => filing::take_path(session, serial, path, at_once),
         Outcome::Told { owner, told } => session.tasks.finish(owner, serial, told),
@@ -88,6 +90,7 @@ fn break_off(session: &mut Session, serial: u64) {
         &mut session.rigging.running,
         &mut session.rigging.curve.running,
         &mut session.keying,
+        &mut session.filming.running,
     ];
     for running in jobs {
         if Running::is(running.as_ref(), serial) {

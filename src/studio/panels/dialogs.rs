@@ -1,7 +1,7 @@
 //! Dialogs over the window: unsaved changes, and paths where the desktop has no dialogs of its own.
 
 use super::blueprint_parts::parts_and_sheets;
-use super::import;
+use super::{film, import};
 use super::widgets::{primary, sentence};
 use crate::files::shown;
 use crate::motion::{TooFast, families};
@@ -134,6 +134,7 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, actions: &mut Actio
             Purpose::Open | Purpose::SaveAs => "Path of a .plush file",
             Purpose::Import => "Path of a drawing (SVG, PDF, DXF), picture, flat mesh or drawing of parts",
             Purpose::Export => "Path of a new folder",
+            Purpose::Film => "Path of a new *.gif, *.html or folder",
         };
         let field = ui.add(TextEdit::singleline(&mut edited.path).hint_text(hint).desired_width(width));
         let field = field.accessible_name("Path");
@@ -151,6 +152,9 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, actions: &mut Actio
     if dialog.purpose == Purpose::Export {
         export_settings(ui, &mut edited.export);
     }
+    if dialog.purpose == Purpose::Film {
+        film::settings(ui, &mut edited);
+    }
     let path = Path::new(edited.path.trim());
     let is_known = path.exists() && !path.is_dir();
     let is_wrong = !is_known && !path.is_dir() && !path.as_os_str().is_empty();
@@ -160,6 +164,7 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, actions: &mut Actio
         }
         Purpose::SaveAs if path.is_file() && session.document.path.as_deref() != Some(path) => "This file exists.",
         Purpose::Open | Purpose::Import if is_wrong => "There is no such file.",
+        Purpose::Film if path.is_file() => "This file exists and is replaced.",
         Purpose::Import => "The filled shapes of the drawing are joined to one silhouette.",
         _ => "",
     };
@@ -172,7 +177,7 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, actions: &mut Actio
         let verb = dialog.purpose.verb();
         let ready = match dialog.purpose {
             Purpose::Open | Purpose::Import => is_known,
-            Purpose::SaveAs | Purpose::Export => !edited.path.trim().is_empty(),
+            Purpose::SaveAs | Purpose::Export | Purpose::Film => !edited.path.trim().is_empty(),
         };
         if (primary(ui, ready, verb, 100.0).clicked() || confirmed) && ready {
             actions.push(Action::File(edited.confirm()));

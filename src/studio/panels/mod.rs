@@ -9,6 +9,7 @@ mod curve;
 pub mod dialogs;
 mod discovery;
 mod import;
+mod film;
 pub mod inspector;
 pub mod log;
 mod mesh;

@@ -3,6 +3,7 @@
 use super::discovery::Discovery;
 use super::document::Document;
 use super::files::Files;
+use super::filming::Filming;
 use super::following::Following;
 use super::group::Group;
 use super::judging::Judging;
@@ -20,6 +21,7 @@ use super::solo::Solo;
 use super::solver::{Shapes, Solver};
 use super::tasks::Tasks;
 use super::texturing::{self, Texturing};
+use super::timing::Timing;
 use super::winding::Winding;
 use crate::design::file::MAX_BYTES;
 use crate::design::history::History;
@@ -63,6 +65,8 @@ pub struct Session {
     pub(crate) posing: Posing,
     pub(crate) look: Look,
     pub(crate) playback: Playback,
+    pub(crate) timing: Timing,
+    pub(crate) filming: Filming,
     pub(crate) solver: Solver,
     pub(crate) discovery: Discovery,
     pub(crate) rigging: Rigging,
@@ -86,6 +90,8 @@ pub struct Session {
     /// Whether pictures can be drawn.
     pub(crate) gpu: bool,
     pub(crate) overlay: Option<Overlay>,
+    /// Text for the clipboard of the system, until the frame is over.
+    pub(crate) clipboard: Option<String>,
     /// A name that is being typed.
     pub(crate) renaming: Option<(Renamed, String)>,
     pub(crate) jobs: Jobs,
@@ -104,6 +110,8 @@ impl Session {
             posing: Posing::default(),
             look: Look::default(),
             playback: Playback::default(),
+            timing: Timing::default(),
+            filming: Filming::default(),
             solver: Solver::new(document.design(), wake.clone()),
             document,
             discovery: Discovery::default(),
@@ -124,6 +132,7 @@ impl Session {
             panel: "",
             gpu: false,
             overlay: None,
+            clipboard: None,
             renaming: None,
             jobs: Jobs::new(wake),
             tasks: Tasks::default(),
@@ -213,6 +222,16 @@ impl Session {
         &self.group
     }
 
+    /// Keyframes that are picked out together, and what the motors make of the animation.
+    pub fn timing(&self) -> &Timing {
+        &self.timing
+    }
+
+    /// A film that is being made.
+    pub fn filming(&self) -> &Filming {
+        &self.filming
+    }
+
     /// The ways of posing that are on.
     pub fn posing(&self) -> &Posing {
         &self.posing
@@ -248,8 +267,9 @@ impl Session {
         let keying = self.keying.is_some().then_some("Working out the keyframe");
         let rigging = self.rigging.running.is_some() || self.rigging.curve.running.is_some();
         let rigging = rigging.then_some("Looking for winches and tendons");
+        let filming = self.filming.running.is_some().then_some("Drawing the animation");
         let following = self.following.is_running().then_some("Working out keyframes again");
-        self.files.working.or(rigging).or(keying).or(following)
+        self.files.working.or(rigging).or(keying).or(filming).or(following)
     }
 
     /// Whether the window is about to close.
@@ -393,5 +413,6 @@ impl Drop for Session {
         self.judging.cancel();
         self.tasks.cancel();
         jobs::cancel(&mut self.keying);
+        jobs::cancel(&mut self.filming.running);
     }
 }
