@@ -29,13 +29,17 @@ pub mod film;
 pub mod layers;
 mod pair;
 pub mod palette;
+mod portrait;
 pub mod preview;
 pub mod raster;
 mod scene;
+mod sheet;
 mod texture;
 mod textured;
 
 pub use layers::{LAYERS, Layers, Shown, Stage, Subject};
 pub use pair::png;
+pub use portrait::portrait;
 pub use scene::{Color, Item, Scene};
+pub use sheet::sheet;
 pub use texture::{Level, Texture};

@@ -4,8 +4,8 @@ use super::canvas::{Camera, Hit};
 use super::change::Change;
 use super::commands::command::Command;
 pub use super::session::FileAction;
-use super::session::{Brush, Overlay, Renamed, Resolution, RigChoice, Selection, Task};
-use crate::engine::Quality;
+use super::session::{Brush, Order, Overlay, Renamed, Resolution, RigChoice, Selection, Task};
+use crate::engine::{Quality, Shape};
 use crate::operations::arrange::Handle;
 use crate::operations::network::Part;
 use crate::operations::play;
@@ -13,6 +13,7 @@ use crate::outline::Point;
 use crate::outline::drawing::Item;
 use crate::picture::Stage;
 use crate::rigging::ProposeOptions;
+use std::sync::Arc;
 
 /// Wanted, in the order in which it was asked for.
 pub type Actions = Vec<Action>;
@@ -59,6 +60,9 @@ pub enum Action {
     SetResolution(Resolution),
     SetRig(RigChoice),
     ShowProposal(Option<usize>),
+    /// A proposal is under the pointer, and strikes this shape.
+    HoverProposal(Option<(usize, Option<Arc<Shape>>)>),
+    SortProposals(Order),
     /// Puts a rig of the curve in.
     TakeRig(usize),
     ShowStage(Stage),

@@ -18,6 +18,9 @@ use std::time::Duration;
 /// How often a window that drives motors shows that it is there.
 const WATCH: Duration = Duration::from_millis(100);
 
+/// How long folds and switches take, s.
+const MOVES_S: f32 = 0.1;
+
 pub struct Studio {
     session: Session,
     timeline: panels::timeline::State,
@@ -105,6 +108,11 @@ impl Studio {
         let theme = self.session.look.theme;
         for action in actions {
             acts::apply::apply(&mut self.session, action);
+        }
+        // What egui itself moves: folds, scroll bars, switches.
+        let moves_s = if self.session.look.still { 0.0 } else { MOVES_S };
+        if ctx.global_style().animation_time != moves_s {
+            ctx.all_styles_mut(|style| style.animation_time = moves_s);
         }
         if self.session.look.theme != theme {
             style::set_theme(&ctx, self.session.look.theme);

@@ -25,6 +25,7 @@ mod keys;
 pub mod messages;
 mod pacing;
 pub mod panels;
+mod pictures;
 pub mod session;
 pub mod store;
 pub mod style;

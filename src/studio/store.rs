@@ -34,6 +34,13 @@ pub struct Settings {
     pub idealized: Option<bool>,
     pub realizable: Option<bool>,
     pub layers: Shown,
+    /// Ways of working, each as it was left.
+    pub still: bool,
+    pub snaps: Option<bool>,
+    pub drives: bool,
+    pub looping: Option<bool>,
+    /// Whether the next step is shown.
+    pub guided: Option<bool>,
     /// Logical pixels.
     pub window: Option<[f32; 2]>,
     /// The newest first.

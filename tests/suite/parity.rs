@@ -337,7 +337,7 @@ fn a_rig_with_fixed_options_is_the_same_both_ways() {
     let fixed = ["--max-winches", "1", "--tendons", "1", "--seed-num", "12", "--join-depth", "2", "--join-len", "2"];
     let fixed = [&["--method", "algorithm2"][..], &fixed].concat();
     run(folder.path(), &[&["rig", "bar.plush", "-o", "rigged.plush", "--phi", "0.5"][..], &fixed].concat());
-    click(&mut window, "Parameters");
+    click(&mut window, "Advanced");
     for (name, value) in [("Seeds", "12"), ("Join rounds", "2"), ("Join length", "2"), ("Phi", "0.5")] {
         enter(&mut window, Role::SpinButton, name, value);
     }
@@ -360,7 +360,7 @@ fn a_rig_of_the_curve_is_the_same_both_ways() {
     let fixed = ["--max-winches", "1", "--tendons", "1", "--seed-num", "12", "--join-depth", "2", "--join-len", "2"];
     let fixed = [&["--explore", "--method", "algorithm2", "--phi", "0.5"][..], &fixed].concat();
     run(folder.path(), &[&["rig", "bar.plush", "-o", "rigged.plush"][..], &fixed].concat());
-    click(&mut window, "Parameters");
+    click(&mut window, "Advanced");
     for (name, value) in [("Seeds", "12"), ("Join rounds", "2"), ("Join length", "2"), ("Phi", "0.5")] {
         enter(&mut window, Role::SpinButton, name, value);
     }

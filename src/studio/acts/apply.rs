@@ -39,10 +39,12 @@ pub fn apply(session: &mut Session, action: Action) {
             session.look.zoom = None;
         }
         Action::Scrub(time_s) => animate::scrub(session, time_s),
-        Action::SetProposeOptions(options) => session.discovery.options = options,
+        Action::SetProposeOptions(options) => super::discover::set_options(session, options),
         Action::SetResolution(resolution) => session.meshing.wanted = Some(resolution),
         Action::SetRig(choice) => session.rigging.choice = choice,
         Action::ShowProposal(index) => (session.discovery.shown, session.discovery.picked) = (index, true),
+        Action::HoverProposal(hovered) => session.discovery.hovered = hovered,
+        Action::SortProposals(order) => session.discovery.order = order,
         Action::TakeRig(index) => super::rig::take_point(session, index),
         Action::ShowStage(stage) => session.discovery.stage = stage,
         Action::Sketch(sketch) => sheet::sketch(session, sketch),

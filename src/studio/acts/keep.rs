@@ -166,6 +166,11 @@ pub fn remember(session: &mut Session) {
         idealized: Some(look.views.shows(Plushie::Idealized)),
         realizable: Some(look.views.shows(Plushie::Realizable)),
         layers: look.shown.clone(),
+        still: look.still,
+        snaps: Some(session.posing.snaps),
+        drives: session.timing.drives,
+        looping: Some(session.playback.looping),
+        guided: Some(session.guided),
         ..session.safety.settings.clone()
     };
     scribe.remember(settings);
@@ -176,6 +181,11 @@ fn take_settings(session: &mut Session) {
     session.look.theme = settings.theme().unwrap_or(session.look.theme);
     session.look.shown = settings.layers.clone();
     session.look.views = settings.views();
+    session.look.still = settings.still;
+    session.posing.snaps = settings.snaps.unwrap_or(session.posing.snaps);
+    session.timing.drives = settings.drives;
+    session.playback.looping = settings.looping.unwrap_or(session.playback.looping);
+    session.guided = settings.guided.unwrap_or(session.guided);
     session.solver.quality = settings.quality().unwrap_or(session.solver.quality);
 }
 

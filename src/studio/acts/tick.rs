@@ -28,6 +28,7 @@ pub fn tick(session: &mut Session, now_s: f64, passed_s: f64, hands_off: bool) {
     session.posing.follow(&design);
     session.timing.follow(&design);
     discover::follow(session);
+    discover::live(session, hands_off);
     session.rigging.curve.follow(session.document.design());
     texture::follow_texture(session);
     follow::follow(session, hands_off);

@@ -6,7 +6,7 @@ use crate::studio::canvas::Plushie;
 use crate::studio::icons::Icon;
 use eframe::egui::Key;
 
-pub static ALL: [&Command; 7] = [&FIT, &ZOOM_IN, &ZOOM_OUT, &IDEALIZED, &REALIZABLE, &QUALITY, &THEME];
+pub static ALL: [&Command; 8] = [&FIT, &ZOOM_IN, &ZOOM_OUT, &IDEALIZED, &REALIZABLE, &QUALITY, &THEME, &STILL];
 
 /// Of a step with the keys.
 const ZOOM: f32 = 1.25;
@@ -82,4 +82,10 @@ pub static THEME: Command = Command {
         }
     },
     ..Command::new("view.theme", "Dark theme", "Switch to the dark theme")
+};
+
+pub static STILL: Command = Command {
+    on: Some(&|session| session.look.still),
+    run: &|session, _| session.look.still = !session.look.still,
+    ..Command::new("view.still", "Reduced motion", "Nothing in the window moves by itself but what is asked to play")
 };

@@ -10,6 +10,7 @@ pub mod dialogs;
 mod discovery;
 mod import;
 mod film;
+mod gallery;
 pub mod inspector;
 pub mod log;
 mod mesh;

@@ -1,6 +1,7 @@
 //! The winch-tendon networks that are built in.
 
 use super::discovery;
+use super::gallery::Gallery;
 use super::panel::{Entry, Panel};
 use super::widgets::{heading, name_field};
 use super::{buttons, sewable, tendons, winding};
@@ -32,6 +33,7 @@ pub static ENTRY: Entry = Entry {
 #[derive(Default)]
 struct Networks {
     thumbnails: Thumbnails,
+    gallery: Gallery,
 }
 
 impl Panel for Networks {
@@ -41,7 +43,7 @@ impl Panel for Networks {
             show(ui, session, breaches, actions);
             winding::show(ui, session, actions);
             ui.add_space(12.0);
-            discovery::show(ui, session, &mut self.thumbnails, actions);
+            discovery::show(ui, session, &mut self.thumbnails, &mut self.gallery, actions);
         });
     }
 }

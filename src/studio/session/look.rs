@@ -6,6 +6,8 @@ use crate::studio::canvas::{Camera, Plushie};
 
 pub struct Look {
     pub theme: Theme,
+    /// Nothing moves by itself but what is asked to play.
+    pub still: bool,
     /// Which layers of the pictures.
     pub shown: Shown,
     pub views: Views,
@@ -54,6 +56,6 @@ impl Look {
 
 impl Default for Look {
     fn default() -> Self {
-        Self { theme: Theme::Light, shown: Shown::default(), views: Views::Both, camera: None, zoom: None }
+        Self { theme: Theme::Light, still: false, shown: Shown::default(), views: Views::Both, camera: None, zoom: None }
     }
 }

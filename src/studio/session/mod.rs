@@ -31,7 +31,7 @@ mod timing;
 mod winding;
 
 pub use super::jobs::Told;
-pub use discovery::Discovery;
+pub use discovery::{Discovery, Order};
 pub use document::Document;
 pub(crate) use files::Picking;
 pub use files::{Dialog, FileAction, Files, PathDialog, Purpose, Why, desktop_has_dialogs};

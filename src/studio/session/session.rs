@@ -90,6 +90,8 @@ pub struct Session {
     /// Whether pictures can be drawn.
     pub(crate) gpu: bool,
     pub(crate) overlay: Option<Overlay>,
+    /// Whether the next step is shown.
+    pub(crate) guided: bool,
     /// Text for the clipboard of the system, until the frame is over.
     pub(crate) clipboard: Option<String>,
     /// A name that is being typed.
@@ -132,6 +134,7 @@ impl Session {
             panel: "",
             gpu: false,
             overlay: None,
+            guided: true,
             clipboard: None,
             renaming: None,
             jobs: Jobs::new(wake),
@@ -313,6 +316,11 @@ impl Session {
     /// The proposal that the views show.
     pub fn shown_proposal(&self) -> Option<&Arc<Proposal>> {
         self.discovery.shown()
+    }
+
+    /// The proposal that the views show now, picked or under the pointer.
+    pub fn displayed_proposal(&self) -> Option<&Arc<Proposal>> {
+        self.discovery.displayed()
     }
 
     /// The solver's warning about the newest shapes.

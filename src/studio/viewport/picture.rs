@@ -38,7 +38,7 @@ fn subject<'a>(session: &'a Session, plushie: Plushie, shape: &'a Arc<Shape>) ->
         Selection::Target(index) => Some(index),
         _ => None,
     };
-    let proposal = session.shown_proposal();
+    let proposal = session.displayed_proposal();
     let idealized = plushie == Plushie::Idealized;
     Subject {
         fibers: idealized,

@@ -92,6 +92,7 @@ fn targets_in_a_box_are_moved_turned_scaled_weighed_and_removed_together() {
 
 /// All targets, without the pins.
 fn box_around_again(window: &mut Window) {
+    click(window, "Pose 1");
     press(window, Modifiers::COMMAND, Key::A);
     assert_eq!(session(window).group().handles().len(), 5);
     click(window, "Target 1");

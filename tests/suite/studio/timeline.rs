@@ -160,7 +160,7 @@ fn easings_have_handles_that_are_dragged_and_typed() {
         matches!(easing, plushwright::design::Easing::Slow { out, into } if (out - 0.63).abs() < 0.02 && into < 0.34),
         "{easing:?}"
     );
-    assert_eq!(session(&window).history().undo_label(), Some("Easing of keyframes"));
+    assert_eq!(session(&window).history().undo_label(), Some("Keyframe easing"));
     assert!(window.query_by_label("Slow at the beginning").is_some());
     back_and_forth(&mut window, 1);
 }

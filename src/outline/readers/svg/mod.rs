@@ -23,6 +23,7 @@ use crate::outline::regions;
 use crate::outline::{Aside, Import, Imported, Note, Outline, OutlineError, Point, Why};
 use image::RgbaImage;
 use tree::Parsed;
+pub(crate) use tree::fonts;
 use usvg::{Group, Node, Transform, Tree};
 use walk::{FAINT, Walk};
 
