@@ -3,9 +3,9 @@
 use super::error::{CommandError, check_cancel};
 use super::progress;
 use crate::design::file::is_design;
-use crate::picture::film::PAGE_MARK;
 use crate::files::folder::{self, FolderError, MANIFEST, Manifest};
 use crate::files::{self, printable, shown};
+use crate::picture::film::PAGE_MARK;
 use clap::Args;
 use serde::{Deserialize, Serialize};
 use std::io::{Read, Write};

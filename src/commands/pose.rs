@@ -41,6 +41,9 @@ pub struct Pose {
     /// Hold the middle of the body, so that it can neither move nor turn
     #[arg(long)]
     pub pin_middle: bool,
+    /// Begin with a body that was just made: hold its middle where nothing is pinned, and let its tip wave in this pose
+    #[arg(long)]
+    pub begin: bool,
     /// Pull the point X,Y of the body at rest to X2,Y2 (mm; repeatable)
     #[arg(long = "target", value_name = "X,Y=X2,Y2", value_parser = parse_move, allow_hyphen_values = true)]
     pub targets: Vec<Move>,
@@ -73,6 +76,7 @@ impl Pose {
             held: self.lines.iter().chain(&self.regions).copied().collect(),
             targets: self.targets.clone(),
             middle: self.pin_middle,
+            begin: self.begin,
         };
         pose::run(&mut design, &options, &Context::new(cancel)).map_err(failed)?;
         let name = self.name.trim();

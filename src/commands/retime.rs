@@ -121,7 +121,9 @@ fn told(doubt: &Doubt) -> String {
     let Doubt { from_s, to_s, why } = doubt;
     let place = format!("{from_s:.3} to {to_s:.3} s");
     match why {
-        Why::TooFast { needs_s } => format!("{place} is too fast for the motors, it takes {needs_s:.3} s: --fit gives it that"),
+        Why::TooFast { needs_s } => {
+            format!("{place} is too fast for the motors, it takes {needs_s:.3} s: --fit gives it that")
+        }
         Why::TooFar { winch, reach_mm } => format!("{place}: {winch} can wind {reach_mm:.1} mm and no more"),
         Why::Rounded { winch } => format!("{place}: {winch} is rounded off to keep its limits"),
     }

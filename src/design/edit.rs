@@ -12,8 +12,8 @@ pub use networks::{
 };
 
 use super::{
-    ControllerSettings, Design, DesignError, FabricationSettings, FiberSettings, Gravity, Material, Pin,
-    Pose, Target, TendonSettings, Term, validate,
+    ControllerSettings, Design, DesignError, FabricationSettings, FiberSettings, Gravity, Material, Pin, Pose, Target,
+    TendonSettings, Term, validate,
 };
 use crate::mesh::MeshError;
 use crate::outline::drawing::Track;

@@ -211,7 +211,10 @@ pub enum Easing {
     Hold,
     /// Starts and ends at rest, as slowly as its handles say: the Bezier curve from (0, 0) to (1, 1) with the handles (out, 0) and
     /// (1 - into, 1), progress over time. With thirds it is `Smooth`.
-    Slow { out: f64, into: f64 },
+    Slow {
+        out: f64,
+        into: f64,
+    },
 }
 
 impl Network {

@@ -5,11 +5,11 @@
 //! (`pins[1].at.triangle`), 0-based, and what is wrong there.
 
 use super::fault::{Check, DesignError, Fault, at_least, fail, finite, require, same_length};
-use super::{Easing, Hold};
 use super::ranges::{self, Range, at_most};
 use super::{
     Design, DriveSettings, FORMAT_VERSION, FiberSet, Keyframe, MaterialPoint, Network, Pin, Pose, Target, Tendon, Term,
 };
+use super::{Easing, Hold};
 use crate::files::is_hidden;
 use crate::mesh::{BodyPoint, Mesh};
 use crate::outline::{Point, polygon::signed_area};

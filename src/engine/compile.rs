@@ -87,7 +87,8 @@ fn compile_body(spec: &BodySpec, view: View) -> Result<Plushie, ModelError> {
 fn springs(mesh: &Mesh, pin: &Pin) -> Vec<PinSpring> {
     let (nodes, weights) = patch::point(mesh, &pin.at);
     let anchor = pin.anchor(mesh);
-    let point = |slide| PinSpring { nodes: nodes.clone(), weights: weights.clone(), anchor, stiffness: pin.stiffness, slide };
+    let point =
+        |slide| PinSpring { nodes: nodes.clone(), weights: weights.clone(), anchor, stiffness: pin.stiffness, slide };
     match pin.hold {
         Hold::Point => vec![point(None)],
         Hold::Line { degrees } => vec![point(Some([cos_degrees(degrees), sin_degrees(degrees)]))],

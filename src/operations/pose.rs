@@ -32,6 +32,8 @@ pub struct Options {
     pub targets: Vec<Move>,
     /// Holds the middle of the body so that it can neither move nor turn.
     pub middle: bool,
+    /// Holds the middle where nothing is pinned, and adds a first pose.
+    pub begin: bool,
 }
 
 /// A point of the body at rest, mm, and how it is held.
@@ -76,6 +78,12 @@ pub fn run(design: &mut Design, options: &Options, context: &Context) -> Result<
         pin_middle(&mut changed)?;
     }
     let name = options.name.trim();
+    if options.begin {
+        let pose = begin(&mut changed)?;
+        if !name.is_empty() {
+            edit::rename_pose(&mut changed, pose, name)?;
+        }
+    }
     let pose = match changed.poses.iter().position(|p| p.name == name) {
         Some(pose) => pose,
         None => edit::add_pose(&mut changed, Pose { name: name.to_owned(), targets: Vec::new() })?,
@@ -116,6 +124,32 @@ pub fn pin_middle(design: &mut Design) -> Result<usize, EditError> {
     let radius_mm = (0.5 * far * STEPS_PER_MM).round() / STEPS_PER_MM;
     put_pin(design, at, Hold::Region { radius_mm, degrees: 0.0 })
 }
+
+/// Begins with a body that nobody has posed yet: holds its middle where nothing is pinned, and adds a pose in which the place that is farthest
+/// from there waves. The number of the pose.
+///
+/// # Errors
+/// A design without a mesh.
+pub fn begin(design: &mut Design) -> Result<usize, EditError> {
+    if design.pins.is_empty() {
+        pin_middle(design)?;
+    }
+    let mesh = &design.mesh;
+    let held = design.pins[0].anchor(mesh);
+    let away = |p: Point| (p[0] - held[0]).hypot(p[1] - held[1]);
+    let tip = (0..mesh.nodes.len()).max_by(|&a, &b| away(mesh.nodes[a]).total_cmp(&away(mesh.nodes[b])));
+    let tip = tip.ok_or(EditError::NoBody { place: held })?;
+    let place = mesh.nodes[tip];
+    let at = mesh.node_point(tip).ok_or(EditError::NoBody { place })?;
+    let (sin, cos) = WAVE_DEGREES.to_radians().sin_cos();
+    let [dx, dy] = [place[0] - held[0], place[1] - held[1]];
+    let to = rounded([held[0] + cos * dx - sin * dy, held[1] + sin * dx + cos * dy]);
+    let name = edit::unused_pose_name(design, "Wave");
+    edit::add_pose(design, Pose { name, targets: vec![Target { at, to, weight: 1.0 }] })
+}
+
+/// How far the tip of a body turns about what holds it in its first pose: enough to be seen, little enough to be reached.
+const WAVE_DEGREES: f64 = 12.0;
 
 /// Puts a pin in, in the place of one on the same point of the body, and returns its number.
 pub(super) fn place_pin(design: &mut Design, pin: Pin) -> Result<usize, EditError> {

@@ -40,7 +40,8 @@ pub fn gif(pngs: &[Vec<u8>], step: Duration) -> Result<Vec<u8>, String> {
 /// PNGs as a page of their own that plays them in a loop. It needs no other file and no network; a click or Space stops it, and where the
 /// system asks for little motion it begins stopped.
 pub fn page(pngs: &[Vec<u8>], step: Duration, title: &str) -> String {
-    let mut page = format!("{PAGE_MARK}\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{}</title>", escaped(title));
+    let mut page =
+        format!("{PAGE_MARK}\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{}</title>", escaped(title));
     page.push_str(
         "<meta name=\"viewport\" content=\"width=device-width\"><style>\
          body{margin:0;min-height:100vh;display:grid;place-items:center;background:#faf6f1;font:14px sans-serif;color:#3a2e24}\

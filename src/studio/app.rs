@@ -4,7 +4,7 @@ use super::action::{Action, FileAction};
 use super::focus::Focus;
 use super::pacing::Pacing;
 use super::panels;
-use super::session::{Services, Session, desktop_has_dialogs};
+use super::session::{Overlay, Services, Session, desktop_has_dialogs};
 use super::store::Store;
 use super::tools::Toolbox;
 use super::{acts, canvas, keys, style, viewport};
@@ -25,6 +25,8 @@ pub struct Studio {
     session: Session,
     timeline: panels::timeline::State,
     palette: panels::palette::State,
+    start: panels::start::State,
+    dialogs: panels::dialogs::State,
     inspector: panels::inspector::State,
     views: viewport::State,
     sheet: canvas::State,
@@ -46,6 +48,8 @@ impl Studio {
             session,
             timeline: Default::default(),
             palette: Default::default(),
+            start: Default::default(),
+            dialogs: Default::default(),
             inspector: Default::default(),
             views: viewport::State::default(),
             sheet: canvas::State::default(),
@@ -73,6 +77,14 @@ impl Studio {
     pub fn with_store(mut self, ctx: &egui::Context, store: Store) -> Self {
         acts::keep::keep_in(&mut self.session, store);
         style::set_theme(ctx, self.session.look.theme);
+        self
+    }
+
+    /// Shows the start page over what is open, where nothing that was left behind is offered.
+    pub fn with_start_page(mut self) -> Self {
+        if self.session.files.dialog.is_none() {
+            self.session.overlay = Some(Overlay::Start);
+        }
         self
     }
 
@@ -141,13 +153,12 @@ impl Studio {
         Panel::top("toolbar").frame(bar).exact_size(42.0).resizable(false).show(ui, |ui| {
             panels::toolbar::show(ui, session, actions);
         });
-        Panel::bottom("status")
-            .frame(Frame::new())
-            .exact_size(panels::status::HEIGHT)
-            .resizable(false)
-            .show(ui, |ui| {
+        Panel::bottom("status").frame(Frame::new()).exact_size(panels::status::HEIGHT).resizable(false).show(
+            ui,
+            |ui| {
                 panels::status::show(ui, session);
-            });
+            },
+        );
         if session.sketching().open {
             let outline = Panel::right("outline").frame(panels::frame()).default_size(288.0).size_range(288.0..=420.0);
             outline.show(ui, |ui| {
@@ -157,7 +168,7 @@ impl Studio {
             let (tool, entry) = self.tools.tool(session);
             CentralPanel::no_frame()
                 .show(ui, |ui| canvas::show(ui, session, &mut self.sheet, tool, entry.hint, actions));
-            panels::dialogs::show(ui.ctx(), session, actions);
+            panels::dialogs::show(ui.ctx(), session, &mut self.dialogs, actions);
             return;
         }
         let timeline =
@@ -176,13 +187,14 @@ impl Studio {
             let (tool, _) = self.tools.tool(session);
             viewport::show(ui, session, &mut self.views, tool, actions);
         });
-        panels::dialogs::show(ui.ctx(), session, actions);
+        panels::dialogs::show(ui.ctx(), session, &mut self.dialogs, actions);
     }
 
     fn overlays(&mut self, ctx: &egui::Context, actions: &mut Vec<Action>) {
         panels::palette::show(ctx, &self.session, &mut self.palette, actions);
         panels::shortcuts::show(ctx, &self.session, actions);
         panels::log::show(ctx, &self.session, actions);
+        panels::start::show(ctx, &self.session, &mut self.start, actions);
     }
 
     /// Asks for the next frame where something moves by itself; otherwise nothing is drawn until something happens.

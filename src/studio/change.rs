@@ -2,13 +2,13 @@
 
 use crate::design::edit::{self, EditError};
 use crate::design::{
-    ControllerSettings, Design, Easing, FabricationSettings, FiberSettings, Hold, Keyframe, Material, Network, Pin, Pose, Target,
-    TendonSettings, Term,
+    ControllerSettings, Design, Easing, FabricationSettings, FiberSettings, Hold, Keyframe, Material, Network, Pin,
+    Pose, Target, TendonSettings, Term,
 };
 use crate::mesh::{Axis, BodyPoint};
 use crate::operations::arrange::{self, Handle, Motion};
 use crate::operations::network::{self, Part};
-use crate::operations::pose::{at_hand, pin_middle, put_pin, put_target, rounded};
+use crate::operations::pose::{at_hand, begin, pin_middle, put_pin, put_target, rounded};
 use crate::operations::{retime, starch};
 use crate::outline::{Drawing, Point};
 use crate::physics::TermKind;
@@ -58,6 +58,8 @@ pub enum Change {
         hold: Hold,
     },
     PinMiddle,
+    /// Pins and a first pose.
+    Begin,
     /// Targets and pins together.
     Arrange {
         pose: Option<usize>,
@@ -138,7 +140,10 @@ pub enum Change {
 pub enum Made {
     Nothing,
     Pose(usize),
-    Target { pose: usize, index: usize },
+    Target {
+        pose: usize,
+        index: usize,
+    },
     Keyframe(usize),
     /// By their numbers.
     Keyframes(Vec<usize>),
@@ -165,6 +170,7 @@ impl Change {
             Self::SitePin { .. } => "Move pin on the body",
             Self::HoldPin { .. } => "Kind of pin",
             Self::PinMiddle => "Pin the middle",
+            Self::Begin => "Pins and a first pose",
             Self::Arrange { .. } => "Arrange",
             Self::WeighTargets { .. } => "Weights of targets",
             Self::Mirror { .. } => "Mirror",
@@ -235,6 +241,7 @@ impl Change {
             | Self::SitePin { .. }
             | Self::HoldPin { .. }
             | Self::PinMiddle
+            | Self::Begin
             | Self::Arrange { .. }
             | Self::WeighTargets { .. }
             | Self::Mirror { .. }
@@ -280,6 +287,7 @@ impl Change {
             }
             Self::HoldPin { index, hold } => nothing(with_pin(design, index, |pin| pin.hold = hold)?),
             Self::PinMiddle => Made::Pin(pin_middle(design)?),
+            Self::Begin => Made::Pose(begin(design)?),
             Self::Arrange { pose, handles, motion } => nothing(arrange::shift(design, pose, &handles, &motion)?),
             Self::WeighTargets { pose, handles, weight } => nothing(arrange::weigh(design, pose, &handles, weight)?),
             Self::Mirror { pose, handles, axis } => nothing(arrange::mirror(design, pose, &handles, axis)?),

@@ -83,6 +83,7 @@ pub fn run(design: Option<Design>, path: Option<PathBuf>) -> Result<(), StudioEr
     if !has_display() {
         return Err(StudioError::NoDisplay);
     }
+    let begins = design.is_none();
     let design = design.unwrap_or_else(first_design);
     let store = Store::of_platform();
     let size = store.as_ref().and_then(|store| store.settings().window).unwrap_or(SIZE);
@@ -108,6 +109,9 @@ pub fn run(design: Option<Design>, path: Option<PathBuf>) -> Result<(), StudioEr
         let mut studio = studio.with_window(context.wgpu_render_state.as_ref(), theme);
         if let Some(store) = store {
             studio = studio.with_store(&context.egui_ctx, store);
+        }
+        if begins {
+            studio = studio.with_start_page();
         }
         end_when_asked(context.egui_ctx.clone());
         Ok(Box::new(studio))

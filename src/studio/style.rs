@@ -6,7 +6,9 @@
 use crate::picture::Color;
 use crate::picture::palette::{Palette, Theme, mix};
 use eframe::egui::style::{NumberFormatter, Selection, WidgetVisuals};
-use eframe::egui::{self, emath, Color32, CornerRadius, FontFamily, FontId, Margin, Shadow, Stroke, TextStyle, Visuals, vec2};
+use eframe::egui::{
+    self, Color32, CornerRadius, FontFamily, FontId, Margin, Shadow, Stroke, TextStyle, Visuals, emath, vec2,
+};
 
 /// The colour of the tool itself: primary buttons, selection, playhead.
 pub fn accent(theme: Theme) -> Color32 {

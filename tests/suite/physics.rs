@@ -78,8 +78,13 @@ fn terms() -> Vec<NamedTerm> {
         terms.push((format!("{name}, given tension"), Box::new(cable)));
     }
     terms.push(("pins on nodes".into(), Box::new(mesh.left_pins(40.0))));
-    let barycentric =
-        PinSpring { nodes: vec![9, 16, 10], weights: vec![0.5, 0.2, 0.3], anchor: [0.1, 0.9], stiffness: 12.0, slide: None };
+    let barycentric = PinSpring {
+        nodes: vec![9, 16, 10],
+        weights: vec![0.5, 0.2, 0.3],
+        anchor: [0.1, 0.9],
+        stiffness: 12.0,
+        slide: None,
+    };
     let sliding = PinSpring { slide: Some([0.6, 0.8]), ..barycentric.clone() };
     terms.push(("pin on a triangle".into(), Box::new(Pins { pins: vec![barycentric] })));
     terms.push(("pin that slides".into(), Box::new(Pins { pins: vec![sliding] })));

@@ -22,6 +22,6 @@ pub mod rig;
 pub mod save;
 pub mod sheet;
 pub mod texture;
-pub mod timing;
 pub mod tick;
+pub mod timing;
 pub mod wind;

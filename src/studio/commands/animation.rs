@@ -1,8 +1,8 @@
 //! Commands of the timeline.
 
 use super::command::{Command, Keys, Scope};
-use crate::studio::acts;
 use crate::studio::action::FileAction;
+use crate::studio::acts;
 use crate::studio::icons::Icon;
 use crate::studio::jobs;
 use crate::studio::session::Session;
@@ -133,7 +133,11 @@ pub static PASTE: Command = Command {
     keys: &[Keys::ctrl(Key::V)],
     scope: Scope::Views,
     run: &|session, _| acts::timing::paste(session),
-    ..Command::new("animation.paste", "Paste keyframes", "Put what was copied on the timeline, the first at the playhead")
+    ..Command::new(
+        "animation.paste",
+        "Paste keyframes",
+        "Put what was copied on the timeline, the first at the playhead",
+    )
 };
 
 pub static FIT: Command = Command {
@@ -148,14 +152,22 @@ pub static DRIVES: Command = Command {
     scope: Scope::Views,
     on: Some(&|session| session.timing().drives),
     run: &|session, _| session.timing.drives = !session.timing.drives,
-    ..Command::new("animation.drives", "Drives", "Show beside the curves what simulated drives make of them, and their loads")
+    ..Command::new(
+        "animation.drives",
+        "Drives",
+        "Show beside the curves what simulated drives make of them, and their loads",
+    )
 };
 
 pub static FILM: Command = Command {
     scope: Scope::Views,
     why_not: &|session, _| (session.design().keyframes.len() < 2).then_some("Put two keyframes on the timeline first"),
     run: &|session, _| acts::filing::ask(session, FileAction::Film),
-    ..Command::new("animation.film", "Export film…", "Write the animation as GIF, as pictures, or as a page that plays it")
+    ..Command::new(
+        "animation.film",
+        "Export film…",
+        "Write the animation as GIF, as pictures, or as a page that plays it",
+    )
 };
 
 pub static CANCEL_FILM: Command = Command {

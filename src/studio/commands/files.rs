@@ -6,8 +6,14 @@ use crate::studio::acts;
 use crate::studio::session::Overlay;
 use eframe::egui::Key;
 
-pub static ALL: [&Command; 10] =
-    [&NEW, &NEW_DRAWING, &OPEN, &SAVE, &SAVE_AS, &EXPORT, &PALETTE, &SHORTCUTS, &LOG, &QUIT];
+pub static ALL: [&Command; 11] =
+    [&START, &NEW, &NEW_DRAWING, &OPEN, &SAVE, &SAVE_AS, &EXPORT, &PALETTE, &SHORTCUTS, &LOG, &QUIT];
+
+pub static START: Command = Command {
+    places: &[Place::FileMenu],
+    run: &|session, _| session.overlay = Some(Overlay::Start),
+    ..Command::new("file.start", "Start page", "Designs to begin with, recent files, and new plushies")
+};
 
 pub static NEW: Command = Command {
     keys: &[Keys::ctrl(Key::N)],

@@ -11,7 +11,8 @@ use crate::studio::change::Change;
 use crate::studio::session::{Selection, Session};
 use eframe::egui::Key;
 
-pub static ALL: [&Command; 11] = [
+pub static ALL: [&Command; 12] = [
+    &BEGIN,
     &SYMMETRIC,
     &SNAP,
     &MIRROR,
@@ -24,6 +25,12 @@ pub static ALL: [&Command; 11] = [
     &PIN_HOME,
     &CLEAR_STARCH,
 ];
+
+pub static BEGIN: Command = Command {
+    scope: Scope::Views,
+    run: &|session, _| acts::edit::change(session, Change::Begin),
+    ..Command::new("pose.begin", "Pins and a first pose", "Hold the middle of the body, and let its tip wave")
+};
 
 const NO_AXIS: &str = "The outline of this plushie is not its own mirror image";
 const NO_PIN: &str = "Select a pin first, or point at one";
@@ -42,7 +49,11 @@ pub static SNAP: Command = Command {
     scope: Scope::Views,
     on: Some(&|session| session.posing.snaps),
     run: &|session, _| session.posing.snaps = !session.posing.snaps,
-    ..Command::new("pose.snap", "Snap", "Goals fall into line with others, with pins, with their rest and with the axis")
+    ..Command::new(
+        "pose.snap",
+        "Snap",
+        "Goals fall into line with others, with pins, with their rest and with the axis",
+    )
 };
 
 pub static MIRROR: Command = Command {
@@ -59,7 +70,11 @@ pub static MIRROR: Command = Command {
             acts::edit::change(session, Change::Mirror { pose, handles, axis });
         }
     },
-    ..Command::new("pose.mirror", "Mirror", "Add the mirror images of the targets and pins that are selected or pointed at")
+    ..Command::new(
+        "pose.mirror",
+        "Mirror",
+        "Add the mirror images of the targets and pins that are selected or pointed at",
+    )
 };
 
 pub static MIRROR_POSE: Command = Command {
@@ -69,11 +84,13 @@ pub static MIRROR_POSE: Command = Command {
         (_, None) => Some("Choose a pose first"),
         _ => None,
     },
-    run: &|session, _| with_axis(session, |session, axis| {
-        if let Some(pose) = session.pose() {
-            acts::edit::change(session, Change::MirrorPose { pose, axis });
-        }
-    }),
+    run: &|session, _| {
+        with_axis(session, |session, axis| {
+            if let Some(pose) = session.pose() {
+                acts::edit::change(session, Change::MirrorPose { pose, axis });
+            }
+        })
+    },
     ..Command::new("pose.mirrored", "Mirrored pose", "Add a pose that is the mirror image of this one")
 };
 

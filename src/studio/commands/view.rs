@@ -6,7 +6,7 @@ use crate::studio::canvas::Plushie;
 use crate::studio::icons::Icon;
 use eframe::egui::Key;
 
-pub static ALL: [&Command; 8] = [&FIT, &ZOOM_IN, &ZOOM_OUT, &IDEALIZED, &REALIZABLE, &QUALITY, &THEME, &STILL];
+pub static ALL: [&Command; 9] = [&FIT, &ZOOM_IN, &ZOOM_OUT, &IDEALIZED, &REALIZABLE, &QUALITY, &THEME, &STILL, &GUIDE];
 
 /// Of a step with the keys.
 const ZOOM: f32 = 1.25;
@@ -88,4 +88,10 @@ pub static STILL: Command = Command {
     on: Some(&|session| session.look.still),
     run: &|session, _| session.look.still = !session.look.still,
     ..Command::new("view.still", "Reduced motion", "Nothing in the window moves by itself but what is asked to play")
+};
+
+pub static GUIDE: Command = Command {
+    on: Some(&|session| session.guided),
+    run: &|session, _| session.guided = !session.guided,
+    ..Command::new("view.guide", "Next step", "Show what comes next on the way to a plushie, on top")
 };

@@ -1,8 +1,9 @@
 //! Dialogs over the window: unsaved changes, and paths where the desktop has no dialogs of its own.
 
 use super::blueprint_parts::parts_and_sheets;
-use super::{film, import};
+use super::blueprint_preview;
 use super::widgets::{primary, sentence};
+use super::{film, import};
 use crate::files::shown;
 use crate::motion::{TooFast, families};
 use crate::operations::export;
@@ -13,15 +14,22 @@ use crate::studio::words;
 use eframe::egui::{Align, Context, Id, Key, Layout, Modal, RichText, TextEdit, Ui};
 use std::path::Path;
 
-pub fn show(ctx: &Context, session: &Session, actions: &mut Actions) {
+/// What dialogs keep from frame to frame.
+#[derive(Default)]
+pub struct State {
+    preview: blueprint_preview::State,
+}
+
+pub fn show(ctx: &Context, session: &Session, state: &mut State, actions: &mut Actions) {
     let Some(dialog) = &session.files.dialog else { return };
     let is_import = matches!(dialog, Dialog::Path(dialog) if dialog.purpose == Purpose::Import);
+    let is_export = matches!(dialog, Dialog::Path(dialog) if dialog.purpose == Purpose::Export);
     // Each kind remembers a size of its own: a short question does not get the room of a long one.
     let modal = Modal::new(Id::unique(("dialog", kind(dialog)))).show(ctx, |ui| {
-        ui.set_width(if is_import { 560.0 } else { 430.0 });
+        ui.set_width(if is_import || is_export { 560.0 } else { 430.0 });
         match dialog {
             Dialog::Unsaved(_) => unsaved(ui, session, actions),
-            Dialog::Path(dialog) => path(ui, session, dialog, actions),
+            Dialog::Path(dialog) => path(ui, session, dialog, state, actions),
             Dialog::Replace(path, why) => replace(ui, path, *why, actions),
             Dialog::Recover => recover(ui, session, actions),
         }
@@ -123,7 +131,7 @@ fn spoken(seconds: u64) -> String {
     format!("{count} {unit}{}", if count == 1 { "" } else { "s" })
 }
 
-fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, actions: &mut Actions) {
+fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, state: &mut State, actions: &mut Actions) {
     let mut edited = dialog.clone();
     ui.heading(dialog.purpose.title());
     ui.add_space(6.0);
@@ -151,6 +159,7 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, actions: &mut Actio
     }
     if dialog.purpose == Purpose::Export {
         export_settings(ui, &mut edited.export);
+        blueprint_preview::show(ui, session, &dialog.export, &mut state.preview, actions);
     }
     if dialog.purpose == Purpose::Film {
         film::settings(ui, &mut edited);

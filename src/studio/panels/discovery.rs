@@ -1,7 +1,7 @@
 //! Proposing networks: options, progress, and the list as it grows.
 
-use super::widgets::heading;
 use super::gallery::{self, Gallery};
+use super::widgets::heading;
 use super::{buttons, rig, stages};
 use crate::studio::action::{Action, Actions};
 use crate::studio::canvas::Hit;
@@ -15,13 +15,7 @@ use std::time::Duration;
 /// Time after which the bar of a search is two thirds full, s: about half of what a body of 430 fibres takes.
 const HALFWAY_S: f32 = 3.0;
 
-pub fn show(
-    ui: &mut Ui,
-    session: &Session,
-    thumbnails: &mut Thumbnails,
-    gallery: &mut Gallery,
-    actions: &mut Actions,
-) {
+pub fn show(ui: &mut Ui, session: &Session, thumbnails: &mut Thumbnails, gallery: &mut Gallery, actions: &mut Actions) {
     heading(ui, "Network discovery");
     let width = ui.available_width();
     match &session.discovery.running {

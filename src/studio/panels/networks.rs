@@ -15,9 +15,9 @@ use crate::studio::change::Change;
 use crate::studio::commands::document::DELETE;
 use crate::studio::commands::networks::{DOWN, MUTE, SOLO, UP};
 use crate::studio::icons::{self, Icon};
-use crate::studio::style::plain_number;
 use crate::studio::session::{Renamed, Selection, Session};
 use crate::studio::style;
+use crate::studio::style::plain_number;
 use crate::studio::viewport::thumbnail::Thumbnails;
 use eframe::egui::{
     Align, Button, Color32, Layout, Popup, RichText, Role, ScrollArea, Sense, Stroke, Ui, WidgetInfo, vec2,

@@ -1,10 +1,12 @@
 //! Poses of the plushie, and the targets of the current one.
 
-use super::{buttons, targets};
 use super::widgets::{heading, name_field};
+use super::{buttons, targets};
 use crate::studio::action::{Action, Actions};
 use crate::studio::change::Change;
-use crate::studio::commands::document::{ADD_POSE, DELETE_POSE, DUPLICATE_POSE, RENAME_POSE};
+use crate::studio::commands::animation::ADD_KEYFRAME;
+use crate::studio::commands::document::{ADD_POSE, CLEAR_TARGETS, DELETE_POSE, DUPLICATE_POSE, RENAME_POSE};
+use crate::studio::commands::posing::MIRROR_POSE;
 use crate::studio::session::{Mode, PoseError, Renamed, Session};
 use eframe::egui::{Align, Button, Color32, Layout, RichText, ScrollArea, Ui, vec2};
 
@@ -97,6 +99,15 @@ fn list(ui: &mut Ui, session: &Session, actions: &mut Actions) {
             Some(error) => response.on_hover_text(error_text(session, error)),
             None => response,
         };
+        if response.secondary_clicked() {
+            actions.push(Action::SelectPose(Some(index)));
+        }
+        response.context_menu(|ui| {
+            ui.set_min_width(160.0);
+            for command in [&RENAME_POSE, &DUPLICATE_POSE, &MIRROR_POSE, &ADD_KEYFRAME, &CLEAR_TARGETS, &DELETE_POSE] {
+                buttons::entry(ui, session, command, session.selected(), actions);
+            }
+        });
         if response.double_clicked() {
             actions.push(Action::Typed(Some((Renamed::Pose(index), pose.name.clone()))));
         } else if response.clicked() {

@@ -1,10 +1,10 @@
 //! A proposal on the list: what it reaches, what it costs, whom it serves.
 
+use super::gallery::Struck;
 use crate::discovery::Parameters;
+use crate::picture::preview::Preview;
 use crate::rigging::{PoseServed, Proposal};
 use crate::studio::action::{Action, Actions};
-use super::gallery::Struck;
-use crate::picture::preview::Preview;
 use crate::studio::pictures::Pictures;
 use crate::studio::session::Session;
 use crate::studio::style;
@@ -49,7 +49,8 @@ pub fn card(
         }
     });
     let rect = inner.response.rect.intersect(ui.clip_rect());
-    ui.is_enabled() && ui.input(|i| i.pointer.hover_pos()).is_some_and(|p| rect.contains(p) && !ui.ctx().any_popup_open())
+    ui.is_enabled()
+        && ui.input(|i| i.pointer.hover_pos()).is_some_and(|p| rect.contains(p) && !ui.ctx().any_popup_open())
 }
 
 fn title(ui: &mut Ui, session: &Session, index: usize, proposal: &Proposal, actions: &mut Actions) {

@@ -233,7 +233,8 @@ fn brush(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     let mut brush = before;
     ui.horizontal(|ui| {
         let Brush { radius_mm, factor } = &mut brush;
-        let size = DragValue::new(radius_mm).range(RADIUS_MM[0]..=RADIUS_MM[1]).speed(0.2).max_decimals(1).suffix(" mm");
+        let size =
+            DragValue::new(radius_mm).range(RADIUS_MM[0]..=RADIUS_MM[1]).speed(0.2).max_decimals(1).suffix(" mm");
         ui.add(size).accessible_name("Radius of the brush").on_hover_text("Radius of the brush ([ and ])");
         let strength = DragValue::new(factor).range(1e-2..=1e3).speed(0.05).max_decimals(2).prefix("× ");
         ui.add(strength)

@@ -1,13 +1,13 @@
 //! Sliders for all winches: winding by hand.
 
 use super::buttons;
-use crate::studio::style::plain_number;
 use crate::engine::winch_reach_mm;
 use crate::motion::{spool_degrees, winch_loads};
 use crate::studio::action::{Action, Actions};
 use crate::studio::commands::animation::ADD_KEYFRAME;
 use crate::studio::commands::networks::SLACKEN;
 use crate::studio::session::{Mode, Session};
+use crate::studio::style::plain_number;
 use crate::studio::viewport::{is_beyond, limit, load_words};
 use eframe::egui::{CollapsingHeader, DragValue, RichText, Slider, Ui};
 

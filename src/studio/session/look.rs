@@ -56,6 +56,13 @@ impl Look {
 
 impl Default for Look {
     fn default() -> Self {
-        Self { theme: Theme::Light, still: false, shown: Shown::default(), views: Views::Both, camera: None, zoom: None }
+        Self {
+            theme: Theme::Light,
+            still: false,
+            shown: Shown::default(),
+            views: Views::Both,
+            camera: None,
+            zoom: None,
+        }
     }
 }

@@ -56,6 +56,6 @@ pub use sketching::{FREEHAND, Sketching};
 pub use solo::Solo;
 pub use solver::{Shapes, Solver};
 pub use tasks::{Task, Tasks};
-pub use timing::Timing;
 pub use texturing::{Found, Texturing};
+pub use timing::Timing;
 pub use winding::Winding;

@@ -7,6 +7,8 @@ pub enum Overlay {
     Palette,
     /// What every key does.
     Shortcuts,
+    /// Designs to begin with.
+    Start,
     /// What the window has said.
     Log,
 }

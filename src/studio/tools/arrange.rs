@@ -43,9 +43,17 @@ enum Held {
     Nothing,
     /// A box that is drawn: its first corner and where the hand is, mm.
     Box([Point; 2]),
-    Move { from: Point },
-    Turn { from: Point, about: Point },
-    Scale { from: Point, about: Point },
+    Move {
+        from: Point,
+    },
+    Turn {
+        from: Point,
+        about: Point,
+    },
+    Scale {
+        from: Point,
+        about: Point,
+    },
 }
 
 /// The part of the box that is under the pointer.

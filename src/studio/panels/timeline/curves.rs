@@ -8,9 +8,7 @@ use crate::motion::{Doubt, Why};
 use crate::picture::palette::Palette;
 use crate::studio::session::Session;
 use crate::studio::style;
-use eframe::egui::{
-    Align2, Color32, FontId, Pos2, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
-};
+use eframe::egui::{Align2, Color32, FontId, Pos2, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
 
 /// Room above the highest curve, logical pixels.
 const ABOVE: f32 = 26.0;
@@ -112,9 +110,8 @@ fn band(ui: &mut Ui, axis: &Axis, [from_s, to_s]: [f64; 2], color: Color32, word
 fn ghost(ui: &Ui, axis: &Axis, scale: &Scale, drives: &Drives, winch: usize, color: Color32) {
     let Ok(ghost) = &drives.ghost else { return };
     let wound = ghost.times_s.iter().zip(&ghost.wound_mm);
-    let points: Vec<Pos2> = wound
-        .filter_map(|(time_s, row)| Some(pos2(axis.x(*time_s), scale.y(*row.get(winch)?))))
-        .collect();
+    let points: Vec<Pos2> =
+        wound.filter_map(|(time_s, row)| Some(pos2(axis.x(*time_s), scale.y(*row.get(winch)?)))).collect();
     let stroke = Stroke::new(1.2, color.gamma_multiply(0.8));
     ui.painter_at(axis.rect).extend(Shape::dashed_line(&points, stroke, 3.0, 3.0));
 }

@@ -22,11 +22,7 @@ const OWNER: &str = "timeline.drives";
 const MOMENTS: usize = 12;
 
 /// What is known of the design as it is, where it is asked for; what is not known yet is begun. `asked`: the design that was asked for last.
-pub fn follow<'s>(
-    session: &'s Session,
-    asked: &mut Option<Arc<Design>>,
-    actions: &mut Actions,
-) -> Option<&'s Drives> {
+pub fn follow<'s>(session: &'s Session, asked: &mut Option<Arc<Design>>, actions: &mut Actions) -> Option<&'s Drives> {
     let design = session.acting();
     if !session.timing().drives || design.keyframes.len() < 2 {
         return None;

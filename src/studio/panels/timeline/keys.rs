@@ -6,7 +6,9 @@ use crate::design::{Easing, Keyframe};
 use crate::studio::action::{Action, Actions};
 use crate::studio::acts::timing::picked;
 use crate::studio::change::Change;
+use crate::studio::commands::animation::{ALL_KEYFRAMES, COPY, CUT, EARLIER, LATER, PASTE, REMOVE};
 use crate::studio::icons;
+use crate::studio::panels::buttons;
 use crate::studio::session::{Selection, Session};
 use crate::studio::style;
 use eframe::egui::{CursorIcon, Pos2, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
@@ -93,6 +95,15 @@ fn diamond(
             actions.push(Action::Scrub(keyframe.time_s));
         }
     }
+    if response.secondary_clicked() && !selected {
+        actions.push(Action::GatherKeys(vec![index]));
+    }
+    response.context_menu(|ui| {
+        ui.set_min_width(180.0);
+        for command in [&EARLIER, &LATER, &COPY, &CUT, &PASTE, &ALL_KEYFRAMES, &REMOVE] {
+            buttons::entry(ui, session, command, session.selected(), actions);
+        }
+    });
     response.on_hover_text(format!("{:.2} s, {}", keyframe.time_s, follows(keyframe)));
     busy
 }
@@ -204,7 +215,12 @@ fn handles(ui: &mut Ui, session: &Session, axis: &Axis, actions: &mut Actions) -
         response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
         let painter = ui.painter_at(axis.rect);
         painter.line_segment([pos2(axis.x(end_s), axis.base()), center], Stroke::new(1.0, accent));
-        painter.circle(center, if response.hovered() { 5.5 } else { 4.5 }, ui.visuals().window_fill, Stroke::new(1.8, accent));
+        painter.circle(
+            center,
+            if response.hovered() { 5.5 } else { 4.5 },
+            ui.visuals().window_fill,
+            Stroke::new(1.8, accent),
+        );
         busy |= response.is_pointer_button_down_on();
         if let Some(pointer) = response.interact_pointer_pos().filter(|_| response.dragged()) {
             let part = (axis.time(pointer.x) - from.time_s) / lasts;

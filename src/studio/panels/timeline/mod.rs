@@ -12,9 +12,7 @@ use crate::studio::action::{Action, Actions};
 use crate::studio::session::{Mode, Session};
 use crate::studio::style;
 use axis::{Axis, RULER};
-use eframe::egui::{
-    Align2, FontId, Key, Role, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
-};
+use eframe::egui::{Align2, FontId, Key, Role, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
 use keys::Held;
 use std::sync::Arc;
 
