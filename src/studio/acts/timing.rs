@@ -4,19 +4,11 @@ use super::edit;
 use crate::design::Keyframe;
 use crate::operations::retime::{copied, fitted};
 use crate::studio::change::Change;
-use crate::studio::session::{Mode, Selection, Session};
-
-/// Numbers of the keyframes that are picked out.
-pub fn picked(session: &Session) -> Vec<usize> {
-    match session.selection() {
-        Selection::Keyframe(key) => vec![key],
-        _ => session.timing.keys.clone(),
-    }
-}
+use crate::studio::session::{Mode, Session};
 
 /// Copies what is picked out, for this window and as text for others.
 pub fn copy(session: &mut Session) {
-    let Ok(copies) = copied(session.design(), &picked(session)) else { return };
+    let Ok(copies) = copied(session.design(), &session.keys()) else { return };
     session.clipboard = ron::ser::to_string(&copies).ok();
     let count = copies.len();
     session.timing.copies = copies;
@@ -42,7 +34,7 @@ pub fn paste(session: &mut Session) {
 
 /// Moves what is picked out.
 pub fn nudge(session: &mut Session, by_s: f64) {
-    let keys = picked(session);
+    let keys = session.keys();
     edit::change(session, Change::MoveKeyframes { keys, by_s });
 }
 

@@ -184,5 +184,5 @@ pub static REMOVE: Command = Command {
 };
 
 fn none_picked(session: &Session) -> Option<&'static str> {
-    acts::timing::picked(session).is_empty().then_some(NO_KEYFRAME)
+    session.keys().is_empty().then_some(NO_KEYFRAME)
 }

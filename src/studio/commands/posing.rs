@@ -65,10 +65,10 @@ pub static MIRROR: Command = Command {
         _ => None,
     },
     run: &|session, at| {
-        if let Some(axis) = session.posing.axis() {
+        with_axis(session, |session, axis| {
             let (pose, handles) = (session.pose(), chosen(session, at));
             acts::edit::change(session, Change::Mirror { pose, handles, axis });
-        }
+        });
     },
     ..Command::new(
         "pose.mirror",
@@ -116,7 +116,7 @@ pub static HOLD_POINT: Command = Command {
     scope: Scope::Views,
     places: &[Place::ContextMenu],
     why_not: &|session, at| kind_refused(session, at, |hold| matches!(hold, Hold::Point)),
-    run: &|session, at| hold(session, at, |_, _| Hold::Point),
+    run: &|session, at| hold(session, at, |_| Hold::Point),
     ..Command::new("pin.point", "Hold the point", "The body may turn about this pin")
 };
 
@@ -124,7 +124,7 @@ pub static HOLD_LINE: Command = Command {
     scope: Scope::Views,
     places: &[Place::ContextMenu],
     why_not: &|session, at| kind_refused(session, at, |hold| matches!(hold, Hold::Line { .. })),
-    run: &|session, at| hold(session, at, |_, _| Hold::Line { degrees: 0.0 }),
+    run: &|session, at| hold(session, at, |_| Hold::Line { degrees: 0.0 }),
     ..Command::new("pin.line", "Let it slide", "The body slides along a line through this pin")
 };
 
@@ -132,7 +132,7 @@ pub static HOLD_REGION: Command = Command {
     scope: Scope::Views,
     places: &[Place::ContextMenu],
     why_not: &|session, at| kind_refused(session, at, |hold| matches!(hold, Hold::Region { .. })),
-    run: &|session, at| hold(session, at, |session, pin| region(session, pin)),
+    run: &|session, at| hold(session, at, region),
     ..Command::new("pin.region", "Hold its angle", "All around this pin is held, so that the body cannot turn there")
 };
 
@@ -161,8 +161,8 @@ pub static CLEAR_STARCH: Command = Command {
 /// Radius of a region at first, as a part of the body length.
 const REGION: f64 = 0.08;
 
-/// A region about a pin, of a radius that is easy to read.
-pub fn region(session: &Session, _pin: &Pin) -> Hold {
+/// A region of a radius that is easy to read, for the body as it is.
+pub fn region(session: &Session) -> Hold {
     let mesh = &session.design().mesh;
     let (low, high) = polygon::bounding_box(&mesh.nodes);
     let length = (high[0] - low[0]).max(high[1] - low[1]);
@@ -207,9 +207,9 @@ fn kind_refused(session: &Session, at: Hit, is: fn(&Hold) -> bool) -> Option<&'s
     }
 }
 
-fn hold(session: &mut Session, at: Hit, of: fn(&Session, &Pin) -> Hold) {
-    if let Some((index, pin)) = pin(session, at) {
-        let hold = of(session, &pin);
+fn hold(session: &mut Session, at: Hit, of: fn(&Session) -> Hold) {
+    if let Some((index, _)) = pin(session, at) {
+        let hold = of(session);
         acts::edit::change(session, Change::HoldPin { index, hold });
     }
 }

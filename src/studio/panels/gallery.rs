@@ -47,7 +47,7 @@ pub struct Struck {
 const CARDS: &str = "gallery.cards";
 const POSES: &str = "gallery.poses";
 /// Height of the list, so that the buttons below stay in sight, logical pixels.
-const HEIGHT: f32 = 320.0;
+const HEIGHT: f32 = 200.0;
 /// Pictures, pixels: sharp at twice the size at which they are shown.
 const SIZE: (u32, u32) = (224, 168);
 /// How long a pose is held while all are struck, s.

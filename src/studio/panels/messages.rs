@@ -9,7 +9,7 @@ use crate::studio::session::Session;
 use eframe::egui::{Color32, Frame, Label, Panel, RichText, ScrollArea, Sense, Ui, Visuals, vec2};
 
 /// Part of the side panel's height that messages take at most.
-const MOST: f32 = 0.4;
+const MOST: f32 = 0.22;
 /// What the button takes on the right, logical pixels.
 const CLOSE: f32 = 28.0;
 
@@ -20,12 +20,17 @@ pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     }
     let most = MOST * ui.available_height();
     Panel::bottom("messages").frame(Frame::new()).resizable(false).show_separator_line(false).show(ui, |ui| {
-        ScrollArea::vertical().id_salt("messages").max_height(most).auto_shrink([false, true]).show(ui, |ui| {
-            ui.spacing_mut().item_spacing.y = 4.0;
-            for message in session.messages.list() {
-                row(ui, message, actions);
-            }
-        });
+        ScrollArea::vertical()
+            .id_salt("messages")
+            .max_height(most)
+            .auto_shrink([false, true])
+            .stick_to_bottom(true)
+            .show(ui, |ui| {
+                ui.spacing_mut().item_spacing.y = 4.0;
+                for message in session.messages.list() {
+                    row(ui, message, actions);
+                }
+            });
         if ui.link("All messages").on_hover_text(LOG.tip).clicked() {
             actions.push(Action::Run(&LOG, session.selected()));
         }

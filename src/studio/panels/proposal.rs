@@ -71,10 +71,7 @@ fn title(ui: &mut Ui, session: &Session, index: usize, proposal: &Proposal, acti
 fn figures(ui: &mut Ui, proposal: &Proposal) {
     ui.spacing_mut().item_spacing.y = 2.0;
     let small = |text: String| Label::new(RichText::new(text).small().weak()).truncate();
-    ui.add(small(costs(proposal)));
-    if let Some(sewn) = proposal.sewn {
-        ui.add(small(format!("sewn by hand {}", percent(sewn.median))));
-    }
+    ui.add(Label::new(RichText::new(costs(proposal)).small().weak()).wrap());
     ui.add(small(serves(proposal)));
     if !proposal.breaches.is_empty() {
         let text = format!("Hard to sew in {} place{}", proposal.breaches.len(), plural(proposal.breaches.len()));
@@ -96,7 +93,8 @@ fn small(ui: &mut Ui, pictures: &mut Pictures, struck: &Struck) {
 /// What it takes to make.
 fn costs(proposal: &Proposal) -> String {
     let Proposal { thread_mm, holes, force_n, .. } = proposal;
-    format!("{thread_mm:.0} mm of cable, {holes} hole{}, {force_n:.1} N", plural(*holes))
+    let sewn = proposal.sewn.map_or(String::new(), |sewn| format!(", sewn by hand {}", percent(sewn.median)));
+    format!("{thread_mm:.0} mm of cable, {holes} hole{}, {force_n:.1} N{sewn}", plural(*holes))
 }
 
 fn serves(proposal: &Proposal) -> String {

@@ -187,7 +187,7 @@ fn kind(ui: &mut Ui, session: &Session, index: usize, hold: Hold, actions: &mut 
         Hold::Line { .. } => "Line",
         Hold::Region { .. } => "Region",
     };
-    let region = session.design().pins.get(index).map_or(Hold::Point, |pin| posing::region(session, pin));
+    let region = posing::region(session);
     let mut chosen = hold;
     let combo = ComboBox::from_id_salt(("kind of pin", index)).selected_text(name(hold)).width(64.0);
     let combo = combo.show_ui(ui, |ui| {

@@ -230,6 +230,14 @@ impl Session {
         &self.timing
     }
 
+    /// Numbers of the keyframes that are picked out, alone or together.
+    pub fn keys(&self) -> Vec<usize> {
+        match self.picked.selection {
+            Selection::Keyframe(key) => vec![key],
+            _ => self.timing.keys.clone(),
+        }
+    }
+
     /// A film that is being made.
     pub fn filming(&self) -> &Filming {
         &self.filming

@@ -3,7 +3,6 @@
 use crate::design::{Easing, Keyframe, animation};
 use crate::motion::Why;
 use crate::studio::action::{Action, Actions};
-use crate::studio::acts::timing::picked;
 use crate::studio::change::Change;
 use crate::studio::commands::animation::{ADD_KEYFRAME, CANCEL_FILM, DRIVES, FILM, FIT, LOOP, PLAY};
 use crate::studio::commands::document::DELETE;
@@ -61,7 +60,7 @@ fn doubts(ui: &mut Ui, session: &Session, actions: &mut Actions) {
 }
 
 fn selected(ui: &mut Ui, session: &Session, actions: &mut Actions) {
-    let keys = picked(session);
+    let keys = session.keys();
     let frames = &session.design().keyframes;
     let Some(first) = keys.first().and_then(|&key| frames.get(key)) else { return };
     let tip = DELETE.hint("Delete what is selected");

@@ -4,7 +4,6 @@ use super::axis::Axis;
 use super::controls::follows;
 use crate::design::{Easing, Keyframe};
 use crate::studio::action::{Action, Actions};
-use crate::studio::acts::timing::picked;
 use crate::studio::change::Change;
 use crate::studio::commands::animation::{ALL_KEYFRAMES, COPY, CUT, EARLIER, LATER, PASTE, REMOVE};
 use crate::studio::icons;
@@ -62,7 +61,7 @@ fn diamond(
     actions: &mut Actions,
 ) -> bool {
     let center = pos2(axis.x(keyframe.time_s), axis.base());
-    let keys = picked(session);
+    let keys = session.keys();
     let selected = keys.contains(&index);
     let id = ui.scope_id().with("keyframe").with(index);
     let response = ui.interact(Rect::from_center_size(center, vec2(18.0, 18.0)), id, Sense::click_and_drag());
@@ -81,7 +80,7 @@ fn diamond(
             (false, false) => vec![index],
             (true, _) => toggled(&keys, index),
         };
-        if keys != picked(session) {
+        if keys != session.keys() {
             actions.push(Action::GatherKeys(keys.clone()));
         }
         *held = Held::Keys { keys, from_s: axis.time(pointer.x), own_s: keyframe.time_s };
@@ -138,7 +137,7 @@ fn drag(ui: &Ui, session: &Session, held: &Held, at_s: f64, actions: &mut Action
             let within = |time_s: f64| time_s >= from_s.min(at_s) && time_s <= from_s.max(at_s);
             let frames = session.design().keyframes.iter().enumerate();
             let keys: Vec<usize> = frames.filter(|(_, k)| within(k.time_s)).map(|(index, _)| index).collect();
-            if keys != picked(session) {
+            if keys != session.keys() {
                 actions.push(Action::GatherKeys(keys));
             }
         }
