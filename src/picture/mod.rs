@@ -29,6 +29,7 @@ pub mod film;
 pub mod layers;
 mod pair;
 pub mod palette;
+mod pixels;
 mod portrait;
 pub mod preview;
 pub mod raster;

@@ -2,7 +2,7 @@
 
 use super::layers::{Layer, Layers, Pins, Shown, Subject};
 use super::palette::{Palette, Theme};
-use super::preview::Preview;
+use super::pixels::Preview;
 use super::raster::{self, RasterError};
 use crate::design::{Design, Network, Target};
 use crate::engine::Shape;

@@ -1,6 +1,6 @@
 //! Scenes to PNG, without a graphics adapter.
 
-use super::preview::Preview;
+use super::pixels::Preview;
 use super::scene::{Color, Item, Scene};
 use super::textured::{self, Corner};
 use crate::files::marked_png;

@@ -1,6 +1,6 @@
 //! Sheets that are cut and printed, as pictures.
 
-use super::preview::Preview;
+use super::pixels::Preview;
 use super::raster::RasterError;
 use crate::outline::svg::fonts;
 use tiny_skia::{Color, Pixmap, Transform};

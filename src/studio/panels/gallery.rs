@@ -1,6 +1,6 @@
 //! Candidates as cards with pictures. The one under the pointer is shown in the views, where it strikes every pose in turn.
 
-use super::proposal;
+use super::proposal::{self, Struck};
 use crate::design::{Design, edit};
 use crate::engine::{Setpoint, Shape, solve_once};
 use crate::picture::palette::Theme;
@@ -35,13 +35,6 @@ struct Cards {
 struct Poses {
     of: Arc<Proposal>,
     struck: Vec<Struck>,
-}
-
-/// A proposal in a pose.
-pub struct Struck {
-    pub name: String,
-    pub picture: Arc<Preview>,
-    pub shape: Arc<Shape>,
 }
 
 const CARDS: &str = "gallery.cards";

@@ -1,7 +1,7 @@
 //! A proposal on the list: what it reaches, what it costs, whom it serves.
 
-use super::gallery::Struck;
 use crate::discovery::Parameters;
+use crate::engine::Shape;
 use crate::picture::preview::Preview;
 use crate::rigging::{PoseServed, Proposal};
 use crate::studio::action::{Action, Actions};
@@ -15,6 +15,13 @@ use std::sync::Arc;
 const ROW: f32 = 26.0;
 const PICTURE: Vec2 = vec2(84.0, 63.0);
 const SMALL: Vec2 = vec2(56.0, 42.0);
+
+/// A proposal in a pose.
+pub struct Struck {
+    pub name: String,
+    pub picture: Arc<Preview>,
+    pub shape: Arc<Shape>,
+}
 
 /// The pictures of a card: the textures, that of the pose at hand, and those of all poses as far as they are known.
 pub type Paint<'a> = (&'a mut Pictures, Option<&'a Arc<Preview>>, &'a [Struck]);

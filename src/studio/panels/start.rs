@@ -14,7 +14,8 @@ use crate::studio::jobs::Told;
 use crate::studio::pictures::Pictures;
 use crate::studio::session::{Overlay, Session, Task};
 use eframe::egui::{
-    Align2, Context, FontId, Id, Modal, Rect, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2,
+    Align2, Context, FontId, Frame, Id, Modal, Rect, RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui,
+    WidgetInfo, vec2,
 };
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -37,6 +38,7 @@ struct Shots {
 const OWNER: &str = "start.pictures";
 /// Width of the page and size of a card, logical pixels; size of its picture, pixels.
 const WIDTH: f32 = 700.0;
+const MARGIN: f32 = 18.0;
 const CARD: [f32; 2] = [164.0, 138.0];
 const SIZE: (u32, u32) = (300, 216);
 /// Recent files that are shown.
@@ -48,27 +50,31 @@ pub fn show(ctx: &Context, session: &Session, state: &mut State, actions: &mut A
     }
     state.pictures.begin();
     let shots = follow(session, state, actions);
-    let modal = Modal::new(Id::unique("start page")).show(ctx, |ui| {
-        ui.set_width(WIDTH);
-        ui.heading("Plushwright");
-        ui.horizontal(|ui| {
-            for command in [&NEW, &NEW_DRAWING, &OPEN] {
-                let before = actions.len();
-                buttons::text(ui, session, command, actions);
-                if actions.len() > before {
-                    actions.insert(before, Action::Overlay(None));
+    let modal = Modal::new(Id::unique("start page"))
+        .frame(Frame::popup(&ctx.global_style()).inner_margin(MARGIN))
+        .show(ctx, |ui| {
+            ui.set_width(WIDTH);
+            ui.label(RichText::new("Plushwright").size(20.0).strong());
+            ui.add_space(4.0);
+            ui.horizontal(|ui| {
+                for command in [&NEW, &NEW_DRAWING, &OPEN] {
+                    let before = actions.len();
+                    buttons::text(ui, session, command, actions);
+                    if actions.len() > before {
+                        actions.insert(before, Action::Overlay(None));
+                    }
                 }
+            });
+            let most = 0.74 * ui.ctx().content_rect().height();
+            ScrollArea::vertical().max_height(most).auto_shrink([false, true]).show(ui, |ui| {
+                examples(ui, state, shots, actions);
+                recent(ui, session, state, shots, actions);
+            });
+            ui.add_space(8.0);
+            if ui.button("Go on with what is open").clicked() {
+                actions.push(Action::Overlay(None));
             }
         });
-        let most = 0.74 * ui.ctx().content_rect().height();
-        ScrollArea::vertical().max_height(most).auto_shrink([false, true]).show(ui, |ui| {
-            examples(ui, state, shots, actions);
-            recent(ui, session, state, shots, actions);
-        });
-        if ui.button("Go on with what is open").clicked() {
-            actions.push(Action::Overlay(None));
-        }
-    });
     if modal.should_close() {
         actions.push(Action::Overlay(None));
     }

@@ -79,8 +79,9 @@ fn row(ui: &mut Ui, session: &Session, pose: usize, index: usize, target: &Targe
         let selected = session.picked.selection == Selection::Target(index) || session.group().has(handle);
         let name = format!("Target {}", index + 1);
         // Text on the right, even none, moves the name to the left, in line with the poses above.
-        let button = Button::selectable(selected, name).right_text("").min_size(vec2(78.0, 24.0));
-        let response = ui.add(button).on_hover_text("Click to select, with Ctrl or Shift beside others");
+        let button = Button::selectable(selected, &name).right_text("").min_size(vec2(78.0, 24.0));
+        let response =
+            ui.add(button).accessible_name(&name).on_hover_text("Click to select, with Ctrl or Shift beside others");
         if response.clicked() {
             actions.push(pick(ui, session, handle));
         }
@@ -162,8 +163,9 @@ fn pins(ui: &mut Ui, session: &Session, actions: &mut Actions) {
         let handle = Handle::Pin(index);
         let selected = session.picked.selection == Selection::Pin(index) || session.group().has(handle);
         ui.horizontal(|ui| {
-            let button = Button::selectable(selected, format!("Pin {}", index + 1)).right_text("");
-            if ui.add(button.min_size(vec2(60.0, 24.0))).clicked() {
+            let name = format!("Pin {}", index + 1);
+            let button = Button::selectable(selected, &name).right_text("").min_size(vec2(60.0, 24.0));
+            if ui.add(button).accessible_name(&name).clicked() {
                 actions.push(pick(ui, session, handle));
             }
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -189,7 +191,7 @@ fn kind(ui: &mut Ui, session: &Session, index: usize, hold: Hold, actions: &mut 
     };
     let region = posing::region(session);
     let mut chosen = hold;
-    let combo = ComboBox::from_id_salt(("kind of pin", index)).selected_text(name(hold)).width(64.0);
+    let combo = ComboBox::from_id_salt(("kind of pin", index)).selected_text(name(hold)).width(54.0);
     let combo = combo.show_ui(ui, |ui| {
         for choice in [Hold::Point, Hold::Line { degrees: 0.0 }, region] {
             let choice = if name(choice) == name(hold) { hold } else { choice };

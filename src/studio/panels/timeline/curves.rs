@@ -69,8 +69,9 @@ fn limits(ui: &Ui, axis: &Axis, scale: &Scale, reach: &[f64]) {
     let weak = ui.visuals().weak_text_color();
     let painter = ui.painter_at(axis.rect);
     let font = FontId::proportional(10.0);
-    let top = pos2(axis.rect.left() + 2.0, scale.y(scale.most_mm));
-    painter.text(top, Align2::LEFT_BOTTOM, format!("{:.0} mm", scale.most_mm), font, weak);
+    // On the right, where the playhead seldom is.
+    let top = pos2(axis.x(axis.span_s), scale.y(scale.most_mm));
+    painter.text(top, Align2::RIGHT_BOTTOM, format!("{:.0} mm", scale.most_mm), font, weak);
     for &reach in reach {
         let ends = [axis.x(0.0), axis.x(axis.span_s)].map(|x| pos2(x, scale.y(reach)));
         painter.extend(Shape::dashed_line(&ends, Stroke::new(1.0, weak.gamma_multiply(0.6)), 5.0, 4.0));
