@@ -165,7 +165,8 @@ mod tests {
                 most[1] = most[1].max((at(k + 1) - 2.0 * at(k) + at(k - 1)).abs() / (dt * dt));
             }
             assert!((speed / most[0] - 1.0).abs() < 0.01, "{out} {into}: {speed} {most:?}");
-            assert!((acceleration / most[1] - 1.0).abs() < 0.02, "{out} {into}: {acceleration} {most:?}");
+            // At the ends of short handles it falls within one difference.
+            assert!((0.999..1.05).contains(&(acceleration / most[1])), "{out} {into}: {acceleration} {most:?}");
         }
     }
 

@@ -36,7 +36,7 @@ const NO_AXIS: &str = "The outline of this plushie is not its own mirror image";
 const NO_PIN: &str = "Select a pin first, or point at one";
 
 pub static SYMMETRIC: Command = Command {
-    keys: &[Keys::plain(Key::M)],
+    keys: &[Keys::shift(Key::M)],
     scope: Scope::Views,
     on: Some(&|session| session.posing.symmetric),
     why_not: &|session, _| session.posing.axis().is_none().then_some(NO_AXIS),
@@ -45,7 +45,7 @@ pub static SYMMETRIC: Command = Command {
 };
 
 pub static SNAP: Command = Command {
-    keys: &[Keys::plain(Key::N)],
+    keys: &[Keys::shift(Key::N)],
     scope: Scope::Views,
     on: Some(&|session| session.posing.snaps),
     run: &|session, _| session.posing.snaps = !session.posing.snaps,

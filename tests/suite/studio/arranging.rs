@@ -22,7 +22,7 @@ fn tool(window: &mut Window, key: Key) {
 /// A pose with targets at two points of the bar, moved a little up.
 fn two_targets() -> Window {
     let mut window = window(bar());
-    press(&mut window, Modifiers::NONE, Key::N);
+    press(&mut window, Modifiers::SHIFT, Key::N);
     for x in [60.0, 100.0] {
         let (from, to) = (at(&window, [x, 40.0]), at(&window, [x, 50.0]));
         drag(&mut window, from, to);

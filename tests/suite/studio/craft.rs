@@ -149,7 +149,7 @@ fn ways_of_working_are_as_they_were_left() {
     };
     let mut first = again();
     press(&mut first, Modifiers::NONE, Key::T);
-    press(&mut first, Modifiers::NONE, Key::N);
+    press(&mut first, Modifiers::SHIFT, Key::N);
     let theme = session(&first).look().theme;
     drop(first);
     let second = again();
