@@ -48,6 +48,8 @@ const OWNER: &str = "blueprint.preview";
 /// The longer side of a sheet, pixels, and the height of what is shown, logical pixels.
 const LONGEST: u32 = 900;
 const HEIGHT: f32 = 250.0;
+/// Height of the remarks, logical pixels: others are scrolled to.
+const REMARKS: f32 = 120.0;
 /// Lines of a table or a program that are shown, and files of each kind.
 const LINES: usize = 40;
 const FILES: usize = 24;
@@ -116,6 +118,11 @@ fn pages(ui: &mut Ui, session: &Session, made: &Made, state: &mut State, actions
 
 /// What its maker should know; what is somewhere on the body can be shown there.
 fn remarks(ui: &mut Ui, session: &Session, made: &Made, actions: &mut Actions) {
+    let most = ScrollArea::vertical().id_salt("remarks of the blueprint").max_height(REMARKS);
+    most.auto_shrink([false, true]).show(ui, |ui| remark_lines(ui, session, made, actions));
+}
+
+fn remark_lines(ui: &mut Ui, session: &Session, made: &Made, actions: &mut Actions) {
     for remark in &made.remarks {
         ui.add(Label::new(RichText::new(remark).small().color(ui.visuals().warn_fg_color)).wrap());
     }

@@ -176,7 +176,7 @@ fn pins(ui: &mut Ui, session: &Session, actions: &mut Actions) {
                 kind(ui, session, index, pin.hold, actions);
             });
         });
-        if selected {
+        if selected && pin.hold != Hold::Point {
             figures(ui, index, pin.hold, actions);
         }
     }
