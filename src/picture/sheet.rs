@@ -16,7 +16,8 @@ const PX_PER_MM: f32 = 96.0 / 25.4;
 /// # Errors
 /// What is no SVG, or a size that is empty or does not fit in memory.
 pub fn sheet(svg: &[u8], longest: u32) -> Result<Preview, RasterError> {
-    let options = Options { fontdb: fonts(), ..Options::default() };
+    let mut options = Options { fontdb: fonts(), ..Options::default() };
+    options.font_resolver.select_font = Box::new(|_, fonts| fonts.faces().next().map(|face| face.id));
     let parsed = |svg: &[u8]| Tree::from_data(svg, &options).map_err(|error| RasterError::Encode(error.to_string()));
     let size = parsed(svg)?.size();
     let scale = longest as f32 / size.width().max(size.height());
