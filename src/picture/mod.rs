@@ -24,17 +24,24 @@
 //! # Ok::<(), raster::RasterError>(())
 //! ```
 
+mod color;
 pub mod element_quality;
 pub mod layers;
+mod letters;
 mod pair;
 pub mod palette;
+pub mod plush;
 pub mod preview;
+pub mod ramp;
 pub mod raster;
 mod scene;
+pub mod silhouette;
 mod texture;
 mod textured;
 
-pub use layers::{LAYERS, Layers, Shown, Stage, Subject};
+pub use color::Color;
+pub use layers::{LAYERS, LOOKS, Layers, Shown, Stage, Subject};
 pub use pair::png;
-pub use scene::{Color, Item, Scene};
+pub use scene::{Item, Scene};
+pub use silhouette::Silhouette;
 pub use texture::{Level, Texture};

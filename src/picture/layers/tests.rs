@@ -6,8 +6,9 @@ use crate::discovery::Stages;
 use crate::engine::Shape;
 use crate::mesh::{BodyPoint, Mesh};
 use crate::outline::Outline;
+use crate::picture::color::Color;
 use crate::picture::palette::{Palette, Theme};
-use crate::picture::scene::{Color, Item};
+use crate::picture::scene::Item;
 use std::sync::Arc;
 
 /// A square of two triangles with a pin, a target and a network along its diagonal.

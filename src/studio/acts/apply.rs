@@ -24,9 +24,9 @@ pub fn apply(session: &mut Session, action: Action) {
         Action::SelectPose(pose) => edit::select_pose(session, pose),
         Action::Select(selection) => session.picked.selection = selection,
         Action::SetQuality(quality) => session.solver.quality = quality,
-        Action::SetCamera(camera) => {
-            session.look.camera = Some(camera);
-            session.look.zoom = None;
+        Action::SetCamera(plushie, camera) => {
+            session.look.set_camera(plushie, camera);
+            (session.look.zoom, session.look.frame) = (None, None);
         }
         Action::Scrub(time_s) => animate::scrub(session, time_s),
         Action::SetProposeOptions(options) => session.discovery.options = options,

@@ -1,11 +1,11 @@
 //! Once a frame: what the threads report, the playhead, what should be seen next.
 
-use super::{animate, discover, edit, filing, follow, import, judge, mesh, motors, rig, sheet, texture};
+use super::{animate, discover, edit, filing, follow, import, judge, mesh, motors, onion, rig, sheet, texture};
 use crate::design::animation;
 use crate::engine::Setpoint;
 use crate::studio::canvas::Plushie;
 use crate::studio::jobs::{Finished, Outcome, Running};
-use crate::studio::session::{Mode, Session};
+use crate::studio::session::{Mode, ONION, Session};
 
 /// Takes what the threads have to report, moves the playhead, asks for what should be seen next.
 /// `hands_off`: nobody holds a button or types, so gestures are over.
@@ -32,6 +32,7 @@ pub fn tick(session: &mut Session, now_s: f64, passed_s: f64, hands_off: bool) {
     // Nobody sees the plushies while the outline is drawn.
     if !session.sketching.open {
         ask(session);
+        onion::follow(session);
         judge::follow(session, hands_off);
     }
 }
@@ -70,6 +71,7 @@ fn take(session: &mut Session, Finished { serial, outcome }: Finished) {
         Outcome::Exported { folder, result } => filing::take_export(session, &folder, result),
         Outcome::Textured { path, texture } => texture::take_texture(session, path, texture),
         Outcome::Picked { path, at_once } => filing::take_path(session, serial, path, at_once),
+        Outcome::Told { owner: ONION, told } => session.look.onion.take(serial, &told),
         Outcome::Told { owner, told } => session.tasks.finish(owner, serial, told),
         Outcome::Broken { job, why } => {
             break_off(session, serial);
@@ -95,6 +97,9 @@ fn break_off(session: &mut Session, serial: u64) {
     if session.following.running.as_ref().is_some_and(|(running, _)| running.serial == serial) {
         let design = session.document.design().clone();
         session.following.settle(&design);
+    }
+    if Running::is(session.look.onion.running.as_ref(), serial) {
+        session.look.onion.running = None;
     }
     session.judging.break_off(serial);
     session.files.preview.break_off(serial);

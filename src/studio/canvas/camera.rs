@@ -3,7 +3,7 @@
 use crate::outline::Point;
 use eframe::egui::{Pos2, Rect, Vec2, pos2};
 
-/// The part of the plane that a viewport shows: a point in its middle and a scale. Both views share one, so that they compare.
+/// The part of the plane that a viewport shows: a point in its middle and a scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     /// mm.
@@ -12,8 +12,8 @@ pub struct Camera {
     pub scale: f32,
 }
 
-/// Air around a fitted body, as a fraction of its box on each side: room to pose it in.
-const MARGIN: f64 = 0.16;
+/// Air around a fitted body, as a fraction of its box on each side: the body is what is looked at.
+const MARGIN: f64 = 0.06;
 /// Logical pixels per mm.
 const SCALES: std::ops::RangeInclusive<f32> = 0.01..=200.0;
 

@@ -1,7 +1,8 @@
-//! Both views side by side.
+//! Both views side by side, one alone, or one over the other.
 
-use super::picture::Picture;
-use super::{captions, loads, pointer, strings};
+use super::picture::{Drawn, Picture};
+use super::silhouettes::Silhouettes;
+use super::{bars, captions, loads, pointer, rulers, strings, strip};
 use crate::design::Design;
 use crate::engine::Shape;
 use crate::outline::{Point, polygon};
@@ -16,6 +17,7 @@ use std::sync::Arc;
 #[derive(Default)]
 pub struct State {
     views: [View; 2],
+    silhouettes: Silhouettes,
     /// What is under the pointer, marked in both views.
     hovered: Option<Hit>,
 }
@@ -31,12 +33,13 @@ struct View {
 pub fn show(ui: &mut Ui, session: &Session, state: &mut State, tool: &mut dyn Tool, actions: &mut Actions) {
     let area = ui.available_rect_before_wrap();
     let views = session.look.views;
+    state.silhouettes.follow(session.design());
     let mut hovered = None;
     for (plushie, rect) in rects(ui, views, area) {
-        if !views.shows(plushie) {
+        if !views.has_place(plushie) {
             continue;
         }
-        let camera = session.look.camera.unwrap_or_else(|| fit(session.design(), rect.size()));
+        let camera = session.look.camera_of(plushie).unwrap_or_else(|| fit(session.design(), rect.size()));
         let shape = displayed(session, plushie);
         let canvas = Canvas { session, rect, camera, ground: Ground::Plushie(plushie, shape.map(Arc::as_ref)) };
         let hit = view(ui, &canvas, (plushie, shape.filter(|_| session.gpu)), state, tool, actions);
@@ -47,13 +50,14 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut State, tool: &mut dyn To
         // The other view was drawn before this was known.
         ui.ctx().request_repaint();
     }
+    strip::show(ui, session, area, actions);
     ui.allocate_rect(area, Sense::hover());
 }
 
 /// Where the views are; one that is hidden leaves its place to the other.
 fn rects(ui: &Ui, views: Views, area: Rect) -> [(Plushie, Rect); 2] {
     let (left, right) = match views {
-        Views::Only(_) => (area, area),
+        Views::Only(_) | Views::Overlay => (area, area),
         Views::Both => {
             let middle = area.center().x.round();
             ui.painter().vline(middle, area.y_range(), ui.visuals().widgets.noninteractive.bg_stroke);
@@ -82,16 +86,28 @@ fn view(
     if canvas.rect.width() < 2.0 || canvas.rect.height() < 2.0 {
         return None;
     }
-    let view = &mut state.views[plushie as usize];
-    if let Some(shape) = drawn {
-        view.picture.paint(ui, canvas, plushie, shape);
+    if canvas.session.look().rulers {
+        rulers::grid(ui, canvas);
     }
+    let view = &mut state.views[plushie as usize];
+    let bar = drawn.and_then(|shape| {
+        let beside = displayed(canvas.session, plushie.other());
+        let beside = beside.filter(|_| canvas.session.look().views.shows(plushie.other()));
+        let silhouette = state.silhouettes.newest()?;
+        view.picture.paint(ui, canvas, &Drawn { plushie, shape, beside, silhouette })
+    });
     let hit = pointer::interact(ui, canvas, tool, &mut view.menu_at, &response, actions);
     strings::show(ui, canvas);
     loads::show(ui, canvas);
     pointer::highlight(ui, canvas, state.hovered);
     tool.paint(canvas, &ui.painter_at(canvas.rect), response.hover_pos());
+    if canvas.session.look().rulers {
+        rulers::show(ui, canvas, response.hover_pos());
+    }
     captions::show(ui, canvas, plushie);
+    if let Some(bar) = bar {
+        bars::show(ui, canvas, &bar);
+    }
     hit
 }
 

@@ -1,0 +1,48 @@
+//! Ghosts: outlines of the same plushie in other states, behind what is shown: neighbouring keyframes, the other plushie.
+
+use super::layer::{Layer, Shared};
+use super::subject::Subject;
+use crate::engine::Shape;
+use crate::picture::color::Color;
+use crate::picture::palette::with_alpha;
+use crate::picture::scene::Item;
+use crate::picture::silhouette::Silhouette;
+
+/// A shape and the colour of its outline.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ghost {
+    pub shape: Shared<Shape>,
+    pub color: Color,
+}
+
+/// Outlines over the body.
+#[derive(Debug, PartialEq)]
+pub struct Ghosts {
+    silhouette: Shared<Silhouette>,
+    ghosts: Vec<Ghost>,
+}
+
+/// Width of an outline, logical pixels; strength of line and area, of 255.
+const LINE: f32 = 2.0;
+const STRONG: u8 = 210;
+const FAINT: u8 = 34;
+
+impl Layer for Ghosts {
+    const NAME: &'static str = "ghosts";
+
+    fn of(subject: &Subject<'_>) -> Option<Self> {
+        let drawn = !subject.ghosts.is_empty();
+        drawn.then(|| Self { silhouette: Shared::of(&subject.silhouette), ghosts: subject.ghosts.to_vec() })
+    }
+
+    fn draw(&self, items: &mut Vec<Item>) {
+        for ghost in &self.ghosts {
+            let Some(points) = self.silhouette.places(&ghost.shape.nodes) else { continue };
+            let lines = self.silhouette.lines(&points);
+            let (triangles, color) = (self.silhouette.triangles.clone(), with_alpha(ghost.color, FAINT));
+            items.push(Item::Mesh { points, triangles, color });
+            let color = with_alpha(ghost.color, STRONG);
+            items.extend(lines.into_iter().map(|points| Item::Line { points, width: LINE, color, closed: true }));
+        }
+    }
+}
