@@ -37,7 +37,7 @@ fn run(cli: &Cli) -> Result<(), CommandError> {
         Some(command) => {
             catch_interrupts()?;
             files::survive_size_limits();
-            commands::run(command, &mut Heard(io::stdout()), &CANCEL)
+            commands::run(command, &mut Heard(io::stdout()), &CANCEL, WINDOW_STUDY)
         }
         None => {
             if let Some(path) = cli.design.as_deref().filter(|path| !path.exists()) {
@@ -93,6 +93,11 @@ fn catch_interrupts() -> Result<(), CommandError> {
     };
     files::on_interrupt(interrupted).map_err(|e| CommandError::Failed(format!("cannot listen for interrupts: {e}")))
 }
+
+#[cfg(feature = "studio")]
+const WINDOW_STUDY: Option<commands::WindowStudy<'_>> = Some(&plushwright::studio::measure::run);
+#[cfg(not(feature = "studio"))]
+const WINDOW_STUDY: Option<commands::WindowStudy<'_>> = None;
 
 #[cfg(feature = "studio")]
 fn open_studio(cli: &Cli) -> Result<(), CommandError> {

@@ -180,7 +180,7 @@ pub fn failed(path: &Path, error: Error) -> CommandError {
 }
 
 /// The names of the looks, for help and completions.
-fn look_names() -> PossibleValuesParser {
+pub fn look_names() -> PossibleValuesParser {
     LOOKS.iter().map(|look| look.name).collect::<Vec<_>>().into()
 }
 

@@ -8,6 +8,7 @@ use super::store::Store;
 use super::tools::Toolbox;
 use super::{acts, canvas, keys, style, viewport};
 use crate::design::Design;
+use crate::outline::Point;
 use crate::picture::palette::{Palette, Theme};
 use eframe::egui::{self, CentralPanel, Frame, Margin, Panel, ViewportCommand};
 use std::path::PathBuf;
@@ -68,6 +69,20 @@ impl Studio {
         acts::keep::keep_in(&mut self.session, store);
         style::set_theme(ctx, self.session.look.theme);
         self
+    }
+
+    /// In a look, and where that is asked for with a solver that takes its time.
+    pub(super) fn measured(mut self, look: &'static str, late: Option<Duration>) -> Self {
+        self.session.look.body = look;
+        if let Some(late) = late {
+            self.session.solver.delay(late);
+        }
+        self
+    }
+
+    /// Where a place in mm was on the screen in the last frame; `None` in a view that is not shown.
+    pub fn on_screen(&self, plushie: viewport::Plushie, p: Point) -> Option<egui::Pos2> {
+        self.views.on_screen(plushie, p)
     }
 
     pub fn session(&self) -> &Session {

@@ -5,6 +5,7 @@ use crate::engine::worker::Worker;
 use crate::engine::{NEAR_EQUILIBRIUM, Quality, Request, Setpoint, Shape};
 use crate::studio::jobs::Wake;
 use std::sync::Arc;
+use std::time::Duration;
 
 /// The newest good shapes.
 #[derive(Default)]
@@ -16,6 +17,7 @@ pub struct Shapes {
 /// The worker, what it was asked and what is known.
 pub struct Solver {
     pub worker: Worker,
+    wake: Wake,
     pub shapes: Shapes,
     /// Of the user's, not of the document.
     pub quality: Quality,
@@ -33,7 +35,11 @@ pub struct Solver {
 impl Solver {
     pub fn new(design: &Arc<Design>, wake: Wake) -> Self {
         Self {
-            worker: Worker::spawn(Box::new(move || wake())),
+            worker: Worker::spawn(Box::new({
+                let wake = wake.clone();
+                move || wake()
+            })),
+            wake,
             shapes: Shapes::default(),
             quality: Quality::Balanced,
             warning: None,
@@ -42,6 +48,12 @@ impl Solver {
             first_id: 0,
             answered_id: None,
         }
+    }
+
+    /// Lets every answer wait: what the window does with a slow solver is measured so.
+    pub fn delay(&mut self, by: Duration) {
+        let wake = self.wake.clone();
+        self.worker = Worker::late(Box::new(move || wake()), by);
     }
 
     /// Another document or mesh: what is known or still to come is not wanted.

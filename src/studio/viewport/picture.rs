@@ -24,6 +24,9 @@ impl Picture {
         let ghosts = ghosts(canvas.session, drawn);
         let layers = Layers::of(&subject(canvas.session, drawn, &ghosts));
         let bar = layers.bar().cloned();
+        if !canvas.session.gpu {
+            return bar;
+        }
         let geometry = match &self.made {
             Some((before, geometry)) if *before == layers => geometry.clone(),
             _ => {

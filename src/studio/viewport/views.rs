@@ -10,7 +10,7 @@ use crate::studio::action::Actions;
 use crate::studio::canvas::{Camera, Canvas, Ground, Hit, Plushie};
 use crate::studio::session::{Session, Views};
 use crate::studio::tools::Tool;
-use eframe::egui::{Rect, Role, Sense, Ui, Vec2, WidgetInfo, pos2};
+use eframe::egui::{Pos2, Rect, Role, Sense, Ui, Vec2, WidgetInfo, pos2};
 use std::sync::Arc;
 
 /// The state that the views keep from frame to frame.
@@ -25,8 +25,18 @@ pub struct State {
 #[derive(Default)]
 struct View {
     picture: Picture,
+    /// Where it was in the last frame, and what it showed.
+    seen: Option<(Rect, Camera)>,
     /// Where the context menu was opened, mm.
     menu_at: Option<Point>,
+}
+
+impl State {
+    /// Where a place in mm was on the screen in the last frame.
+    pub fn on_screen(&self, plushie: Plushie, p: Point) -> Option<Pos2> {
+        let (rect, camera) = self.views[plushie as usize].seen?;
+        Some(camera.to_screen(rect, p))
+    }
 }
 
 /// Shows both views side by side, or the one that is not hidden.
@@ -37,12 +47,13 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut State, tool: &mut dyn To
     let mut hovered = None;
     for (plushie, rect) in rects(ui, views, area) {
         if !views.has_place(plushie) {
+            state.views[plushie as usize].seen = None;
             continue;
         }
         let camera = session.look.camera_of(plushie).unwrap_or_else(|| fit(session.design(), rect.size()));
         let shape = displayed(session, plushie);
         let canvas = Canvas { session, rect, camera, ground: Ground::Plushie(plushie, shape.map(Arc::as_ref)) };
-        let hit = view(ui, &canvas, (plushie, shape.filter(|_| session.gpu)), state, tool, actions);
+        let hit = view(ui, &canvas, (plushie, shape), state, tool, actions);
         hovered = hovered.or(hit);
     }
     if hovered != state.hovered {
@@ -90,6 +101,7 @@ fn view(
         rulers::grid(ui, canvas);
     }
     let view = &mut state.views[plushie as usize];
+    view.seen = Some((canvas.rect, canvas.camera));
     let bar = drawn.and_then(|shape| {
         let beside = displayed(canvas.session, plushie.other());
         let beside = beside.filter(|_| canvas.session.look().views.shows(plushie.other()));

@@ -8,4 +8,5 @@ mod outline;
 mod posing;
 mod tendons;
 mod timeline;
+mod views;
 mod winding;

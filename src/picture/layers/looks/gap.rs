@@ -6,7 +6,8 @@ use crate::outline::{Point, polygon};
 use crate::picture::layers::fibers::Fibers;
 use crate::picture::layers::layer::{Layer, Shared};
 use crate::picture::layers::look::Look;
-use crate::picture::layers::marks::body;
+use crate::picture::layers::marks::{self, body};
+use crate::picture::layers::seam::Seam;
 use crate::picture::layers::subject::Subject;
 use crate::picture::layers::texture::Textured;
 use crate::picture::palette::{Palette, Theme};
@@ -62,6 +63,11 @@ impl Layer for Gap {
     fn draw(&self, items: &mut Vec<Item>) {
         items.extend(body(&self.silhouette, &self.shape, ground(self.theme)));
         let (Some([ideal, real]), Some(bar)) = (self.outlines(), self.bar()) else { return };
+        // The seam of the plushie itself lies below.
+        for line in if self.fibers { &ideal } else { &real } {
+            let color = Palette::of(self.theme).seam;
+            items.push(Item::Line { points: line.clone(), width: marks::SEAM, color, closed: true });
+        }
         for line in &ideal {
             let color = Palette::of(self.theme).pin;
             items.push(Item::Line { points: line.clone(), width: CASING, color, closed: true });
@@ -82,7 +88,7 @@ impl Look for Gap {
     const LABEL: &'static str = "Gap";
     const TIP: &'static str =
         "The idealized outline by its distance from the realizable plushie: how much the design could be improved";
-    const REPLACES: &'static [&'static str] = &[Textured::NAME, Fibers::NAME];
+    const REPLACES: &'static [&'static str] = &[Textured::NAME, Fibers::NAME, Seam::NAME];
 
     fn bar(&self) -> Option<Bar> {
         let [ideal, real] = self.outlines()?;
