@@ -80,10 +80,11 @@ impl Screen {
 
     /// Hands what a frame of egui draws over to the adapter, which draws on by itself.
     pub fn draw(&mut self, ctx: &egui::Context, output: FullOutput, background: [f32; 4]) {
-        let jobs = ctx.tessellate(output.shapes, output.pixels_per_point);
+        let FullOutput { shapes, pixels_per_point, mut textures_delta, .. } = output;
+        let jobs = ctx.tessellate(shapes, pixels_per_point);
         let (device, queue) = (&self.state.device, &self.state.queue);
         let mut renderer = self.state.renderer.write();
-        for (id, delta) in &output.textures_delta.set {
+        for (id, delta) in &textures_delta.set {
             for part in delta {
                 renderer.update_texture(device, queue, *id, part);
             }
@@ -117,7 +118,8 @@ impl Screen {
         }
         commands.push(encoder.finish());
         queue.submit(commands);
-        output.textures_delta.free.iter().for_each(|id| renderer.free_texture(id));
+        textures_delta.free.iter().for_each(|id| renderer.free_texture(id));
+        textures_delta.clear();
     }
 
     /// Waits until all is drawn.

@@ -8,18 +8,11 @@ use crate::picture::palette::with_alpha;
 use crate::picture::scene::Item;
 use crate::picture::silhouette::Silhouette;
 
-/// A shape and the colour of its outline.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Ghost {
-    pub shape: Shared<Shape>,
-    pub color: Color,
-}
-
 /// Outlines over the body.
 #[derive(Debug, PartialEq)]
 pub struct Ghosts {
     silhouette: Shared<Silhouette>,
-    ghosts: Vec<Ghost>,
+    ghosts: Vec<(Shared<Shape>, Color)>,
 }
 
 /// Width of an outline, logical pixels; strength of line and area, of 255.
@@ -32,16 +25,19 @@ impl Layer for Ghosts {
 
     fn of(subject: &Subject<'_>) -> Option<Self> {
         let drawn = !subject.ghosts.is_empty();
-        drawn.then(|| Self { silhouette: Shared::of(&subject.silhouette), ghosts: subject.ghosts.to_vec() })
+        drawn.then(|| Self {
+            silhouette: Shared::of(&subject.silhouette),
+            ghosts: subject.ghosts.iter().map(|ghost| (Shared::of(&ghost.shape), ghost.color)).collect(),
+        })
     }
 
     fn draw(&self, items: &mut Vec<Item>) {
-        for ghost in &self.ghosts {
-            let Some(points) = self.silhouette.places(&ghost.shape.nodes) else { continue };
+        for (shape, color) in &self.ghosts {
+            let Some(points) = self.silhouette.places(&shape.nodes) else { continue };
             let lines = self.silhouette.lines(&points);
-            let (triangles, color) = (self.silhouette.triangles.clone(), with_alpha(ghost.color, FAINT));
-            items.push(Item::Mesh { points, triangles, color });
-            let color = with_alpha(ghost.color, STRONG);
+            let (triangles, faint) = (self.silhouette.triangles.clone(), with_alpha(*color, FAINT));
+            items.push(Item::Mesh { points, triangles, color: faint });
+            let color = with_alpha(*color, STRONG);
             items.extend(lines.into_iter().map(|points| Item::Line { points, width: LINE, color, closed: true }));
         }
     }

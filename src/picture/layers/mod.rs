@@ -18,14 +18,14 @@ mod tendons;
 mod texture;
 
 pub use fibers::Fibers;
-pub use ghosts::{Ghost, Ghosts};
+pub use ghosts::Ghosts;
 pub use layer::{Entry, Layer, Shared, Stroke, Switch};
 pub use look::LookEntry;
 pub use looks::{LOOKS, look};
 pub use pins::Pins;
 pub use seam::Seam;
 pub use stages::Discovery;
-pub use subject::{Shown, Stage, Subject};
+pub use subject::{Ghost, Shown, Stage, Subject};
 pub use targets::Targets;
 pub use tendons::Tendons;
 pub use texture::Textured;

@@ -1,9 +1,9 @@
 //! Subjects of pictures, and the layers that are shown.
 
-use super::ghosts::Ghost;
 use crate::design::{Design, Network, Target};
 use crate::discovery::Stages;
 use crate::engine::Shape;
+use crate::picture::color::Color;
 use crate::picture::palette::Theme;
 use crate::picture::silhouette::Silhouette;
 use crate::picture::texture::Texture;
@@ -68,6 +68,13 @@ impl<'a> Subject<'a> {
             stage: None,
         }
     }
+}
+
+/// Another state whose outline is shown as well, and its colour.
+#[derive(Clone, Debug)]
+pub struct Ghost {
+    pub shape: Arc<Shape>,
+    pub color: Color,
 }
 
 /// The layers that somebody has asked to show or to hide, by their names; the others are as at first.

@@ -131,13 +131,13 @@ fn fibres_are_seen_on_textures_of_every_colour() {
                 let subject =
                     Subject { theme, shown: &shown, texture: Some(&texture), ..Subject::new(&design, &shape) };
                 let scene = Layers::of(&subject).scene();
-                let png = raster::png(&scene, &scene, (720, 360), palette.background).unwrap();
+                let png = raster::png(&scene, &scene, (1440, 720), palette.background).unwrap();
                 image::load_from_memory(&png).unwrap().to_rgb8()
             };
             let (with, without) = (picture(true), picture(false));
             // Across the diagonal, in the middle of the left view.
-            let most = (170..190).map(|x| {
-                let (p, q) = (with.get_pixel(x, 180).0, without.get_pixel(x, 180).0);
+            let most = (345..375).map(|x| {
+                let (p, q) = (with.get_pixel(x, 360).0, without.get_pixel(x, 360).0);
                 p.iter().zip(q).map(|(a, b)| a.abs_diff(b)).max().unwrap()
             });
             assert!(most.max().unwrap() > 60, "{theme:?} {r} {g} {b}");

@@ -1,7 +1,7 @@
 //! The felt within a drawn silhouette, cut into triangles: those of the mesh, finer, with the drawn rim in the place of its sides.
 
 use super::rim::Rim;
-use super::{Tie, doubled_area};
+use super::tie::{Tie, doubled_area};
 use crate::mesh::Mesh;
 use crate::outline::Point;
 use std::collections::BTreeMap;

@@ -5,7 +5,7 @@
 //! smooth, rises upright from the rim as stuffed felt does, and is low in thin limbs. The normal `(-grad phi, sqrt(2 phi))` is
 //! bounded up to the rim.
 
-use super::doubled_area;
+use super::tie::doubled_area;
 use crate::outline::Point;
 
 /// Residual, as a part of that of a flat sheet, at which the height is right to a thousandth: less is not seen.

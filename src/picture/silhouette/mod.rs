@@ -7,11 +7,13 @@
 mod cells;
 mod height;
 mod rim;
+mod tie;
 
 use crate::design::Design;
 use crate::mesh::Mesh;
 use crate::outline::Point;
 use rim::Rim;
+use tie::Tie;
 
 /// Triangles below which the mesh is cut finer, so that light and height look round: thin limbs of a coarse mesh have no node inside.
 const LEAST_TRIANGLES: usize = 1500;
@@ -31,15 +33,6 @@ pub struct Silhouette {
     pub rings: Vec<Vec<usize>>,
     /// Half the square of the height over the plane, mm^2, where a disc becomes a ball; zero on the rim.
     pub heights: Vec<f64>,
-}
-
-/// A point of the felt and what it hangs on.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Tie {
-    /// Weighted nodes of a triangle.
-    Inside([usize; 3], [f64; 3]),
-    /// A stretch of rim.
-    Rim(rim::Tie),
 }
 
 impl Silhouette {
@@ -83,11 +76,6 @@ impl Silhouette {
     pub fn lines(&self, places: &[Point]) -> Vec<Vec<Point>> {
         self.rings.iter().map(|ring| ring.iter().map(|&p| places[p]).collect()).collect()
     }
-}
-
-/// Twice the area of a triangle, positive where it turns to the left.
-fn doubled_area(a: Point, b: Point, c: Point) -> f64 {
-    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
 /// Its triangles as a mesh at places.

@@ -147,8 +147,12 @@ impl Tie {
     }
 }
 
-/// The points of a drawn polygon on each stretch between places of a rim; `None` where it is the outline of another rim.
+/// The points of a drawn polygon on each stretch between places of a rim; `None` where it is the outline of another rim, or that of the
+/// mesh itself: a file's own mesh has no other.
 fn along(places: &[Point], drawn: &[Point], body_length: f64) -> Option<Vec<Vec<(f64, Point)>>> {
+    if drawn.len() == places.len() && places.iter().all(|p| drawn.contains(p)) {
+        return None;
+    }
     let mut arcs = vec![0.0];
     arcs.extend(polygon::sides(drawn).scan(0.0, |sum, (a, b)| {
         *sum += polygon::length(a, b);

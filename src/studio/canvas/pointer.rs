@@ -65,7 +65,7 @@ pub fn navigate(ui: &Ui, canvas: &Canvas<'_>, response: &Response, actions: &mut
         }
     }
     if let (Ground::Plushie(..), Some([low, high])) = (canvas.ground, session.look().frame) {
-        actions.push(canvas.look(Camera::fit(low, high, rect.size())));
+        actions.push(canvas.look(Camera::close(low, high, rect.size())));
     }
     if let Some(factor) = session.look().zoom {
         actions.push(canvas.look(camera.zoomed(rect, rect.center(), factor)));

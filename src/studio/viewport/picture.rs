@@ -3,7 +3,7 @@
 use super::geometry::Geometry;
 use super::renderer::ViewCallback;
 use crate::engine::Shape;
-use crate::picture::layers::{Ghost, Shared};
+use crate::picture::layers::Ghost;
 use crate::picture::palette::{Palette, Theme};
 use crate::picture::ramp::Bar;
 use crate::picture::{Color, Layers, Silhouette, Subject};
@@ -61,10 +61,10 @@ fn ghosts(session: &Session, drawn: &Drawn<'_>) -> Vec<Ghost> {
             Theme::Dark => (Color(120, 176, 255, 255), Color(255, 166, 84, 255)),
         };
         let both = look.onion.shapes.iter().zip([before, after]);
-        ghosts.extend(both.filter_map(|(shape, color)| Some(Ghost { shape: Shared::of(shape.as_ref()?), color })));
+        ghosts.extend(both.filter_map(|(shape, color)| Some(Ghost { shape: shape.clone()?, color })));
     }
     if let (Views::Overlay, Some(shape)) = (look.views, drawn.beside) {
-        ghosts.push(Ghost { shape: Shared::of(shape), color: Palette::of(look.theme).target });
+        ghosts.push(Ghost { shape: Arc::clone(shape), color: Palette::of(look.theme).target });
     }
     ghosts
 }

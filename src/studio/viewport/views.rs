@@ -143,5 +143,5 @@ fn displayed(session: &Session, plushie: Plushie) -> Option<&Arc<Shape>> {
 
 fn fit(design: &Design, size: Vec2) -> Camera {
     let (low, high) = polygon::bounding_box(&design.mesh.nodes);
-    Camera::fit(low, high, size)
+    Camera::close(low, high, size)
 }

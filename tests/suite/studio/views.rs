@@ -92,7 +92,7 @@ fn a_crumpled_body_is_told_and_not_called_in_equilibrium() {
     assert_eq!(wound(10.0).warning, None);
     let crumpled = wound(85.0);
     assert!(crumpled.warning.as_ref().is_some_and(Warning::is_crumpled), "{:?}", crumpled.warning);
-    design.keyframes.push(key(0.0, 85.0));
+    design.keyframes = vec![key(0.0, 85.0), key(0.2, 85.0)];
     let mut window = window(design);
     click(&mut window, "Play");
     wait(&mut window, |s| s.is_settled() && !s.playback().playing);
@@ -138,6 +138,11 @@ fn every_look_can_be_chosen_and_colours_say_what_they_are() {
 #[test]
 fn the_selection_fills_the_views_and_with_none_the_posed_plushies_do() {
     let mut window = with_network();
+    // The target that was made is selected: its goal is in the middle.
+    press(&mut window, Modifiers::SHIFT, Key::F);
+    let target = session(&window).look().camera.expect("framed");
+    assert!((target.center[0] - 115.0).abs() < 10.0 && target.center[1] > 30.0, "{target:?}");
+    click(&mut window, "Pose 1");
     press(&mut window, Modifiers::SHIFT, Key::F);
     let posed = session(&window).look().camera.expect("framed");
     let shapes = |window: &Window| session(window).shapes().idealized.clone().unwrap().nodes.clone();
