@@ -105,7 +105,7 @@ fn open_studio(cli: &Cli) -> Result<(), CommandError> {
     let design = cli.design.as_deref().map(commands::document::load).transpose()?;
     files::survive_size_limits();
     studio::run(design, cli.design.clone()).map_err(|error| match error {
-        StudioError::Failed(_) => CommandError::Failed(error.to_string()),
+        StudioError::Failed(_) | StudioError::AdapterLost => CommandError::Failed(error.to_string()),
         _ => CommandError::Environment(error.to_string()),
     })
 }

@@ -100,6 +100,17 @@ impl Worker {
         self.shared.changed.notify_all();
     }
 
+    /// Whether a thread of it has broken down: nothing will come any more.
+    pub fn is_dead(&self) -> bool {
+        self.threads.iter().any(JoinHandle::is_finished)
+    }
+
+    /// One whose thread breaks down at the first request.
+    #[cfg(all(test, feature = "studio"))]
+    pub(crate) fn mortal(wake: Box<dyn Fn() + Send>) -> Self {
+        Self::with(wake, |_, _, _| panic!("a thread that is meant to break down"))
+    }
+
     /// The newest outcome that has not been taken.
     pub fn take(&self) -> Option<Outcome> {
         self.shared.lock().outcome.take()

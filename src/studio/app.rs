@@ -1,6 +1,7 @@
 //! The window: state, and one update a frame.
 
 use super::action::{Action, FileAction};
+use super::adapter::Lost;
 use super::pacing::Pacing;
 use super::panels;
 use super::session::{Services, Session, desktop_has_dialogs};
@@ -28,6 +29,7 @@ pub struct Studio {
     tools: Toolbox,
     pacing: Pacing,
     title: String,
+    lost: Lost,
 }
 
 impl Studio {
@@ -48,7 +50,14 @@ impl Studio {
             tools,
             pacing: Pacing::default(),
             title: String::new(),
+            lost: Lost::default(),
         }
+    }
+
+    /// Ends, with its work kept, when the adapter is lost.
+    pub(super) fn watching(mut self, lost: Lost) -> Self {
+        self.lost = lost;
+        self
     }
 
     /// Lets the views draw with the window's renderer, and lets the desktop's dialogs appear.
@@ -57,6 +66,8 @@ impl Studio {
         const SAMPLES: u32 = 1;
         if let Some(state) = state {
             viewport::renderer::install(state, SAMPLES);
+            let wake = self.session.jobs.wake();
+            self.lost.watch(state, move || wake());
             self.session.gpu = true;
         }
         self.session.files.native_dialogs = desktop_has_dialogs();
@@ -213,7 +224,7 @@ impl Studio {
             acts::keep::sized(&mut self.session, [size.width(), size.height()]);
         }
         let drawing = self.tools.unfinished(&self.session);
-        if acts::keep::is_ending() && !self.session.files.quit {
+        if (acts::keep::is_ending() || self.lost.is()) && !self.session.files.quit {
             acts::keep::end(&mut self.session, drawing);
         } else if !self.session.files.quit {
             acts::keep::keep(&mut self.session, drawing);
@@ -260,6 +271,44 @@ mod tests {
     use crate::studio::{blank, services};
     use egui_kittest::Harness;
     use egui_kittest::kittest::Queryable;
+
+    #[test]
+    fn a_lost_adapter_does_not_take_the_work_with_it() {
+        use crate::studio::keeper::Abandoned;
+        use crate::studio::offscreen::Screen;
+        let Ok(mut screen) = Screen::new([640, 480], 1.0) else {
+            eprintln!("no graphics adapter: nothing could be lost");
+            return;
+        };
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::at(folder.path());
+        let ctx = egui::Context::default();
+        let design = crate::design::bundled::ALL[0].design().unwrap();
+        let studio = Studio::new(&ctx, design, None, services()).with_window(Some(&screen.state), Theme::Light);
+        let mut studio = studio.with_store(&ctx, store.clone());
+        let mut frame = |studio: &mut Studio| {
+            let input = egui::RawInput { screen_rect: Some(screen.rect()), ..Default::default() };
+            let output = ctx.run_ui(input, |ui| studio.update(ui));
+            screen.draw(&ctx, output, [0.0; 4]);
+        };
+        frame(&mut studio);
+        studio
+            .session
+            .document
+            .history
+            .edit("Rename", |design| {
+                design.name = "kept".into();
+                Ok::<(), crate::design::EditError>(())
+            })
+            .unwrap();
+        frame(&mut studio);
+        studio.lost.raise();
+        frame(&mut studio);
+        assert!(studio.session.files.quit);
+        drop(studio);
+        let (kept, _) = Abandoned::find(&store);
+        assert_eq!(kept.len(), 1);
+    }
 
     #[test]
     fn an_import_that_is_ready_asks_about_what_is_only_being_drawn() {

@@ -15,6 +15,11 @@ pub fn tick(session: &mut Session, now_s: f64, passed_s: f64, hands_off: bool) {
         take(session, finished);
     }
     motors::follow(session);
+    if session.solver.revive() {
+        session.messages.error(
+            "The solver broke down and was started again. Your work is as it was; the last good shapes are shown",
+        );
+    }
     session.solver.take(session.design().mesh.nodes.len());
     if hands_off {
         session.document.history.commit();

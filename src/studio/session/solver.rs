@@ -84,6 +84,19 @@ impl Solver {
         self.quality = next.unwrap_or(Quality::ALL[0]);
     }
 
+    /// Starts the solver's thread again where it has broken down, and asks again what was asked. Whether that was so.
+    pub fn revive(&mut self) -> bool {
+        if !self.worker.is_dead() {
+            return false;
+        }
+        let wake = self.wake.clone();
+        self.worker = Worker::spawn(Box::new(move || wake()));
+        if let Some(asked) = &self.asked {
+            self.worker.submit(asked.clone());
+        }
+        true
+    }
+
     /// Takes what the worker has found for a body of so many nodes.
     pub fn take(&mut self, nodes: usize) {
         let Some(outcome) = self.worker.take().filter(|outcome| outcome.id >= self.first_id) else { return };
@@ -146,6 +159,23 @@ fn same_setpoint(a: &Setpoint, b: &Setpoint) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_thread_that_breaks_down_is_started_again_and_answers() {
+        let design = Arc::new(crate::studio::blank::design());
+        let mut solver = Solver::new(&design, Arc::new(|| ()));
+        assert!(!solver.revive());
+        solver.worker = Worker::mortal(Box::new(|| ()));
+        solver.ask(design.clone(), Setpoint::Targets(Vec::new()), [true, true]);
+        while !solver.worker.is_dead() {
+            std::thread::yield_now();
+        }
+        assert!(solver.revive() && !solver.worker.is_dead());
+        while solver.shapes.realizable.is_none() {
+            solver.take(design.mesh.nodes.len());
+            std::thread::yield_now();
+        }
+    }
 
     #[test]
     fn only_a_shape_far_from_equilibrium_is_worth_a_warning() {

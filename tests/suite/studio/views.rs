@@ -222,3 +222,17 @@ fn onion_skins_are_the_plushie_at_the_neighbouring_keyframes() {
     press(&mut window, Modifiers::SHIFT, Key::K);
     wait(&mut window, |s| s.look().onion.shapes[1].is_none());
 }
+
+#[test]
+fn any_size_is_survived_and_the_plushies_are_there_again() {
+    let mut window = with_network();
+    for (width, height) in [(300.0, 200.0), (1.0, 1.0), (0.0, 0.0), (2000.0, 30.0), (90.0, 1200.0), (1280.0, 800.0)] {
+        window.set_size(vec2(width, height));
+        for _ in 0..3 {
+            window.step();
+        }
+    }
+    settle(&mut window);
+    assert!(window.get_by_label("Idealized view").rect().width() > 300.0);
+    pose(&mut window, "Realizable view");
+}
