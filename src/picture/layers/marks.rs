@@ -8,6 +8,8 @@ use crate::picture::scene::Item;
 use crate::picture::silhouette::Silhouette;
 
 pub const SEAM: f32 = 3.0;
+/// The seam where the felt beside it is lit.
+pub const SEWN: f32 = 2.2;
 pub const FIBER_PASSIVE: f32 = 1.0;
 pub const FIBER_ACTIVE: f32 = 3.2;
 pub const TENDON: f32 = 3.4;

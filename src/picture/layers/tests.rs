@@ -153,7 +153,7 @@ fn looks_have_names_and_take_the_place_of_layers_that_are_there() {
     names.dedup();
     assert_eq!(names.len(), count);
     let known = |name: &&str| LAYERS.iter().any(|layer| layer.name == *name);
-    assert!(LOOKS.iter().all(|look| look.replaces.iter().all(|name| known(&name)) && !look.tip.ends_with('.')));
+    assert!(LOOKS.iter().all(|look| look.replaces.iter().all(known) && !look.tip.ends_with('.')));
 }
 
 #[test]

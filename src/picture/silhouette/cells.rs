@@ -37,11 +37,7 @@ pub fn cut(mesh: &Mesh, rim: &Rim, parts: usize) -> Cut {
                 return (side.clone(), true);
             }
             let key = [a.min(b), a.max(b)];
-            if !inner.contains_key(&key) {
-                let side = cut.inner_side(mesh, key, parts);
-                inner.insert(key, side);
-            }
-            let side = &inner[&key];
+            let side = inner.entry(key).or_insert_with(|| cut.inner_side(mesh, key, parts));
             let side = if a < b { side.clone() } else { side.iter().rev().map(|&(t, p)| (1.0 - t, p)).collect() };
             (side, false)
         });

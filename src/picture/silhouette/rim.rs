@@ -70,7 +70,7 @@ impl Rim {
         let rings = loops.iter().map(|ring| {
             let places: Vec<Point> = ring.iter().map(|&n| mesh.nodes[n]).collect();
             let known = outline.polygons().find_map(|drawn| along(&places, drawn, body_length));
-            let stretches = known.unwrap_or_else(|| smooth(&places));
+            let stretches = known.unwrap_or_else(|| smooth(&places, LONGEST_STEP * body_length));
             let next = |i: usize| ring[(i + 1) % ring.len()];
             stretches
                 .into_iter()
@@ -232,8 +232,9 @@ impl Corners<'_> {
     }
 }
 
-/// A smooth curve through the places of a rim that keeps its corners, and straight sides straight.
-fn smooth(places: &[Point]) -> Vec<Vec<(f64, Point)>> {
+/// A smooth curve through the places of a rim that keeps its corners, and straight sides straight, by points that are no farther apart than
+/// `longest`.
+fn smooth(places: &[Point], longest: f64) -> Vec<Vec<(f64, Point)>> {
     let count = places.len();
     let edge = |i: usize| between(places[i % count], places[(i + 1) % count]);
     let unit = |v: [f64; 2]| {
@@ -255,8 +256,9 @@ fn smooth(places: &[Point]) -> Vec<Vec<(f64, Point)>> {
         let (a, b) = (places[i], places[(i + 1) % count]);
         let length = polygon::length(a, b);
         let (m, n) = (tangent(i, i), tangent(i + 1, i));
-        let points = (0..LEAST_POINTS).map(|k| {
-            let t = k as f64 / LEAST_POINTS as f64;
+        let count = ((length / longest).ceil() as usize).max(LEAST_POINTS);
+        let points = (0..count).map(|k| {
+            let t = k as f64 / count as f64;
             let [h00, h10, h01, h11] = hermite(t);
             (t, [0, 1].map(|k| h00 * a[k] + h01 * b[k] + length * (h10 * m[k] + h11 * n[k])))
         });

@@ -60,6 +60,32 @@ struct Uniform {
     linear_target: f32,
 }
 
+/// Corners and capsules as the shaders read them.
+const CORNER: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
+    array_stride: size_of::<Corner>() as u64,
+    step_mode: wgpu::VertexStepMode::Vertex,
+    attributes: &wgpu::vertex_attr_array![0 => Float32x2, 1 => Float32x2, 2 => Float32, 3 => Unorm8x4],
+};
+const TEXTURED: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
+    array_stride: size_of::<Textured>() as u64,
+    step_mode: wgpu::VertexStepMode::Vertex,
+    attributes: &wgpu::vertex_attr_array![0 => Float32x2, 1 => Float32x2],
+};
+const WOOLLY: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
+    array_stride: size_of::<Woolly>() as u64,
+    step_mode: wgpu::VertexStepMode::Vertex,
+    attributes: &wgpu::vertex_attr_array![
+        0 => Float32x2, 1 => Float32x2, 2 => Float32x2, 3 => Float32x2, 4 => Float32, 5 => Unorm8x4
+    ],
+};
+const CAPSULE: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
+    array_stride: size_of::<Capsule>() as u64,
+    step_mode: wgpu::VertexStepMode::Instance,
+    attributes: &wgpu::vertex_attr_array![
+        0 => Float32x2, 1 => Float32x2, 2 => Float32, 3 => Float32, 4 => Unorm8x4
+    ],
+};
+
 impl CallbackTrait for ViewCallback {
     fn prepare(
         &self,
@@ -140,37 +166,13 @@ impl Renderer {
                 cache: None,
             })
         };
-        let corner = wgpu::VertexBufferLayout {
-            array_stride: size_of::<Corner>() as u64,
-            step_mode: wgpu::VertexStepMode::Vertex,
-            attributes: &wgpu::vertex_attr_array![0 => Float32x2, 1 => Float32x2, 2 => Float32, 3 => Unorm8x4],
-        };
-        let textured = wgpu::VertexBufferLayout {
-            array_stride: size_of::<Textured>() as u64,
-            step_mode: wgpu::VertexStepMode::Vertex,
-            attributes: &wgpu::vertex_attr_array![0 => Float32x2, 1 => Float32x2],
-        };
-        let woolly = wgpu::VertexBufferLayout {
-            array_stride: size_of::<Woolly>() as u64,
-            step_mode: wgpu::VertexStepMode::Vertex,
-            attributes: &wgpu::vertex_attr_array![
-                0 => Float32x2, 1 => Float32x2, 2 => Float32x2, 3 => Float32x2, 4 => Float32, 5 => Unorm8x4
-            ],
-        };
-        let capsule = wgpu::VertexBufferLayout {
-            array_stride: size_of::<Capsule>() as u64,
-            step_mode: wgpu::VertexStepMode::Instance,
-            attributes: &wgpu::vertex_attr_array![
-                0 => Float32x2, 1 => Float32x2, 2 => Float32, 3 => Float32, 4 => Unorm8x4
-            ],
-        };
         let (list, strip) = (wgpu::PrimitiveTopology::TriangleList, wgpu::PrimitiveTopology::TriangleStrip);
         Self {
-            fill: pipeline("fill", plain, corner, list),
-            picture: pipeline("picture", &[Some(&layout), Some(&skin.layout)], textured, list),
-            felt: pipeline("felt", plain, woolly.clone(), list),
-            felt_picture: pipeline("felt_picture", &[Some(&layout), Some(&skin.layout)], woolly, list),
-            capsule: pipeline("capsule", plain, capsule, strip),
+            fill: pipeline("fill", plain, CORNER, list),
+            picture: pipeline("picture", &[Some(&layout), Some(&skin.layout)], TEXTURED, list),
+            felt: pipeline("felt", plain, WOOLLY, list),
+            felt_picture: pipeline("felt_picture", &[Some(&layout), Some(&skin.layout)], WOOLLY, list),
+            capsule: pipeline("capsule", plain, CAPSULE, strip),
             layout,
             skin,
             linear_target: if format.is_srgb() { 1.0 } else { 0.0 },

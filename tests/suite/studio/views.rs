@@ -94,8 +94,10 @@ fn a_crumpled_body_is_told_and_not_called_in_equilibrium() {
     assert!(crumpled.warning.as_ref().is_some_and(Warning::is_crumpled), "{:?}", crumpled.warning);
     design.keyframes = vec![key(0.0, 85.0), key(0.2, 85.0)];
     let mut window = window(design);
-    click(&mut window, "Play");
-    wait(&mut window, |s| s.is_settled() && !s.playback().playing);
+    window.get_by_label("Play").click();
+    wait(&mut window, |s| s.playback().playing);
+    window.key_press(Key::Space);
+    wait(&mut window, |s| !s.playback().playing);
     settle(&mut window);
     assert!(session(&window).solver_warning().is_some_and(|words| words.contains("felt would fold")));
     let line = window.get_by_label_contains("Realizable  ");

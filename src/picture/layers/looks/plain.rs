@@ -1,6 +1,5 @@
 //! Plain felt: the drawn silhouette in one colour.
 
-use crate::design::Design;
 use crate::engine::Shape;
 use crate::picture::layers::layer::{Layer, Shared};
 use crate::picture::layers::look::Look;
@@ -15,7 +14,6 @@ use crate::picture::silhouette::Silhouette;
 pub struct Plain {
     silhouette: Shared<Silhouette>,
     shape: Shared<Shape>,
-    design: Shared<Design>,
     theme: Theme,
 }
 
@@ -24,7 +22,7 @@ impl Layer for Plain {
 
     fn of(subject: &Subject<'_>) -> Option<Self> {
         let (silhouette, shape) = (Shared::of(&subject.silhouette), Shared::of(subject.shape));
-        Some(Self { silhouette, shape, design: Shared::of(subject.design), theme: subject.theme })
+        Some(Self { silhouette, shape, theme: subject.theme })
     }
 
     fn draw(&self, items: &mut Vec<Item>) {
