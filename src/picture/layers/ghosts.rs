@@ -1,4 +1,4 @@
-//! Ghosts: outlines of the same plushie in other states, behind what is shown: neighbouring keyframes, the other plushie.
+//! Ghosts: outlines of the same plushie in other states, over what is shown: neighbouring keyframes, the other plushie.
 
 use super::layer::{Layer, Shared};
 use super::subject::Subject;
@@ -15,10 +15,9 @@ pub struct Ghosts {
     ghosts: Vec<(Shared<Shape>, Color)>,
 }
 
-/// Width of an outline, logical pixels; strength of line and area, of 255.
+/// Width of an outline, logical pixels, and its strength, of 255.
 const LINE: f32 = 2.0;
 const STRONG: u8 = 210;
-const FAINT: u8 = 34;
 
 impl Layer for Ghosts {
     const NAME: &'static str = "ghosts";
@@ -35,8 +34,6 @@ impl Layer for Ghosts {
         for (shape, color) in &self.ghosts {
             let Some(points) = self.silhouette.places(&shape.nodes) else { continue };
             let lines = self.silhouette.lines(&points);
-            let (triangles, faint) = (self.silhouette.triangles.clone(), with_alpha(*color, FAINT));
-            items.push(Item::Mesh { points, triangles, color: faint });
             let color = with_alpha(*color, STRONG);
             items.extend(lines.into_iter().map(|points| Item::Line { points, width: LINE, color, closed: true }));
         }

@@ -3,7 +3,8 @@
 use super::geometry::Geometry;
 use super::renderer::ViewCallback;
 use crate::engine::Shape;
-use crate::picture::layers::Ghost;
+use crate::picture::layers::looks::Gap;
+use crate::picture::layers::{Ghost, Layer};
 use crate::picture::palette::{Palette, Theme};
 use crate::picture::ramp::Bar;
 use crate::picture::{Color, Layers, Silhouette, Subject};
@@ -63,7 +64,9 @@ fn ghosts(session: &Session, drawn: &Drawn<'_>) -> Vec<Ghost> {
         let both = look.onion.shapes.iter().zip([before, after]);
         ghosts.extend(both.filter_map(|(shape, color)| Some(Ghost { shape: shape.clone()?, color })));
     }
-    if let (Views::Overlay, Some(shape)) = (look.views, drawn.beside) {
+    // The gap is such an outline already, in colours.
+    let overlaid = look.views == Views::Overlay && look.body != Gap::NAME;
+    if let Some(shape) = drawn.beside.filter(|_| overlaid) {
         ghosts.push(Ghost { shape: Arc::clone(shape), color: Palette::of(look.theme).target });
     }
     ghosts

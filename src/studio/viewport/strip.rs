@@ -1,5 +1,6 @@
 //! What stands over the views: how the body is shown, and how one looks at it.
 
+use super::rulers::WIDTH as WIDTH_OF_RULER;
 use crate::picture::layers::look;
 use crate::studio::action::Actions;
 use crate::studio::canvas::Hit;
@@ -20,7 +21,8 @@ pub fn show(ui: &mut Ui, session: &Session, area: Rect, actions: &mut Actions) {
     if size.x < 60.0 || area.height() < 3.0 * HEIGHT {
         return;
     }
-    let corner = area.right_top() + vec2(-INSET - size.x, INSET);
+    let below = if session.look().rulers { WIDTH_OF_RULER } else { 0.0 };
+    let corner = area.right_top() + vec2(-INSET - size.x, INSET + below);
     let place = UiBuilder::new()
         .id_salt("how the views are shown")
         .max_rect(Rect::from_min_size(corner, size))

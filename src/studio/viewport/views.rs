@@ -3,7 +3,6 @@
 use super::picture::{Drawn, Picture};
 use super::silhouettes::Silhouettes;
 use super::{bars, captions, loads, pointer, rulers, strings, strip};
-use crate::design::Design;
 use crate::engine::Shape;
 use crate::outline::{Point, polygon};
 use crate::studio::action::Actions;
@@ -50,7 +49,7 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut State, tool: &mut dyn To
             state.views[plushie as usize].seen = None;
             continue;
         }
-        let camera = session.look.camera_of(plushie).unwrap_or_else(|| fit(session.design(), rect.size()));
+        let camera = session.look.camera_of(plushie).unwrap_or_else(|| fit(session, rect.size()));
         let shape = displayed(session, plushie);
         let canvas = Canvas { session, rect, camera, ground: Ground::Plushie(plushie, shape.map(Arc::as_ref)) };
         let hit = view(ui, &canvas, (plushie, shape), state, tool, actions);
@@ -141,7 +140,9 @@ fn displayed(session: &Session, plushie: Plushie) -> Option<&Arc<Shape>> {
     }
 }
 
-fn fit(design: &Design, size: Vec2) -> Camera {
-    let (low, high) = polygon::bounding_box(&design.mesh.nodes);
-    Camera::close(low, high, size)
+/// The body at rest, as large as the view allows beside what stands over it.
+fn fit(session: &Session, size: Vec2) -> Camera {
+    let (low, high) = polygon::bounding_box(&session.design().mesh.nodes);
+    let rulers = if session.look().rulers { 2.0 * rulers::WIDTH } else { 0.0 };
+    Camera::close(low, high, (size - Vec2::splat(rulers)).max(Vec2::splat(1.0)))
 }
