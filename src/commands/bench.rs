@@ -168,6 +168,9 @@ enum Study {
         /// Rounds of the joint search
         #[arg(long, default_value_t = defaults::RIG_ROUNDS)]
         rounds: usize,
+        /// Muscle fibres of the toys
+        #[arg(long, default_value_t = defaults::FIBERS, alias = "fibres")]
+        fibers: usize,
         /// Winches of the toys
         #[arg(long, default_value_t = 3)]
         winches: usize,
@@ -321,14 +324,15 @@ impl Study {
                 scene::Scene { shapes: common.shapes(&["pig"]), frames: *frames }.run(session)
             }
             Self::Window { .. } => Err(BenchError::Nothing("this build has no window (feature `studio`)".into())),
-            Self::Networks { rounds, winches, tendons, moves, curve, common } => {
+            Self::Networks { rounds, fibers, winches, tendons, moves, curve, common } => {
                 let shapes = match common.shapes.as_slice() {
                     [] => networks::names(),
                     [all] if all == "all" => networks::names(),
                     named => named.to_vec(),
                 };
-                let (rounds, winches, tendons) = (*rounds, *winches, *tendons);
-                networks::Networks { shapes, rounds, winches, tendons, moves: *moves, curve: *curve }.run(session)
+                let (rounds, fibers, winches, tendons) = (*rounds, *fibers, *winches, *tendons);
+                networks::Networks { shapes, rounds, fibers, winches, tendons, moves: *moves, curve: *curve }
+                    .run(session)
             }
             Self::Import { dir, fibers, limit, reading, .. } => {
                 let import = reading.import();

@@ -4,7 +4,7 @@ use super::cables::points;
 use crate::defaults;
 use crate::design::Design;
 use crate::engine::{Setpoint, solve_once};
-use crate::motion::{Trajectory, spool_degrees, winch_loads};
+use crate::motion::{MotionError, Trajectory, spool_degrees, winch_loads};
 use crate::sewing::turning;
 use std::f64::consts::PI;
 use std::sync::atomic::AtomicBool;
@@ -57,6 +57,22 @@ pub fn demands(design: &Design, trajectory: &Trajectory) -> Vec<Demand> {
         demand.turn_degrees = spool_degrees(design, demand.wound_mm);
     }
     all
+}
+
+/// The winch that asks for most beyond the torque of its motor, where that torque is only assumed; `None` where all are strong enough.
+///
+/// # Errors
+/// [`MotionError::TooWeak`] where the maker has set the torque.
+pub fn strong_enough(
+    design: &Design,
+    trajectory: &Trajectory,
+    demands: &[Demand],
+) -> Result<Option<MotionError>, MotionError> {
+    let has_nmm = design.controller.torque_nmm;
+    let most = trajectory.winches.iter().zip(demands).max_by(|a, b| a.1.torque_nmm.total_cmp(&b.1.torque_nmm));
+    let Some((winch, demand)) = most.filter(|(_, demand)| demand.torque_nmm > has_nmm) else { return Ok(None) };
+    let error = MotionError::TooWeak { winch: winch.clone(), needs_nmm: demand.torque_nmm, has_nmm };
+    if has_nmm == defaults::MOTOR_TORQUE_NMM { Ok(Some(error)) } else { Err(error) }
 }
 
 /// The activations of the keyframes that wind the most, each once.

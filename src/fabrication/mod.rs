@@ -55,7 +55,7 @@ pub use crate::files::sha256;
 pub use blueprint::{File, Manifest, blueprint, export};
 pub use cables::{holes, tendon_length_mm};
 pub use catalogue::{Catalogue, CatalogueError};
-pub use demand::{Demand, demands};
+pub use demand::{Demand, demands, strong_enough};
 pub use error::ExportError;
 pub use options::{Options, Topic, Topics};
 pub use preset::{Cutter, Preset, SheetSize};

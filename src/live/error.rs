@@ -1,5 +1,6 @@
 //! What ends a live drive.
 
+use crate::motion::MotionError;
 use std::io;
 use thiserror::Error;
 
@@ -36,6 +37,8 @@ pub enum Cause {
     NotHome { who: String, at_mm: f64, within_s: f64 },
     #[error("the line is too slow: a move that was to be sent within {slot_s:.3} s was {late_s:.2} s late")]
     TooSlow { slot_s: f64, late_s: f64 },
+    #[error(transparent)]
+    Motion(#[from] MotionError),
 }
 
 /// How the motors were left.

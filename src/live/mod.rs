@@ -50,7 +50,7 @@ pub use link::Link;
 pub use player::{LIMIT_TOLERANCE_MM, PATIENCE_S, Player, Stage};
 #[cfg(unix)]
 pub use pseudo_terminal::PseudoTerminal;
-pub use remote::{Open, Order, Remote, Status};
+pub use remote::{Motion, Open, Order, Remote, Status};
 pub use report::Played;
 pub use serial::{SerialLink, ports};
 pub use simulated::SimulatedLink;

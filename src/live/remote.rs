@@ -3,7 +3,7 @@
 use super::error::{Cause, End, LiveError};
 use super::link::Link;
 use super::player::{Player, Stage};
-use crate::motion::{Plan, Stream};
+use crate::motion::{MotionError, Plan, Stream};
 use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -52,6 +52,15 @@ pub struct Remote {
 /// Opens the line: on the thread, as that may take long.
 pub type Open = Box<dyn FnOnce() -> io::Result<Box<dyn Link>> + Send>;
 
+/// The motion that is played when that is ordered.
+pub struct Motion {
+    pub plan: Plan,
+    /// No slot is shorter, s.
+    pub least_slot_s: f64,
+    /// Whether the motors may play it: asked before each time, on the thread, as the answer may take long.
+    pub allowed: Box<dyn Fn() -> Result<(), MotionError> + Send>,
+}
+
 struct Shared {
     order: Mutex<Option<Order>>,
     come: Condvar,
@@ -68,13 +77,7 @@ const LOOK: Duration = Duration::from_millis(50);
 
 impl Remote {
     /// Opens a line and waits for orders. `wake` is called when the status has changed.
-    pub fn start(
-        open: Open,
-        stream: Box<dyn Stream>,
-        plan: Plan,
-        least_slot_s: f64,
-        wake: impl Fn() + Send + Sync + 'static,
-    ) -> Self {
+    pub fn start(open: Open, stream: Box<dyn Stream>, motion: Motion, wake: impl Fn() + Send + Sync + 'static) -> Self {
         let shared = Arc::new(Shared {
             order: Mutex::new(None),
             come: Condvar::new(),
@@ -84,7 +87,7 @@ impl Remote {
             wake: Box::new(wake),
         });
         let (own, watch) = (shared.clone(), shared.clone());
-        let player = std::thread::spawn(move || own.run(open, &*stream, &plan, least_slot_s));
+        let player = std::thread::spawn(move || own.run(open, &*stream, &motion));
         let watcher = std::thread::spawn(move || watch.watch());
         Self { shared, threads: vec![player, watcher] }
     }
@@ -145,9 +148,9 @@ impl Shared {
         }
     }
 
-    fn run(&self, open: Open, stream: &dyn Stream, plan: &Plan, least_slot_s: f64) {
+    fn run(&self, open: Open, stream: &dyn Stream, motion: &Motion) {
         let outcome = open().map_err(|e| LiveError { cause: Cause::Port(e), end: End::Off });
-        let outcome = outcome.and_then(|mut link| self.serve(&mut *link, stream, plan, least_slot_s));
+        let outcome = outcome.and_then(|mut link| self.serve(&mut *link, stream, motion));
         let error = match outcome {
             Err(error) => error,
             Ok(()) => LiveError { cause: Cause::Cancelled, end: End::Off },
@@ -156,7 +159,7 @@ impl Shared {
         self.tell(Status::Ended { why: error.to_string(), wanted });
     }
 
-    fn serve(&self, link: &mut dyn Link, stream: &dyn Stream, plan: &Plan, least_slot_s: f64) -> Result<(), LiveError> {
+    fn serve(&self, link: &mut dyn Link, stream: &dyn Stream, motion: &Motion) -> Result<(), LiveError> {
         // Zero may have to be set first: beyond the travel, everything else is refused when it is asked for.
         let mut player = Player::found(stream, link, &self.cancel)?;
         let mut told_mm = player.places_mm()?;
@@ -169,7 +172,11 @@ impl Shared {
                 }
                 Some(Order::SetZero) => player.set_zero()?,
                 Some(Order::Play) => {
-                    drop(player.play(plan, least_slot_s, &mut |stage| self.tell(Status::from(stage)))?)
+                    if let Err(error) = (motion.allowed)() {
+                        return Err(LiveError { cause: error.into(), end: player.halt() });
+                    }
+                    let tell = &mut |stage| self.tell(Status::from(stage));
+                    drop(player.play(&motion.plan, motion.least_slot_s, tell)?)
                 }
                 Some(Order::Home) => {
                     self.tell(Status::Homing);

@@ -2,8 +2,10 @@
 
 use super::{Cancelled, Context};
 use crate::design::Design;
+use crate::fabrication::{demands, strong_enough};
 use crate::live::{
-    Cause, End, Fault, Link, LiveError, Open, Played, Player, Remote, SerialLink, SimulatedLink, Simulation, Stage,
+    Cause, End, Fault, Link, LiveError, Motion, Open, Played, Player, Remote, SerialLink, SimulatedLink, Simulation,
+    Stage,
 };
 use crate::motion::{Family, Forecast, Machine, MotionError, Plan, Stream, TooFast, Trajectory, families};
 use serde::{Deserialize, Serialize};
@@ -145,6 +147,9 @@ pub fn run(
             return Err(Error::WrongCount { given: lengths_mm.len(), winches });
         }
     }
+    if matches!(options.action, Action::Play(_)) {
+        allowed(design, options.too_fast)?;
+    }
     let mut link = open(&prepared, options)?;
     act(&prepared, options, &mut *link, context, tell).map_err(|error| match error {
         LiveError { cause: Cause::Cancelled, end: End::Off | End::SwitchedOff } => Error::Cancelled(Cancelled),
@@ -212,7 +217,17 @@ pub fn remote(design: &Design, options: &Options, wake: impl Fn() + Send + Sync 
         Some(simulation) => Ok(Box::new(SimulatedLink::paced(simulation)) as Box<dyn Link>),
         None => Ok(Box::new(SerialLink::open(&port, baud)?)),
     });
-    Ok(Remote::start(open, prepared.stream, prepared.plan, prepared.least_slot_s, wake))
+    let (design, too_fast) = (design.clone(), options.too_fast);
+    let allowed = Box::new(move || allowed(&design, too_fast));
+    let motion = Motion { plan: prepared.plan, least_slot_s: prepared.least_slot_s, allowed };
+    Ok(Remote::start(open, prepared.stream, motion, wake))
+}
+
+/// Whether a design's motors are strong enough for its motion, where their maker has said how strong they are.
+fn allowed(design: &Design, too_fast: TooFast) -> Result<(), MotionError> {
+    let acting = design.acting();
+    let trajectory = Trajectory::of(&acting, too_fast)?;
+    strong_enough(&acting, &trajectory, &demands(&acting, &trajectory)).map(drop)
 }
 
 /// Time until a simulated reply, s: that of a USB adapter.

@@ -17,6 +17,8 @@ pub enum What {
     Pieces,
     /// Thin parts widened.
     ThinParts,
+    /// Hair, finer than scissors follow, shaved off.
+    Hairs,
     /// Points in which the boundary touched itself joined.
     Pinches,
     /// Boundary smoothed as asked.
@@ -42,7 +44,7 @@ pub struct Changes {
     pub painted_mm2: f64,
     /// Area of the outline, mm^2.
     pub outline_mm2: f64,
-    /// Area that the clean-up added or removed without being asked, as a part of the silhouette's area: at most 2 %.
+    /// Area that the clean-up added or removed without being asked, as a part of the silhouette's area: at most 2 %, hair aside.
     pub unasked: f64,
     pub steps: Vec<Change>,
     /// Notes of the reader and the clean-up. Whoever writes this down words them.
@@ -63,6 +65,7 @@ impl Change {
             What::Holes => count("hole", "holes") + " filled",
             What::Pieces => count("smaller piece", "smaller pieces") + " left out",
             What::ThinParts => count("thin part", "thin parts") + " widened",
+            What::Hairs => count("hair", "hairs") + " finer than scissors follow shaved off",
             What::Pinches => count("pinched point", "pinched points") + " joined",
             What::Smoothing => "boundary smoothed".to_owned(),
         };

@@ -26,6 +26,8 @@ const DEGENERATE_FRACTION: f64 = 1e-5;
 const HAIRLINE_FRACTION: f64 = 0.01;
 /// Area that widening hairlines may add, as a part of the silhouette.
 const HAIRLINE_BUDGET: f64 = 0.01;
+/// Area that hair may have, as a part of the silhouette: of more, it is what is drawn.
+const HAIR_BUDGET: f64 = 0.2;
 /// Diameter of the disc that joins a pinched point, as a fraction of the longer side of the box. Where two right angles meet
 /// tip to tip, the chord from side to side is that over the square root of 2: a little wider than a hairline.
 const PINCH_FRACTION: f64 = 1.5 * HAIRLINE_FRACTION;
@@ -86,6 +88,10 @@ fn shaped(shapes: Shapes, longer: f64, import: &Import, changes: &mut Changes) -
     // Offsets of polygons much finer than their distance take quadratic time.
     let shapes = simplified(shapes, 0.25 * SIMPLIFY_FRACTION * longer)?;
     let shapes = smooth_enough(shapes, longer, import, changes)?;
+    let (shapes, hairs) = shaved(shapes, longer, import, changes)?;
+    if hairs > 0 {
+        reference.clone_from(&shapes);
+    }
     let shapes = widened(shapes, longer, import.min_width_mm, changes)?;
     if import.min_width_mm.is_some() {
         reference.clone_from(&shapes);
@@ -291,6 +297,26 @@ fn widened(
         changes.notes.push(Note::ThinParts { count: kept, width_mm: width });
     }
     Ok(wide)
+}
+
+/// Without hair, where there is much of it and a width is not asked for.
+fn shaved(
+    shapes: Shapes,
+    longer: f64,
+    import: &Import,
+    changes: &mut Changes,
+) -> Result<(Shapes, usize), OutlineError> {
+    if import.min_width_mm.is_some() {
+        return Ok((shapes, 0));
+    }
+    let Some((smooth, hairs)) = thin::shaved(&shapes, HAIRLINE_FRACTION * longer)? else { return Ok((shapes, 0)) };
+    let area = regions::area(&shapes);
+    let cut = regions::unlike(&shapes, &smooth) / area;
+    if cut > HAIR_BUDGET {
+        return Ok((shapes, 0));
+    }
+    changes.add(What::Hairs, hairs, cut, false);
+    Ok((smooth, hairs))
 }
 
 fn smoothed(shapes: Shapes, tolerance: f64, changes: &mut Changes) -> Result<Shapes, OutlineError> {

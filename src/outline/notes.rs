@@ -20,6 +20,8 @@ pub enum Note {
     /// Text in a form that browsers do not show either.
     FlowedText(usize),
     EmbeddedPictures(usize),
+    /// A drawing has pictures alone and is read as one.
+    PicturesAlone,
     /// Of so many pages the first was read.
     Pages(usize),
     Filters,
@@ -77,6 +79,10 @@ pub enum Note {
     /// A sheet seen at an angle was straightened to these proportions.
     Straightened {
         width_to_height: f64,
+    },
+    /// This part of the boundary of what a picture shows is soft.
+    SoftEdge {
+        part: f64,
     },
     MostlyLines,
     /// What is drawn in lines was filled.
@@ -175,7 +181,7 @@ impl Note {
             Self::GroundCounts(_) => Some(Remedy::DropBackground),
             Self::Faint { .. } => Some(Remedy::Opacity),
             Self::NoUnit(_) | Self::Size(_) => Some(Remedy::Unit),
-            Self::Ink(_) => Some(Remedy::Threshold),
+            Self::Ink(_) | Self::SoftEdge { .. } => Some(Remedy::Threshold),
             Self::MostlyLines | Self::HolesWithin(_) => Some(Remedy::Holes),
             Self::LinesFilled => Some(Remedy::KeepHoles),
             Self::Closed { .. } | Self::NotClosed { .. } | Self::Joined { .. } | Self::OpenLines(_) => {
@@ -207,6 +213,7 @@ impl fmt::Display for Note {
                 write!(f, "{count} flowed text(s) left out, which browsers do not show either; convert them to paths")
             }
             Self::EmbeddedPictures(count) => write!(f, "{count} embedded picture(s) left out; only drawn shapes count"),
+            Self::PicturesAlone => f.write_str("the drawing has embedded pictures alone; what they show was read"),
             Self::Pages(count) => write!(f, "of {count} pages the first was read"),
             Self::Filters => f.write_str("filter effects (shadows, blurs) left out"),
             Self::OffPage => f.write_str("parts of the drawing lie off the page; they count"),
@@ -236,6 +243,11 @@ impl fmt::Display for Note {
             Self::Hatches(count) => write!(f, "nothing is closed but {count} hatch(es), whose areas count"),
             Self::LeftOut { count, kind } => write!(f, "{count} {kind} left out"),
             Self::Ink(level) => write!(f, "ink is what differs from the background by more than {level:.0} of 255"),
+            Self::SoftEdge { part } => write!(
+                f,
+                "{:.0} % of the boundary is soft, as where a shadow counts as ink: take the picture in even light, or scan it",
+                100.0 * part
+            ),
             Self::Specks { count, pixels } => {
                 write!(f, "{count} speck(s) of the picture, each under {pixels:.0} pixels, left out")
             }

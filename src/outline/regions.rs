@@ -15,6 +15,10 @@ pub(super) type Shapes = Vec<Vec<Vec<Point>>>;
 const ROUND_JOIN: f64 = 0.3;
 /// Most vertices that are united at once: a second or two and half a gigabyte.
 const MAX_POINTS: usize = 3_000_000;
+const TOO_MANY: OutlineError = OutlineError::TooComplex("has more than three million points");
+/// Areas of more points than this are united so many at a time.
+const BATCHED_FROM: usize = 20_000;
+const BATCH: usize = 48;
 /// Largest coordinate, in any unit: beyond it nothing is a drawing, and differences lose their digits.
 const MAX_COORDINATE: f64 = 1e12;
 /// Vertices from which crossings are estimated before the areas are resolved; fewer cannot cross too often.
@@ -35,7 +39,7 @@ pub(super) fn resolve(contours: &Vec<Vec<Point>>, rule: FillRule) -> Result<Shap
         return Err(OutlineError::Degenerate);
     }
     if points > MAX_POINTS {
-        return Err(OutlineError::TooComplex("has more than three million points"));
+        return Err(TOO_MANY);
     }
     if points > TANGLE_FROM && crossings(contours, points) > MAX_CROSSINGS {
         return Err(OutlineError::TooComplex("crosses itself millions of times"));
@@ -44,8 +48,41 @@ pub(super) fn resolve(contours: &Vec<Vec<Point>>, rule: FillRule) -> Result<Shap
 }
 
 /// One region from areas that may overlap.
-pub(super) fn union(shapes: Shapes) -> Result<Shapes, OutlineError> {
+///
+/// # Errors
+/// As [`resolve`].
+pub(super) fn union(mut shapes: Shapes) -> Result<Shapes, OutlineError> {
+    let points = |shapes: &Shapes| shapes.iter().flatten().map(Vec::len).sum::<usize>();
+    if points(&shapes) > MAX_POINTS {
+        return Err(TOO_MANY);
+    }
+    // Neighbours first: strokes that lie over each other by the thousand cross a million times, their unions hardly.
+    while shapes.len() > BATCH && points(&shapes) > BATCHED_FROM {
+        let before = shapes.len();
+        shapes = by_place(shapes);
+        let united = shapes.chunks(BATCH).map(|batch| resolve(&batch.concat(), FillRule::NonZero));
+        shapes = united.collect::<Result<Vec<_>, _>>()?.concat();
+        if 2 * shapes.len() > before {
+            break;
+        }
+    }
     resolve(&shapes.into_iter().flatten().collect(), FillRule::NonZero)
+}
+
+/// Areas in the order of a curve that fills their box (Morton 1966), so that those next to each other are near each other.
+fn by_place(mut shapes: Shapes) -> Shapes {
+    let (low, high) = bounding_box(&shapes);
+    let longer = (high[0] - low[0]).max(high[1] - low[1]).max(f64::MIN_POSITIVE);
+    let spread = |v: f64, from: f64| {
+        let cell = ((v - from) / longer * 65535.0) as u64;
+        (0..16).fold(0_u64, |bits, k| bits | (cell >> k & 1) << (2 * k))
+    };
+    shapes.sort_by_cached_key(|rings| {
+        let (low_corner, high_corner) = rings.first().map_or((low, low), |ring| polygon::bounding_box(ring));
+        let middle = polygon::lerp(low_corner, high_corner, 0.5);
+        spread(middle[0], low[0]) | spread(middle[1], low[1]) << 1
+    });
+    shapes
 }
 
 pub(super) fn intersection(a: &Shapes, b: &Shapes) -> Shapes {

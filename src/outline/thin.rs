@@ -25,6 +25,10 @@ const SPECK: f64 = 1e-3;
 const MAX_PIECES: usize = 2000;
 /// Most pieces after shrinking whose meetings are looked for.
 const MAX_LOBES: usize = 100;
+/// From so many thin ends on they are hair: no animal has as many whiskers.
+const HAIRS: usize = 40;
+/// Part of what is thick that is one piece where necks hold nothing together.
+const BODY: f64 = 0.95;
 /// Corners of the disc that joins a pinched point.
 const DISC: usize = 12;
 /// Rounds of joining pinched points, each with larger discs.
@@ -74,6 +78,31 @@ pub(super) fn widen(shapes: Shapes, width: f64, budget: f64) -> Result<Widened, 
     Ok(Widened { shapes, parts, kept: total.saturating_sub(parts) })
 }
 
+/// A silhouette of hair without it, and how many hairs there were: what a disc of the width reaches, with necks kept and gaps between tufts closed.
+/// `None` where few parts are that thin: whiskers and the like are there to be seen.
+pub(super) fn shaved(shapes: &Shapes, width: f64) -> Result<Option<(Shapes, usize)>, OutlineError> {
+    let r = 0.5 * width;
+    let opening = regions::grown(&regions::grown(shapes, -r), (1.0 + SLIVER) * r);
+    let mut rest = regions::difference(shapes, &opening);
+    rest.retain(|piece| regions::piece_area(piece) > SPECK * r * r);
+    let grid = Grid::new(shapes.iter().flatten().map(Vec::as_slice));
+    let (necks, ends): (Vec<_>, Vec<_>) = rest.into_iter().partition(|piece| cuts(piece, &grid, r).1 != 1);
+    let hairs = ends.iter().take(MAX_PIECES).filter(|piece| is_thin(piece, &grid, r)).count();
+    if hairs < HAIRS {
+        return Ok(None);
+    }
+    let whole = regions::area(&opening);
+    let body = opening.iter().map(|piece| regions::piece_area(piece)).fold(0.0, f64::max);
+    // Necks hold a body together, or are hairs that cross.
+    let kept = if body > BODY * whole { opening } else { regions::union([opening, necks].concat())? };
+    let closed = regions::grown(&regions::grown(&kept, r), -(1.0 + SLIVER) * r);
+    let mut shaved = regions::union([kept, closed].concat())?;
+    // Tufts that hung together by hairs alone.
+    shaved.sort_by(|a, b| regions::piece_area(b).total_cmp(&regions::piece_area(a)));
+    shaved.truncate(1);
+    Ok(Some((shaved, hairs)))
+}
+
 /// Where the pieces that shrinking parted meet when they are grown again, unless across a gap.
 fn joints(shapes: &Shapes, shrunk: &Shapes, r: f64) -> Vec<Point> {
     if !(2..=MAX_LOBES).contains(&shrunk.len()) {
@@ -116,6 +145,17 @@ pub(super) fn narrow_parts(shapes: &Shapes, width: f64) -> usize {
 
 /// Whether a piece of the rest is a neck, or reaches far from its cut.
 fn is_thin(piece: &[Vec<Point>], grid: &Grid, r: f64) -> bool {
+    let (cuts, runs) = cuts(piece, grid, r);
+    if runs != 1 {
+        return true;
+    }
+    let reach =
+        |p: &Point| cuts.iter().map(|&(a, b)| polygon::distance_to_segment(a, b, *p)).fold(f64::INFINITY, f64::min);
+    piece.iter().flatten().any(|p| reach(p) > CORNER_REACH * r)
+}
+
+/// The sides of a piece of the rest along which it borders on the opening, and in how many runs.
+fn cuts(piece: &[Vec<Point>], grid: &Grid, r: f64) -> (Vec<(Point, Point)>, usize) {
     let mut cuts: Vec<(Point, Point)> = Vec::new();
     let mut runs = 0;
     for ring in piece {
@@ -127,12 +167,7 @@ fn is_thin(piece: &[Vec<Point>], grid: &Grid, r: f64) -> bool {
         runs += if starts == 0 && on_cut.contains(&true) { 1 } else { starts };
         cuts.extend(polygon::sides(ring).zip(&on_cut).filter(|(_, cut)| **cut).map(|(side, _)| side));
     }
-    if runs != 1 {
-        return true;
-    }
-    let reach =
-        |p: &Point| cuts.iter().map(|&(a, b)| polygon::distance_to_segment(a, b, *p)).fold(f64::INFINITY, f64::min);
-    piece.iter().flatten().any(|p| reach(p) > CORNER_REACH * r)
+    (cuts, runs)
 }
 
 /// Joins the places where the boundary touches itself in a point by a disc of diameter `width`; returns how many.

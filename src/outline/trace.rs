@@ -20,6 +20,14 @@ impl Field {
         f64::from(self.values[y as usize * self.width + x as usize])
     }
 
+    /// How steep the field is about a point (samples, y up), by differences over so many samples each way, per sample.
+    pub fn slope(&self, [x, y]: Point, reach: isize) -> f64 {
+        let (x, y) = ((x - 0.5).round() as isize, (-y - 0.5).round() as isize);
+        let across = self.at(x + reach, y) - self.at(x - reach, y);
+        let down = self.at(x, y + reach) - self.at(x, y - reach);
+        across.hypot(down) / (2 * reach) as f64
+    }
+
     /// Each value averaged with its neighbours (weights 1 2 1 along each axis), `passes` times.
     pub fn blurred(mut self, passes: usize) -> Self {
         for _ in 0..passes {

@@ -29,6 +29,8 @@ const FINALISTS: usize = 5;
 const SHARPENING: usize = 40;
 /// The best of those are improved for what a hand makes of them, too.
 const STEADIED: usize = 3;
+/// Errors that differ by less cannot be told from each other on the table, body lengths: half a millimetre of a hand's length.
+const SEEN: f64 = 2e-3;
 /// Rounds after which islands are left for new ones, if none has left less than this part of the worst pose's error.
 const PATIENCE: usize = 25;
 const GAIN: f64 = 0.99;
@@ -78,13 +80,8 @@ fn together(
     let searched = coarse.as_ref().unwrap_or(design);
     let found = layouts(searched, options, &topology, progress, cancel)?;
     let verified = judged(design, &found, coarse.is_some(), options, cancel)?;
-    let worst =
-        |poses: &[Verified], error: fn(&Verified) -> f64| poses.iter().map(|p| error(p) / p.rest).fold(0.0, f64::max);
-    // As a hand sews it where it should, with friction where the design has it; a rig that has no figure there is the last choice.
-    let real = |p: &Verified| p.sewn.map_or(p.real, |sewn| (0.5 * (sewn.median + sewn.worst)).max(p.real));
-    let order = |poses: &[Verified]| (worst(poses, real), worst(poses, |p| p.error));
-    let best = verified.into_iter().min_by(|a, b| order(&a.1).partial_cmp(&order(&b.1)).unwrap_or(Ordering::Equal));
-    let Some((rigged, poses)) = best.filter(|(_, poses)| helps(poses)) else {
+    let best = chosen(verified, options.rules).filter(|(_, poses)| helps(poses));
+    let Some((rigged, poses)) = best else {
         return Err(RigError::NothingFound);
     };
     let tendons = rigged.networks[design.networks.len()..].iter().map(|n| n.tendons.len()).sum();
@@ -92,6 +89,26 @@ fn together(
     let errors = poses.into_iter().map(|pose| (pose.name, pose.error)).collect();
     progress(Progress::Found { winches: rigged.networks.len() - design.networks.len(), tendons, errors, sewn });
     Ok(rigged)
+}
+
+/// The layout whose worst pose is best as a part of its error at rest: as a hand sews it where it should, with friction where the design has it; a
+/// rig that has no figure there is the last choice. Where it is to be sewn, it is the one that pulls least of those that nobody can tell from it: on
+/// the felt, on a hand, on a motor.
+fn chosen(mut verified: Vec<(Design, Vec<Verified>)>, sewn: bool) -> Option<(Design, Vec<Verified>)> {
+    let worst = |poses: &[Verified], error: fn(&Verified) -> f64| poses.iter().map(error).fold(0.0, f64::max);
+    let order = |poses: &[Verified]| (worst(poses, |p| p.real() / p.rest), worst(poses, |p| p.error / p.rest));
+    verified.sort_by(|a, b| order(&a.1).partial_cmp(&order(&b.1)).unwrap_or(Ordering::Equal));
+    let best: Vec<[f64; 2]> = verified.first()?.1.iter().map(|p| [p.real(), p.real]).collect();
+    let alike = |poses: &[Verified]| {
+        let worse = |(p, best): (&Verified, &[f64; 2])| p.real() > best[0] + SEEN || p.real > best[1] + SEEN;
+        !poses.iter().zip(&best).any(worse)
+    };
+    if sewn {
+        verified.retain(|(_, poses)| alike(poses));
+    }
+    let pulls = |poses: &[Verified]| if sewn { worst(poses, |p| p.pull_n) } else { 0.0 };
+    // The first of several alike.
+    verified.into_iter().min_by(|a, b| pulls(&a.1).total_cmp(&pulls(&b.1)))
 }
 
 /// What a check says of the layouts that were found, on the design's own mesh. Where that is interrupted, and results are kept, the best
@@ -264,6 +281,15 @@ struct Verified {
     /// Where it should be sewn.
     sewn: Option<Sewn>,
     rest: f64,
+    /// Largest pull of a winch, all its cables together, N.
+    pull_n: f64,
+}
+
+impl Verified {
+    /// What a real plushie does.
+    fn real(&self) -> f64 {
+        self.sewn.map_or(self.real, |sewn| (0.5 * (sewn.median + sewn.worst)).max(self.real))
+    }
 }
 
 /// Whether a rig brings the poses closer to their targets, all taken together: one winch may serve one pose of several.
@@ -291,7 +317,10 @@ fn verified(design: &Design, fit: &Fit, sewn: bool, cancel: &AtomicBool) -> (Des
         let checked = Checked::of(&with, &pose.targets, friction, cancel);
         let rest = target_error(design, &pose.targets, &design.mesh.nodes).max(f64::MIN_POSITIVE);
         let sewn = sewn.next();
-        Verified { name: pose.name.clone(), error: checked.error(), real: checked.real_error(), sewn, rest }
+        let mut tensions = checked.shape.tendon_tensions.iter();
+        let pulls = with.networks.iter().map(|network| tensions.by_ref().take(network.tendons.len()).sum());
+        let pull_n = pulls.fold(0.0, f64::max);
+        Verified { name: pose.name.clone(), error: checked.error(), real: checked.real_error(), sewn, rest, pull_n }
     });
     let poses = poses.collect();
     (with, poses)

@@ -433,8 +433,8 @@ fn studies_print_tables_and_leave_csv_and_plots() {
     assert_eq!(first.as_array().unwrap().len(), 2);
     assert_eq!(first[0]["not showable"], 0);
 
-    let networks =
-        ["bench", "networks", "--shapes", "cactus", "--winches", "1", "--tendons", "1", "--rounds", "0", "--json"];
+    let bounds = ["--winches", "1", "--tendons", "1", "--rounds", "0", "--fibers", "100", "--json"];
+    let networks = [["bench", "networks", "--shapes", "cactus"].as_slice(), &bounds].concat();
     let value: serde_json::Value = serde_json::from_str(&succeed(here, &networks)).unwrap();
     let rows = value["tables"]["networks"]["rows"].as_array().unwrap();
     assert_eq!(rows.len(), 4);

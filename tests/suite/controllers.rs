@@ -4,13 +4,16 @@ use crate::support::rigged;
 use plushwright::design::{Design, Material, bundled};
 use plushwright::engine::{Setpoint, solve_once};
 use plushwright::fabrication::{Options, blueprint};
+use plushwright::live::{Order, Remote, Status};
 use plushwright::motion::families::{bus, sdo};
 use plushwright::motion::{Framing, Plan, TooFast, counts_per_mm, hex};
+use plushwright::operations::{Context, play};
 use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::sync::atomic::AtomicBool;
+use std::time::Duration;
 
 /// All files of a blueprint by name.
 fn files(design: &Design) -> BTreeMap<String, Vec<u8>> {
@@ -71,7 +74,19 @@ fn a_motor_that_is_too_weak_is_told_or_refused_by_the_name_of_its_winch() {
     design.controller.torque_nmm = 0.01;
     let refused = blueprint(&design, &Options::default()).map(drop).expect_err("too weak").to_string();
     assert!(refused.contains("winch \"") && refused.contains("controller.torque_nmm"), "{refused}");
+    // Nor is it played live, by the command line or from the window; winding by hand is free.
+    let go = AtomicBool::new(false);
+    let live = play::Options::default();
+    let unplayed = |design: &Design| play::run(design, &live, &Context::new(&go), &mut |_| ()).map(drop);
+    assert_eq!(unplayed(&design).expect_err("too weak").to_string(), refused);
+    let remote = play::remote(&design, &live, || ()).expect("a line");
+    remote.order(Order::SetZero);
+    wait_for(&remote, |status| matches!(status, Status::Ready(_)));
+    remote.order(Order::Play);
+    let ended = wait_for(&remote, |status| matches!(status, Status::Ended { .. }));
+    assert_eq!(ended, Status::Ended { why: format!("{refused}; all motors are switched off"), wanted: false });
     design.controller.torque_nmm = 1e6;
+    unplayed(&design).expect("strong enough");
     let (_, manifest) = blueprint(&design, &Options::default()).expect("strong enough");
     assert!(!manifest.remarks.iter().any(|remark| remark.contains("controller.torque_nmm")));
     // The limit that is only assumed does not refuse what a stronger motor may do.
@@ -84,6 +99,17 @@ fn a_motor_that_is_too_weak_is_told_or_refused_by_the_name_of_its_winch() {
         manifest.remarks.iter().filter(|remark| remark.starts_with("Assumed of the motors: winch")).count()
     };
     assert_eq!(told(&stiff), 1);
+}
+
+fn wait_for(remote: &Remote, is: impl Fn(&Status) -> bool) -> Status {
+    loop {
+        remote.seen();
+        let status = remote.status();
+        if is(&status) {
+            return status;
+        }
+        std::thread::sleep(Duration::from_millis(2));
+    }
 }
 
 /// When the pulse of a channel ends, of 4096 parts of 20 ms, at given times, ms, of a sketch that is sent `setup` and `motion` at 100 and 1000.

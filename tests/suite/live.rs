@@ -3,8 +3,8 @@
 use crate::support::rigged;
 use plushwright::design::{Design, Easing, Keyframe, Network};
 use plushwright::live::{
-    End, Fault, FaultKind, LIMIT_TOLERANCE_MM, Link, LiveError, Order, Player, Remote, SimulatedLink, Simulation,
-    Status,
+    End, Fault, FaultKind, LIMIT_TOLERANCE_MM, Link, LiveError, Motion, Order, Player, Remote, SimulatedLink,
+    Simulation, Status,
 };
 use plushwright::motion::{Family, Machine, Plan, Stream, TooFast, Trajectory, families};
 use std::sync::atomic::AtomicBool;
@@ -175,7 +175,8 @@ fn a_winch_beyond_its_travel_is_refused_before_anything_moves() {
 fn remote(design: &Design, family: &'static Family) -> Remote {
     let (stream, plan) = spoken(design, family);
     let open = move || Ok(Box::new(SimulatedLink::new(Simulation::of(family, 3))) as Box<dyn Link>);
-    Remote::start(Box::new(open), stream, plan, 0.02, || ())
+    let motion = Motion { plan, least_slot_s: 0.02, allowed: Box::new(|| Ok(())) };
+    Remote::start(Box::new(open), stream, motion, || ())
 }
 
 fn wait(remote: &Remote, what: &str, is: impl Fn(&Status) -> bool) -> Status {

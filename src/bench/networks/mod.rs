@@ -38,6 +38,8 @@ pub struct Networks {
     /// Names of bundled designs and toys.
     pub shapes: Vec<String>,
     pub rounds: usize,
+    /// Fibres of toys, or the fewest that an outline allows where that is more.
+    pub fibers: usize,
     /// Winches and tendons of toys.
     pub winches: usize,
     pub tendons: usize,
@@ -119,7 +121,7 @@ impl Networks {
 
     fn case(&self, name: &str) -> Result<Case, BenchError> {
         if let Some(toy) = toys::ALL.iter().find(|toy| toy.name == name.to_lowercase()) {
-            let mut design = toy.design(defaults::FIBERS)?;
+            let mut design = toy.design(self.fibers)?;
             design.tendons.friction = 0.0;
             let tendons = TendonChoice::PerWinch(vec![self.tendons]);
             return Ok(Case { name: name.into(), design, winches: self.winches, tendons, shipped: false });

@@ -1,6 +1,6 @@
 //! The programs for motor controllers, family by family.
 
-use crate::defaults;
+use crate::fabrication::demand::strong_enough;
 use crate::fabrication::error::ExportError;
 use crate::fabrication::product::{Content, Part, Product, Source};
 use crate::motion::families::{self, classic};
@@ -13,7 +13,8 @@ use crate::motion::{
 pub(super) fn make(source: &Source<'_>) -> Result<Part, ExportError> {
     let machine = Machine::new(source.design, source.trajectory);
     let (mut products, mut guide, mut remarks) = (Vec::new(), how(), remarks(source));
-    remarks.extend(torque(source)?);
+    let weak = strong_enough(source.design, source.trajectory, source.demands())?;
+    remarks.extend(weak.map(|error| format!("Assumed of the motors: {error}.")));
     guide += &followed(source, &machine)?;
     let mut left_out: Vec<(String, Vec<&str>)> = Vec::new();
     for family in chosen(source)? {
@@ -173,20 +174,6 @@ fn ascii(machine: &Machine) -> String {
 ",
         motor.speed_rpm, motor.acceleration
     )
-}
-
-/// Winches that ask for more torque than their motors have: told where that limit is only assumed, refused where the maker has set it.
-fn torque(source: &Source<'_>) -> Result<Option<String>, MotionError> {
-    let has_nmm = source.design.controller.torque_nmm;
-    let most =
-        source.trajectory.winches.iter().zip(source.demands()).max_by(|a, b| a.1.torque_nmm.total_cmp(&b.1.torque_nmm));
-    let Some((winch, demand)) = most.filter(|(_, demand)| demand.torque_nmm > has_nmm) else { return Ok(None) };
-    let error = MotionError::TooWeak { winch: winch.clone(), needs_nmm: demand.torque_nmm, has_nmm };
-    if has_nmm == defaults::MOTOR_TORQUE_NMM {
-        Ok(Some(format!("Assumed of the motors: {error}.")))
-    } else {
-        Err(error)
-    }
 }
 
 /// What became of the animation, and where the line is too slow for it.

@@ -26,7 +26,7 @@ pub fn relaxed(membrane: &Membrane, start: Nodes) -> Nodes {
     let enough = FORCE * membrane.force_scale();
     let mut memory: Vec<Pair> = Vec::new();
     for _ in 0..MOST_ITERATIONS.min(MOST_WORK / membrane.size().max(1)) {
-        let largest = gradient.iter().flatten().map(|g| g.abs()).fold(0.0, f64::max);
+        let largest = gradient.as_flattened().iter().map(|g| g.abs()).fold(0.0, f64::max);
         if largest <= enough {
             break;
         }
@@ -91,7 +91,7 @@ fn descent(memory: &[Pair], gradient: &Nodes) -> Nodes {
     }
     if let Some(last) = memory.last() {
         let scale = last.curvature / product(&last.change, &last.change).max(f64::MIN_POSITIVE);
-        q.iter_mut().flatten().for_each(|v| *v *= scale);
+        q.as_flattened_mut().iter_mut().for_each(|v| *v *= scale);
     }
     for (pair, part) in memory.iter().zip(parts.into_iter().rev()) {
         let back = product(&pair.change, &q) / pair.curvature;
@@ -101,9 +101,11 @@ fn descent(memory: &[Pair], gradient: &Nodes) -> Nodes {
 }
 
 fn product(a: &Nodes, b: &Nodes) -> f64 {
-    a.iter().flatten().zip(b.iter().flatten()).map(|(p, q)| p * q).sum()
+    a.as_flattened().iter().zip(b.as_flattened()).map(|(p, q)| p * q).sum()
 }
 
 fn add(q: &mut Nodes, factor: f64, other: &Nodes) {
-    q.iter_mut().flatten().zip(other.iter().flatten()).for_each(|(v, o)| *v += factor * o);
+    for (v, o) in q.as_flattened_mut().iter_mut().zip(other.as_flattened()) {
+        *v += factor * o;
+    }
 }

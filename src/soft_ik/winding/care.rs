@@ -5,6 +5,10 @@ use super::walk::Pace;
 /// Up to this many winches, the lines lie on a lattice.
 pub const LATTICE: usize = 3;
 
+/// Factorisations of thorough walks: several times what all lines of a sound body take. One that crumples when it is wound would take a thousand times
+/// as many, and nothing that is found beyond is ever proved.
+const MOST_WALKING: usize = 2500;
+
 /// Bounds on the cost of a search for wound states, and the proof it owes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Care {
@@ -29,7 +33,7 @@ impl Care {
         spread: 8,
         pace: Pace { stride: 0.05, longest: 0.125, balance: 1e-4 },
         polished: 8,
-        walking: usize::MAX,
+        walking: MOST_WALKING,
         proved: true,
     };
     /// For the equilibrium of least `O`, on whatever branch, in a few times the work of one Gauss-Newton run.

@@ -24,6 +24,9 @@ const REPEATS: usize = 2;
 /// Halvings between a wound state and one that winding does not reach: a part of 1/64 of the way is left.
 const HALVINGS: usize = 6;
 
+/// Ends of which no proof holds, at most: each costs a few hundred states, and a body of which so many are not reached snaps wherever it is wound.
+const MOST_UNPROVED: usize = 6;
+
 /// The bottom of a valley on a line.
 struct Valley {
     posture: Posture,
@@ -89,6 +92,7 @@ pub struct Search {
     ends: Vec<End>,
     polished: usize,
     repeats: usize,
+    unproved: usize,
     stage: Stage,
     best: Posture,
     converged: bool,
@@ -118,6 +122,7 @@ impl Search {
             ends: Vec::new(),
             polished: 0,
             repeats: 0,
+            unproved: 0,
             stage: if count == 0 { Stage::Done } else { Stage::Walking },
             best: origin.clone(),
             converged: count == 0,
@@ -325,6 +330,10 @@ impl Search {
         let left = self.ends.iter().enumerate().filter(|(_, end)| !end.done);
         let best = left.min_by(|a, b| a.1.posture.objective.total_cmp(&b.1.posture.objective)).map(|(k, _)| k);
         let Some(end) = best else { return Stage::Done };
+        if self.unproved >= MOST_UNPROVED && self.best.in_equilibrium() {
+            self.converged = false;
+            return Stage::Done;
+        }
         let promising = self.ends[end].posture.objective < self.best.objective || !self.best.in_equilibrium();
         if !promising {
             return Stage::Done;
@@ -391,6 +400,7 @@ impl Search {
                 return self.next_end();
             }
             (Attempt::End, reached) => {
+                self.unproved += 1;
                 if let Some(posture) = reached {
                     // Another branch: what Gauss-Newton makes of it is another end.
                     let mut damping = FIRST_DAMPING;

@@ -14,6 +14,10 @@ const AIM: f64 = 0.9;
 const GROWTH: f64 = 2.0;
 /// Newton steps for one state on the way. One that needs more is told as not in equilibrium, and the walk goes on from there.
 const MOST_NEWTON_STEPS: usize = 60;
+/// A walk ends after so many states in a row in which forces do not balance, or so many snaps: a body that crumples like that is not wound on, no
+/// proof ever holds there, and each of its thousand small steps costs as much as a whole walk elsewhere.
+const MOST_LOST: usize = 4;
+const MOST_SNAPS: usize = 4;
 
 /// How a walk proceeds.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,6 +47,9 @@ pub struct Walk {
     before: Vec<(f64, Vec<f64>)>,
     /// Whether `O` fell in the last step.
     falling: bool,
+    /// States in a row in which forces do not balance, and snaps.
+    lost: usize,
+    snaps: usize,
     pace: Pace,
     /// Largest move of a node in a step, length.
     stride: f64,
@@ -58,13 +65,15 @@ impl Walk {
             now: start.clone(),
             before: Vec::new(),
             falling: false,
+            lost: 0,
+            snaps: 0,
             pace,
             stride: pace.stride * size,
         }
     }
 
     pub fn is_over(&self) -> bool {
-        self.t >= 1.0
+        self.t >= 1.0 || self.lost >= MOST_LOST || self.snaps >= MOST_SNAPS
     }
 
     /// One more state. Returns the bottom of a valley of `O` where one has been passed (or the end, where `O` still falls), and
@@ -87,6 +96,8 @@ impl Walk {
             }
             self.step = ((t - self.t) * (AIM * self.stride / moved).max(0.25)).max(SHORTEST_STEP);
         };
+        self.lost = if next.in_equilibrium() { 0 } else { self.lost + 1 };
+        self.snaps += (moved > TOO_FAR * self.stride) as usize;
         let longer = (AIM * self.stride / moved.max(f64::MIN_POSITIVE)).clamp(1.0 / GROWTH, GROWTH);
         self.step = ((t - self.t) * longer).clamp(SHORTEST_STEP, self.pace.longest);
         let falls = next.objective < self.now.objective;

@@ -68,15 +68,24 @@ impl OutlineReader for Picture {
 
 fn painting(bytes: &[u8], import: &Import) -> Result<Painting, OutlineError> {
     let (picture, format) = decode(bytes, MAX_PIXELS)?.ok_or(TOO_MANY)?;
+    // A picture at its own size has stairs, and a JPEG noise.
+    let passes = if format == ImageFormat::Jpeg { 2 } else { 1 };
+    let mut painting = painted(picture, passes, import)?;
+    let stated = import.unit_mm.or_else(|| resolution::mm_per_px(bytes));
+    if stated.is_none() && import.height_mm.is_none() {
+        painting.notes.push(Note::Size(Sizing::Pixels));
+    }
+    painting.unit_mm *= stated.unwrap_or(MM_PER_PX);
+    Ok(painting)
+}
+
+/// What counts in a picture, in its working pixels, y up; their unit is a pixel of the picture. `passes`: how often a picture at its own size is blurred.
+pub(super) fn painted(picture: DynamicImage, passes: usize, import: &Import) -> Result<Painting, OutlineError> {
     let pixels = Pixels::of(picture);
-    // Averaging has smoothed already; a picture at its own size has stairs, and a JPEG noise.
-    let passes = match format {
-        _ if pixels.factor > 1 => 0,
-        ImageFormat::Jpeg => 2,
-        _ => 1,
-    };
+    // Averaging has smoothed already.
+    let passes = if pixels.factor > 1 { 0 } else { passes };
     let asked = import.threshold.map(|t| f64::from(t) / 255.0);
-    let mut painting = Painting::default();
+    let mut painting = Painting { unit_mm: pixels.factor as f64, ..Painting::default() };
     let whole = if pixels.clear { pixels.opacity(asked) } else { pixels.ink(None, asked)? };
     let found = traced(whole.field.blurred(passes), whole.level)?;
     let on_it = match import.background {
@@ -96,12 +105,13 @@ fn painting(bytes: &[u8], import: &Import) -> Result<Painting, OutlineError> {
             found.take(&mut painting);
         }
     }
-    let stated = import.unit_mm.or_else(|| resolution::mm_per_px(bytes));
-    if stated.is_none() && import.height_mm.is_none() {
-        painting.notes.push(Note::Size(Sizing::Pixels));
-    }
-    painting.unit_mm = stated.unwrap_or(MM_PER_PX) * pixels.factor as f64;
     Ok(painting)
+}
+
+/// Whether a picture is one that is read, by its head alone.
+pub(super) fn fits(bytes: &[u8]) -> bool {
+    let size = ImageReader::new(Cursor::new(bytes)).with_guessed_format().ok().and_then(|r| r.into_dimensions().ok());
+    size.is_some_and(|(width, height)| u64::from(width) * u64::from(height) <= MAX_PIXELS)
 }
 
 /// The part of the picture between the corners of a box (working pixels, y up).

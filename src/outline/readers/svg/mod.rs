@@ -4,12 +4,13 @@
 //! style sheets is written into the elements before (`style/`). Fills count under their own fill rule, strokes as the area they cover
 //! (dashes too), clips and masks cut. Colour does not matter, so white counts as painted; what is hardly opaque or hidden does not, unless
 //! there is nothing else. What lies below everything else is judged by `super::ground`. Filters (shadows, blurs) and embedded pictures
-//! are left out. What was left out or read in a special way is noted.
+//! are left out; a drawing of pictures alone, as scanners and phones make them, is read as a picture (`pictured`). What was left out or read in a special way is noted.
 
 mod expansion;
 mod flatten;
 mod layers;
 mod mask;
+mod pictured;
 mod render;
 mod size;
 mod style;
@@ -19,15 +20,18 @@ mod walk;
 use super::finish::finish;
 use super::ground::{self, Mark};
 use super::{OutlineReader, Painting, ReadingOption};
-use crate::outline::regions;
+use crate::outline::regions::{self, Shapes};
 use crate::outline::{Aside, Import, Imported, Note, Outline, OutlineError, Point, Why};
 use image::RgbaImage;
+use size::Size;
 use tree::Parsed;
-use usvg::{Group, Node, Transform, Tree};
+use usvg::{Transform, Tree};
 use walk::{FAINT, Walk};
 
 /// Parts of the drawing beyond the page that are worth a note, as a part of the drawing's box.
 const OFF_PAGE_FRACTION: f64 = 0.01;
+/// Part of the page that paper covers at least.
+const PAPER: f64 = 0.97;
 /// Faint paint that changes the silhouette by less than this part of it is not worth a note.
 const FAINT_FRACTION: f64 = 1e-3;
 
@@ -84,11 +88,21 @@ pub fn read(svg: &[u8], height_mm: Option<f64>) -> Result<Outline, OutlineError>
 
 /// All that is painted, in px with y up.
 fn painting(svg: &[u8], import: &Import) -> Result<Painting, OutlineError> {
-    let Parsed { tree, size, mut notes } = tree::parsed(svg, import)?;
+    let Parsed { tree, size, notes } = tree::parsed(svg, import)?;
+    match shapes(&tree, size, notes.clone(), import) {
+        Err(OutlineError::NothingPainted(_)) if pictured::has_pictures(&tree) => {
+            pictured::painting(&tree, size, notes, import)
+        }
+        other => other,
+    }
+}
+
+/// What is painted but pictures.
+fn shapes(tree: &Tree, size: Size, mut notes: Vec<Note>, import: &Import) -> Result<Painting, OutlineError> {
     let bounds = tree.root().abs_stroke_bounding_box();
     let longer = f64::from(bounds.width().max(bounds.height()));
     if !(longer.is_finite() && longer > 0.0) {
-        return Err(nothing(&tree));
+        return Err(NOTHING);
     }
     let page = [f64::from(tree.size().width()), f64::from(tree.size().height())];
     let mut walk = Walk::new(longer, import.smooth_mm != Some(0.0));
@@ -99,8 +113,10 @@ fn painting(svg: &[u8], import: &Import) -> Result<Painting, OutlineError> {
     let (faint, marks) = if marks.is_empty() { (marks, faint) } else { (faint, marks) };
     let (figure, below, more) = ground::part(marks, Some([[0.0, -page[1]], [page[0], 0.0]]), import.background)?;
     let shapes: Vec<_> = figure.into_iter().flat_map(|mark| mark.area).collect();
-    if shapes.is_empty() {
-        return Err(nothing(&tree));
+    // A page below pictures is no more than their paper.
+    let is_paper = |shapes: &Shapes| regions::area(shapes) >= PAPER * page[0] * page[1] && pictured::has_pictures(tree);
+    if shapes.is_empty() || is_paper(&shapes) {
+        return Err(NOTHING);
     }
     let mut painting = Painting { shapes, unit_mm: size.mm_per_px, evened: walk.evened, ..Painting::default() };
     painting.notes = more;
@@ -138,19 +154,7 @@ fn put_aside(faint: Vec<Mark>, least: f32, painting: &mut Painting) -> Result<()
     Ok(())
 }
 
-/// Nothing is painted: says so, and whether there is something that cannot count.
-fn nothing(tree: &Tree) -> OutlineError {
-    fn any(group: &Group, test: &dyn Fn(&Node) -> bool) -> bool {
-        group.children().iter().any(|node| match node {
-            Node::Group(child) => any(child, test),
-            other => test(other),
-        })
-    }
-    if any(tree.root(), &|node| matches!(node, Node::Image(_))) {
-        return OutlineError::NothingPainted("the SVG has embedded pictures alone; save the picture as PNG or JPEG");
-    }
-    OutlineError::NothingPainted("the SVG has no fill or stroke with an area")
-}
+const NOTHING: OutlineError = OutlineError::NothingPainted("the drawing has no fill or stroke with an area");
 
 #[cfg(test)]
 mod tests;

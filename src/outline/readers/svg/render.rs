@@ -5,13 +5,15 @@ use crate::outline::resample::{MAX_TEXTURE_PX, fitted};
 use crate::outline::{Import, OutlineError, Point};
 use image::RgbaImage;
 use tiny_skia::Pixmap;
-use usvg::{Group, ImageKind, Node, Paint, Rect, Transform};
+use usvg::{Group, ImageKind, Node, Paint, Rect, Transform, Tree};
 
 /// Most pixels that are painted, those that lie over each other counted each: some seconds.
 const MAX_PAINTED: f64 = 3e9;
 /// Most pixels of pictures that are in work at the same time, one for each group that is clipped, masked or faded as a whole within
 /// another: about a gigabyte.
 const MAX_STACKED: f64 = 1.2e8;
+/// Most pixels of embedded pictures, each use counted: some seconds.
+const MAX_DECODED: f64 = 2e8;
 /// What a group that is composed as a whole costs: it is cleared, cut and copied.
 const COMPOSING: f64 = 4.0;
 /// What a step of a filter costs besides: a blur takes several passes, between two conversions of colour.
@@ -27,19 +29,22 @@ pub(in crate::outline) fn texture(
     import: &Import,
     [low, high]: [Point; 2],
 ) -> Result<RgbaImage, OutlineError> {
-    let tree = parsed(svg, import)?.tree;
+    drawn(&parsed(svg, import)?.tree, [low, high], f64::from(MAX_TEXTURE_PX))
+}
+
+/// The picture of what lies between the corners of a box (px, y up), its longer side of so many pixels, or fewer the more lies over each other.
+pub(super) fn drawn(tree: &Tree, [low, high]: [Point; 2], most: f64) -> Result<RgbaImage, OutlineError> {
     let size = [high[0] - low[0], high[1] - low[1]];
     let window = Rect::from_xywh(low[0] as f32, -high[1] as f32, size[0] as f32, size[1] as f32)
         .ok_or(OutlineError::Degenerate)?;
-    let mut work = Work { window: Some(window), painted: 0.0, stacked: 1.0, most_stacked: 1.0 };
+    let mut work = Work { window: Some(window), painted: 0.0, stacked: 1.0, most_stacked: 1.0, decoded: 0.0 };
     work.add(tree.root());
-    let most = f64::from(MAX_TEXTURE_PX);
     let longer = size[0].max(size[1]);
     // Pixels of the box if its longer side had one.
     let unit = size[0] / longer * (size[1] / longer);
     let affordable = (MAX_PAINTED / work.painted.max(1.0)).min(MAX_STACKED / work.most_stacked);
     let longest = (affordable / unit).sqrt().min(most);
-    if longest < LEAST_PX {
+    if longest < LEAST_PX || work.decoded > MAX_DECODED {
         return Err(OutlineError::TooComplex("paints too much over itself"));
     }
     let [width, height] = fitted(size.map(|side| side / longer * longest), longest);
@@ -47,7 +52,7 @@ pub(in crate::outline) fn texture(
     let scale = [f64::from(width) / size[0], f64::from(height) / size[1]];
     let place = [scale[0], 0.0, 0.0, scale[1], -low[0] * scale[0], high[1] * scale[1]].map(|v| v as f32);
     let [sx, ky, kx, sy, tx, ty] = place;
-    resvg::render(&tree, Transform::from_row(sx, ky, kx, sy, tx, ty), &mut pixels.as_mut());
+    resvg::render(tree, Transform::from_row(sx, ky, kx, sy, tx, ty), &mut pixels.as_mut());
     let mut picture = RgbaImage::new(width, height);
     for (pixel, shown) in picture.pixels_mut().zip(pixels.pixels()) {
         let colour = shown.demultiply();
@@ -64,6 +69,8 @@ struct Work {
     /// Pictures in work now, and the most at the same time.
     stacked: f64,
     most_stacked: f64,
+    /// Pixels of all embedded pictures.
+    decoded: f64,
 }
 
 impl Work {
@@ -91,11 +98,10 @@ impl Work {
                     }
                 }
                 Node::Text(text) => self.add(text.flattened()),
-                Node::Image(image) => {
-                    if let ImageKind::SVG(tree) = image.kind() {
-                        self.aside(tree.root());
-                    }
-                }
+                Node::Image(image) => match image.kind() {
+                    ImageKind::SVG(tree) => self.aside(tree.root()),
+                    _ => self.decoded += f64::from(image.size().width()) * f64::from(image.size().height()),
+                },
             }
         }
         let mut clip = group.clip_path();

@@ -140,3 +140,51 @@ fn what_is_left_out_is_noted() {
     let shadow = "<filter id='f'><feGaussianBlur stdDeviation='2'/></filter><rect x='9' y='9' width='70' height='70' filter='url(#f)'/>";
     assert!(full(shadow, &Import::default()).unwrap().changes.notes[0].to_string().contains("filter"));
 }
+
+/// The alphabet of base64 (RFC 4648), without padding.
+fn base64(bytes: &[u8]) -> String {
+    const ALPHABET: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let letters = |part: &[u8]| {
+        let bits = part.iter().fold(0_u32, |bits, &byte| bits << 8 | u32::from(byte)) << (8 * (3 - part.len()));
+        let letter =
+            move |k: usize| if k <= part.len() { ALPHABET[(bits >> (18 - 6 * k)) as usize & 63] as char } else { '=' };
+        [0, 1, 2, 3].map(letter)
+    };
+    bytes.chunks(3).flat_map(|part| letters(part)).collect()
+}
+
+#[test]
+fn a_drawing_of_a_picture_alone_is_read_as_what_that_shows_where_it_lies() {
+    let mut disc = image::RgbImage::from_pixel(200, 100, image::Rgb([250, 248, 240]));
+    for (x, y, pixel) in disc.enumerate_pixels_mut() {
+        if (f64::from(x) - 69.5).hypot(f64::from(y) - 49.5) < 40.0 {
+            *pixel = image::Rgb([60, 40, 30]);
+        }
+    }
+    let mut png = std::io::Cursor::new(Vec::new());
+    disc.write_to(&mut png, image::ImageFormat::Png).unwrap();
+    let picture = format!(
+        "<image x='20' y='30' width='100' height='50' href='data:image/png;base64,{}'/>",
+        base64(png.get_ref())
+    );
+    for below in ["", "<rect width='200' height='120' fill='#fff'/>"] {
+        let drawing = svg("width='200mm' height='120mm' viewBox='0 0 200 120'", &format!("{below}{picture}"));
+        let read = import(&drawing, &Import::default()).unwrap();
+        let (low, high) = read.outline.bounding_box();
+        assert!((high[0] - low[0] - 40.0).abs() < 0.5 && (high[1] - low[1] - 40.0).abs() < 0.5, "{low:?} {high:?}");
+        assert!((read.outline.area() / (std::f64::consts::PI * 400.0) - 1.0).abs() < 0.01);
+        assert!(read.changes.notes.contains(&Note::PicturesAlone), "{:?}", read.changes.notes);
+        // Its texture is the picture at the same place.
+        let shown = texture(&drawing, &Import::default(), read.drawn_box).unwrap();
+        let middle = shown.get_pixel(shown.width() / 2, shown.height() / 2).0;
+        assert!(middle[0].abs_diff(60) < 4 && middle[2].abs_diff(30) < 4 && middle[3] == 255, "{middle:?}");
+    }
+    // Shapes beside a picture count, and the picture does not.
+    let both = svg(
+        "width='200mm' height='120mm' viewBox='0 0 200 120'",
+        &format!("{picture}<circle cx='150' cy='60' r='30'/>"),
+    );
+    let read = import(&both, &Import::default()).unwrap();
+    assert!((read.outline.area() / (std::f64::consts::PI * 900.0) - 1.0).abs() < 0.01);
+    assert!(read.changes.notes.contains(&Note::EmbeddedPictures(1)));
+}

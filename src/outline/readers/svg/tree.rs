@@ -2,7 +2,7 @@
 
 use super::size::{self, Size};
 use super::{expansion, layers, style};
-use crate::outline::readers::encoding;
+use crate::outline::readers::{encoding, picture};
 use crate::outline::{Import, Note, OutlineError};
 use std::sync::{Arc, LazyLock};
 use usvg::roxmltree::Document;
@@ -55,14 +55,15 @@ static FONTS: LazyLock<Arc<usvg::fontdb::Database>> = LazyLock::new(|| {
 });
 
 /// The default options, with references to files outside the SVG cut off, which a silhouette
-/// does not need, and embedded drawings read within the same bounds.
+/// does not need, and embedded drawings and pictures read within the same bounds.
 fn options() -> usvg::Options<'static> {
     let mut options = usvg::Options { fontdb: FONTS.clone(), ..usvg::Options::default() };
     options.image_href_resolver.resolve_string = Box::new(|_, _| None);
     let embedded = ImageHrefResolver::default_data_resolver();
     options.image_href_resolver.resolve_data = Box::new(move |mime, data, options| {
         let drawing = ["image/svg+xml", "text/plain"].contains(&mime);
-        if drawing && !expansion::fits(&data) { None } else { embedded(mime, data, options) }
+        let fits = if drawing { expansion::fits(&data) } else { picture::fits(&data) };
+        if fits { embedded(mime, data, options) } else { None }
     });
     options.font_resolver.select_font = Box::new(|_, fonts| fonts.faces().next().map(|face| face.id));
     options
