@@ -150,7 +150,7 @@ fn base64(bytes: &[u8]) -> String {
             move |k: usize| if k <= part.len() { ALPHABET[(bits >> (18 - 6 * k)) as usize & 63] as char } else { '=' };
         [0, 1, 2, 3].map(letter)
     };
-    bytes.chunks(3).flat_map(|part| letters(part)).collect()
+    bytes.chunks(3).flat_map(letters).collect()
 }
 
 #[test]
