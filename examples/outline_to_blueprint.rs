@@ -32,6 +32,7 @@ pub fn run(folder: &Path) -> Result<(), Box<dyn Error>> {
         name: "up".into(),
         pins: vec![[5.0, 25.0], [25.0, 10.0], [25.0, 40.0]],
         targets: vec![pose::Move { from: [190.0, 25.0], to: [165.0, 95.0] }],
+        ..Default::default()
     };
     pose::run(&mut design, &up, &context)?;
 

@@ -25,7 +25,7 @@
 //! | [`live`] | motors that are told live: serial ports, the player, simulated controllers |
 //! | [`fabrication`] | the blueprint: products (patterns, routings, winches, tracks, programs, guide) and the writers of their files |
 //! | [`picture`] | pictures of both plushies in layers, rasterised without a graphics adapter |
-//! | [`operations`] | every use case once: new, remesh, reshape, pose, propose, rig, explore, key, check, export, render |
+//! | [`operations`] | every use case once: new, remesh, reshape, pose, arrange, starch, propose, rig, explore, key, retime, check, export, render, film |
 //! | [`bench`](mod@bench) | whole studies of the solvers, repeatable from a seed |
 //! | [`commands`] | the headless commands |
 //! | `studio` | the window (feature `studio`) |

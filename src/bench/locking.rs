@@ -88,7 +88,7 @@ fn relative_deflection(edges: usize, ratio: f64, session: &Session) -> Result<(u
     let outline = Outline { outer, holes: Vec::new() };
     let mesh = mesh::generate(&outline, edges).map_err(|source| BenchError::Mesh { shape: "bar".into(), source })?;
     let clamped = (0..mesh.nodes.len()).filter(|&n| mesh.nodes[n][0] == 0.0).filter_map(|n| mesh.node_point(n));
-    let pins: Vec<Pin> = clamped.map(|at| Pin { at, position: None, stiffness: CLAMP }).collect();
+    let pins: Vec<Pin> = clamped.map(|at| Pin::at_rest(at, CLAMP)).collect();
     let tip: Vec<usize> = (0..mesh.nodes.len()).filter(|&n| mesh.nodes[n][0] == length).collect();
     let mut design = Design::new("bar", outline, mesh);
     design.pins = pins;

@@ -64,7 +64,7 @@ fn held(family: &str, drawn: &Silhouette, fibers: usize) -> Option<Design> {
     for part in [-1.0, 0.0, 1.0] {
         let place = [0, 1].map(|axis| drawn.base[axis] + part * reach * drawn.across[axis]);
         let (at, _) = design.mesh.locate_nearest(place, &design.mesh.nodes)?;
-        design.pins.push(Pin { at, position: None, stiffness: PIN_STIFFNESS });
+        design.pins.push(Pin::at_rest(at, PIN_STIFFNESS));
     }
     design.validate().is_ok().then_some(design)
 }

@@ -93,7 +93,7 @@ impl Tour<'_> {
         self.mesh(&design)?;
         for (name, targets) in POSES {
             let (name, pins, targets) = (name.to_owned(), PINS.to_vec(), targets.to_vec());
-            let options = operations::pose::Options { name, pins, targets };
+            let options = operations::pose::Options { name, pins, targets, ..Default::default() };
             operations::pose::run(&mut design, &options, &Context::new(self.cancel)).map_err(pose::failed)?;
             self.pose(&design, &options.name, "before rigging")?;
         }

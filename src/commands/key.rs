@@ -34,6 +34,12 @@ pub struct Key {
     /// How the animation moves on to the next keyframe
     #[arg(long, value_enum, default_value_t = Ease::Smooth)]
     pub ease: Ease,
+    /// How slowly `--ease slow` begins, as a part of the time, 0.05 to 0.9
+    #[arg(long, value_name = "PART", default_value_t = 0.5)]
+    pub out: f64,
+    /// How slowly `--ease slow` ends
+    #[arg(long, value_name = "PART", default_value_t = 0.5)]
+    pub into: f64,
     #[command(flatten)]
     pub target: document::Target,
     /// Print JSON
@@ -69,6 +75,20 @@ pub enum Ease {
     Smooth,
     /// Stay until the next keyframe
     Hold,
+    /// Starting and ending at rest, as slowly as --out and --into say
+    Slow,
+}
+
+impl Ease {
+    /// The easing, with these handles where it has any.
+    pub fn easing(self, out: f64, into: f64) -> Easing {
+        match self {
+            Self::Linear => Easing::Linear,
+            Self::Smooth => Easing::Smooth,
+            Self::Hold => Easing::Hold,
+            Self::Slow => Easing::Slow { out, into },
+        }
+    }
 }
 
 impl Key {
@@ -113,11 +133,7 @@ impl Key {
         let options = Options {
             pose: (known || name != REST).then(|| name.to_owned()),
             time_s: self.time.unwrap_or_default(),
-            easing: match self.ease {
-                Ease::Linear => Easing::Linear,
-                Ease::Smooth => Easing::Smooth,
-                Ease::Hold => Easing::Hold,
-            },
+            easing: self.ease.easing(self.out, self.into),
         };
         Ok(vec![key::run(design, &options, context)?])
     }

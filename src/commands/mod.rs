@@ -4,6 +4,7 @@
 //! interrupt leaves nothing behind. It prints figures on the writer it is given and returns a [`CommandError`], which
 //! knows its exit code and is shown as exactly one line.
 
+mod arrange;
 mod bench;
 mod check;
 mod completions;
@@ -33,9 +34,11 @@ mod remesh;
 mod render;
 pub mod report;
 mod reshape;
+mod retime;
 mod rig;
 mod simulate_controller;
 mod solve;
+mod starch;
 mod table;
 mod usage;
 mod words;
@@ -87,9 +90,12 @@ pub enum Command {
     Reshape(reshape::Reshape),
     Drawing(drawing::DrawingCommand),
     Pose(pose::Pose),
+    Arrange(arrange::Arrange),
+    Starch(starch::Starch),
     Rig(rig::Rig),
     Network(network::NetworkCommand),
     Key(key::Key),
+    Retime(retime::Retime),
     Check(check::Check),
     Export(export::Export),
     Play(play::Play),
@@ -122,6 +128,9 @@ impl Command {
             Self::Mesh(_)
             | Self::Drawing(_)
             | Self::Pose(_)
+            | Self::Arrange(_)
+            | Self::Starch(_)
+            | Self::Retime(_)
             | Self::Network(_)
             | Self::SimulateController(_)
             | Self::Completions(_)
@@ -180,9 +189,12 @@ pub fn run(
         Command::Reshape(command) => command.run(out, cancel),
         Command::Drawing(command) => command.run(out, cancel),
         Command::Pose(command) => command.run(out, cancel),
+        Command::Arrange(command) => command.run(out, cancel),
+        Command::Starch(command) => command.run(out, cancel),
         Command::Rig(command) => command.run(out, cancel),
         Command::Network(command) => command.run(out, cancel),
         Command::Key(command) => command.run(out, cancel),
+        Command::Retime(command) => command.run(out, cancel),
         Command::Check(command) => command.run(out, cancel),
         Command::Export(command) => command.run(out, cancel),
         Command::Play(command) => command.run(out, cancel),

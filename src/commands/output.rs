@@ -5,6 +5,7 @@ use super::progress;
 use crate::design::file::is_design;
 use crate::files::folder::{self, FolderError, MANIFEST, Manifest};
 use crate::files::{self, printable, shown};
+use crate::picture::film::PAGE_MARK;
 use clap::Args;
 use serde::{Deserialize, Serialize};
 use std::io::{Read, Write};
@@ -116,7 +117,8 @@ impl Kind {
             Self::Picture => {
                 let picture = [&b"\x89PNG"[..], b"\xff\xd8", b"GIF8"].iter().any(|magic| head.starts_with(magic));
                 let ours = [files::is_marked_png, files::is_marked_jpeg, files::is_marked_gif];
-                picture.then(|| ours.iter().any(|is_ours| is_ours(&head)))
+                let page = head.starts_with(b"<").then(|| head.starts_with(PAGE_MARK.as_bytes()));
+                page.or_else(|| picture.then(|| ours.iter().any(|is_ours| is_ours(&head))))
             }
             Self::Answer => json_format(path).map(|format| format.starts_with("plushwright-answer/")),
             Self::Drawing => {

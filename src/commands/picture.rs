@@ -1,17 +1,15 @@
 //! Formats of pictures: what a file is called says which.
 
 use super::error::CommandError;
-use crate::files::{marked_gif, marked_jpeg, shown};
-use image::codecs::gif::{GifEncoder, Repeat};
+use crate::files::{marked_jpeg, shown};
+use crate::picture::film;
 use image::codecs::jpeg::JpegEncoder;
-use image::{Delay, DynamicImage, Frame, ImageError, ImageFormat, Rgba, RgbaImage};
+use image::{DynamicImage, ImageError, ImageFormat};
 use std::path::Path;
 use std::time::Duration;
 
 /// Quality of JPEG pictures, 1 to 100: edges of seams and cables stay crisp, at a third of the size of the best.
 const JPEG_QUALITY: u8 = 90;
-/// Speed of the choice of colours for GIF, 1 (best) to 30: the pictures have few colours.
-const GIF_SPEED: i32 = 10;
 
 /// The format of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,6 +18,8 @@ pub enum PictureFormat {
     Jpeg,
     /// The whole animation.
     Gif,
+    /// A page that plays the whole animation.
+    Page,
 }
 
 impl PictureFormat {
@@ -33,8 +33,9 @@ impl PictureFormat {
             None | Some("png") => Ok(Self::Png),
             Some("jpg" | "jpeg") => Ok(Self::Jpeg),
             Some("gif") => Ok(Self::Gif),
+            Some("html" | "htm") => Ok(Self::Page),
             Some(_) => Err(CommandError::Usage(format!(
-                "{} has the ending of no picture that is written: call it {}, *.jpg, or *.gif for the whole animation",
+                "{} has the ending of no picture that is written: call it {}, *.jpg, or *.gif or *.html for the whole animation",
                 shown(path),
                 shown(&path.with_extension("png"))
             ))),
@@ -45,7 +46,8 @@ impl PictureFormat {
     pub fn encoded(self, png: Vec<u8>) -> Result<Vec<u8>, CommandError> {
         match self {
             Self::Png => Ok(png),
-            Self::Gif => moving(&[png], Duration::ZERO),
+            Self::Page => Ok(film::page(&[png], Duration::ZERO, "").into_bytes()),
+            Self::Gif => film::gif(&[png], Duration::ZERO).map_err(CommandError::Failed),
             Self::Jpeg => {
                 let mut bytes = Vec::new();
                 let encoder = JpegEncoder::new_with_quality(&mut bytes, JPEG_QUALITY);
@@ -54,28 +56,6 @@ impl PictureFormat {
             }
         }
     }
-}
-
-/// PNGs one after the other as a GIF that begins anew for ever.
-pub fn moving(pngs: &[Vec<u8>], step: Duration) -> Result<Vec<u8>, CommandError> {
-    let mut bytes = Vec::new();
-    let mut encoder = GifEncoder::new_with_speed(&mut bytes, GIF_SPEED);
-    encoder.set_repeat(Repeat::Infinite).map_err(failed)?;
-    let mut before: Option<RgbaImage> = None;
-    for png in pngs {
-        let now = decoded(png)?.to_rgba8();
-        let mut changed = now.clone();
-        // What stays as it was need not be said again.
-        if let Some(before) = before.filter(|before| before.dimensions() == now.dimensions()) {
-            let pairs = changed.pixels_mut().zip(before.pixels());
-            pairs.filter(|(new, old)| **new == **old).for_each(|(new, _)| *new = Rgba([0; 4]));
-        }
-        let frame = Frame::from_parts(changed, 0, 0, Delay::from_saturating_duration(step));
-        encoder.encode_frame(frame).map_err(failed)?;
-        before = Some(now);
-    }
-    drop(encoder);
-    Ok(marked_gif(&bytes))
 }
 
 fn decoded(png: &[u8]) -> Result<DynamicImage, CommandError> {
@@ -89,10 +69,6 @@ fn failed(error: ImageError) -> CommandError {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::files::is_marked_gif;
-    use image::AnimationDecoder;
-    use image::codecs::gif::GifDecoder;
-    use std::io::Cursor;
 
     #[test]
     fn the_name_says_the_format() {
@@ -101,21 +77,5 @@ mod tests {
         assert_eq!(of("a.b/c.PNG").unwrap(), PictureFormat::Png);
         assert_eq!(of("a.JPEG").unwrap(), PictureFormat::Jpeg);
         assert!(of("a.bmp").unwrap_err().line().contains("a.png"));
-    }
-
-    #[test]
-    fn pictures_become_a_moving_one() {
-        let png = |level: u8| {
-            let mut bytes = Cursor::new(Vec::new());
-            let picture = image::RgbImage::from_pixel(16, 8, image::Rgb([level, 0, 0]));
-            picture.write_to(&mut bytes, ImageFormat::Png).unwrap();
-            bytes.into_inner()
-        };
-        let gif = moving(&[png(0), png(200)], Duration::from_millis(80)).unwrap();
-        assert!(is_marked_gif(&gif));
-        let frames = GifDecoder::new(Cursor::new(gif)).unwrap().into_frames().collect_frames().unwrap();
-        let seen: Vec<(u8, u32)> =
-            frames.iter().map(|f| (f.buffer().get_pixel(3, 3)[0], f.delay().numer_denom_ms().0)).collect();
-        assert_eq!(seen, [(0, 80), (200, 80)]);
     }
 }

@@ -1,6 +1,7 @@
 //! Places on the command line, `X,Y` and `X,Y=X2,Y2` in mm.
 
-use crate::operations::pose::Move;
+use crate::design::Hold;
+use crate::operations::pose::{Held, Move};
 use crate::outline::Point;
 
 /// Reads `X,Y`.
@@ -16,6 +17,25 @@ pub fn parse_move(text: &str) -> Result<Move, String> {
     let explain = || format!("expected X,Y=X2,Y2 in mm, found `{text}`");
     let (from, to) = text.split_once('=').ok_or_else(explain)?;
     Ok(Move { from: parse_point(from).map_err(|_| explain())?, to: parse_point(to).map_err(|_| explain())? })
+}
+
+/// Reads `X,Y=DEGREES`: a pin that slides.
+pub fn parse_line(text: &str) -> Result<Held, String> {
+    let (at, degrees) = place_and_number(text, "X,Y=DEGREES")?;
+    Ok(Held { at, hold: Hold::Line { degrees } })
+}
+
+/// Reads `X,Y=RADIUS`: a pin that holds a region.
+pub fn parse_region(text: &str) -> Result<Held, String> {
+    let (at, radius_mm) = place_and_number(text, "X,Y=RADIUS")?;
+    Ok(Held { at, hold: Hold::Region { radius_mm, degrees: 0.0 } })
+}
+
+fn place_and_number(text: &str, form: &str) -> Result<(Point, f64), String> {
+    let explain = || format!("expected {form} with X,Y in mm, found `{text}`");
+    let (at, number) = text.split_once('=').ok_or_else(explain)?;
+    let number = number.trim().parse::<f64>().ok().filter(|v| v.is_finite()).ok_or_else(explain)?;
+    Ok((parse_point(at).map_err(|_| explain())?, number))
 }
 
 #[cfg(test)]

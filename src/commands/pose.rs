@@ -3,11 +3,11 @@
 use super::document;
 use super::error::CommandError;
 use super::output::{say, say_json};
-use super::place::{parse_move, parse_point};
+use super::place::{parse_line, parse_move, parse_point, parse_region};
 use crate::design::Design;
 use crate::files::shown;
 use crate::operations::Context;
-use crate::operations::pose::{self, Error, Move, Options};
+use crate::operations::pose::{self, Error, Held, Move, Options};
 use crate::outline::Point;
 use clap::Args;
 use serde::Serialize;
@@ -32,6 +32,18 @@ pub struct Pose {
     /// Hold this point of the body where it is at rest (mm; repeatable)
     #[arg(long = "pin", value_name = "X,Y", value_parser = parse_point, allow_hyphen_values = true)]
     pub pins: Vec<Point>,
+    /// Let this point of the body slide along a line at this angle from the x axis (mm and degrees; repeatable)
+    #[arg(long = "pin-line", value_name = "X,Y=DEG", value_parser = parse_line, allow_hyphen_values = true)]
+    pub lines: Vec<Held>,
+    /// Hold all of the body within a radius of this point, so that it cannot turn there (mm; repeatable)
+    #[arg(long = "pin-region", value_name = "X,Y=R", value_parser = parse_region, allow_hyphen_values = true)]
+    pub regions: Vec<Held>,
+    /// Hold the middle of the body, so that it can neither move nor turn
+    #[arg(long)]
+    pub pin_middle: bool,
+    /// Begin with a body that was just made: hold its middle where nothing is pinned, and let its tip wave in this pose
+    #[arg(long)]
+    pub begin: bool,
     /// Pull the point X,Y of the body at rest to X2,Y2 (mm; repeatable)
     #[arg(long = "target", value_name = "X,Y=X2,Y2", value_parser = parse_move, allow_hyphen_values = true)]
     pub targets: Vec<Move>,
@@ -58,11 +70,18 @@ struct Summary<'a> {
 impl Pose {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
         let (mut design, edit) = self.target.open(&self.design, cancel)?;
-        let options = Options { name: self.name.clone(), pins: self.pins.clone(), targets: self.targets.clone() };
+        let options = Options {
+            name: self.name.clone(),
+            pins: self.pins.clone(),
+            held: self.lines.iter().chain(&self.regions).copied().collect(),
+            targets: self.targets.clone(),
+            middle: self.pin_middle,
+            begin: self.begin,
+        };
         pose::run(&mut design, &options, &Context::new(cancel)).map_err(failed)?;
         let name = self.name.trim();
         let targets = design.poses.iter().find(|p| p.name == name).map_or(0, |p| p.targets.len());
-        if targets == 0 && self.pins.is_empty() {
+        if targets == 0 && self.pins.is_empty() && options.held.is_empty() && !self.pin_middle {
             return Err(self.without_targets(&design));
         }
         edit.save(&design, cancel)?;

@@ -2,13 +2,13 @@
 
 use super::error::CommandError;
 use super::output::{Kind, Output, Replace, say, say_json};
-use super::picture::{self, PictureFormat};
+use super::picture::PictureFormat;
 use super::{document, progress, words};
-use crate::design::animation::duration_s;
 use crate::design::{Design, file};
 use crate::files::shown;
-use crate::operations::Context;
+use crate::operations::film::{self, Options as Film};
 use crate::operations::render::{self, Error, Note, Options, Rendered, What};
+use crate::operations::{Context, Progress, Unbalanced};
 use crate::picture::LOOKS;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
@@ -16,7 +16,6 @@ use serde::Serialize;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
-use std::time::Duration;
 
 /// Draw both plushies, idealized left and realizable right, as a picture
 ///
@@ -26,7 +25,7 @@ use std::time::Duration;
 pub struct Render {
     /// Design file to read
     pub design: PathBuf,
-    /// Picture to write: PNG, JPEG where it is called *.jpg, the whole animation where it is called *.gif
+    /// Picture to write: PNG, JPEG where it is called *.jpg; the whole animation where it is called *.gif, or *.html for a page that plays it
     #[arg(short, long, value_name = "OUT.png")]
     pub output: PathBuf,
     #[command(flatten)]
@@ -37,6 +36,12 @@ pub struct Render {
     /// Show the animation at this time in s
     #[arg(long, value_name = "S", value_parser = parse_time, allow_hyphen_values = true)]
     pub time: Option<f64>,
+    /// Write the whole animation as numbered PNG pictures into the folder OUT
+    #[arg(long, conflicts_with_all = ["pose", "time"])]
+    pub pictures: bool,
+    /// Pictures of an animation in a second, 1 to 60
+    #[arg(long, value_name = "N", default_value_t = 12.5, value_parser = parse_rate)]
+    pub rate: f64,
     /// Width and height in pixels, each 16 to 8192 [default: 1280x720, of an animation 640x360]
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<(u32, u32)>,
@@ -78,41 +83,45 @@ struct Colors {
     to: f64,
 }
 
-/// Size of a moving picture, pixels.
-const MOVING_SIZE: (u32, u32) = (640, 360);
-/// Time from picture to picture of a moving one, s: what most programs show as it is asked for.
-const STEP_S: f64 = 0.08;
-/// Most pictures of a moving one: a longer animation is shown in larger steps.
-const MOST_FRAMES: f64 = 400.0;
-
 impl Render {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
         let design = document::load(&self.design)?;
         let inputs = [Some(self.design.clone()), file::texture_path(&design, &self.design)];
-        let output = Output::new(&self.output, Kind::Picture, self.replace, inputs.into_iter().flatten())?;
+        let inputs: Vec<PathBuf> = inputs.into_iter().flatten().collect();
+        if self.pictures {
+            return self.numbered(&design, &inputs, out, cancel);
+        }
+        let output = Output::new(&self.output, Kind::Picture, self.replace, inputs)?;
         let format = PictureFormat::of(&self.output)?;
-        let is_still = format != PictureFormat::Gif || self.pose.is_some() || self.time.is_some();
-        let size = self.size.unwrap_or(if is_still { Options::default().size } else { MOVING_SIZE });
-        let (bytes, rendered) = if is_still {
-            let what = match (&self.pose, self.time) {
-                (Some(pose), _) => What::Pose(pose.clone()),
-                (None, Some(time)) => What::Time(time),
-                (None, None) => What::Rest,
-            };
-            let rendered = self.picture(&design, what, size, cancel)?;
-            (format.encoded(rendered.png.clone())?, rendered)
-        } else {
-            self.animation(&design, size, cancel)?
+        let kind = match format {
+            PictureFormat::Gif => Some(film::Kind::Gif),
+            PictureFormat::Page => Some(film::Kind::Page),
+            PictureFormat::Png | PictureFormat::Jpeg => None,
+        };
+        let kind = kind.filter(|_| self.pose.is_none() && self.time.is_none());
+        let size = self.size.unwrap_or(if kind.is_none() { Options::default().size } else { Film::default().size });
+        let (bytes, rendered) = match kind {
+            None => {
+                let what = match (&self.pose, self.time) {
+                    (Some(pose), _) => What::Pose(pose.clone()),
+                    (None, Some(time)) => What::Time(time),
+                    (None, None) => What::Rest,
+                };
+                let rendered = self.picture(&design, what, size, cancel)?;
+                (format.encoded(rendered.png.clone())?, rendered)
+            }
+            Some(kind) => {
+                let film::Filmed { film, last, .. } = self.animation(&design, kind, size, cancel)?;
+                let film::Film::File(bytes) = film else { return Err(CommandError::Failed("no film".into())) };
+                (bytes, last)
+            }
         };
         for note in rendered.notes.iter().filter(|note| matches!(note, Note::NoTexture { .. }) && !self.json) {
             say(out, &format!("note: {note}"))?;
         }
         output.write(&bytes, cancel)?;
         self.tell(out, &rendered, size)?;
-        words::balanced(rendered.notes.iter().filter_map(|note| match note {
-            Note::Unbalanced(unbalanced) => Some(unbalanced),
-            Note::NoTexture { .. } => None,
-        }))
+        words::balanced(unbalanced(&rendered))
     }
 
     fn picture(
@@ -126,28 +135,41 @@ impl Render {
         render::run(design, &self.design, &options, &Context::new(cancel)).map_err(|error| failed(&self.design, error))
     }
 
-    /// All of the animation, and its last picture with the notes on all.
+    /// The whole animation as numbered pictures.
+    fn numbered(
+        &self,
+        design: &Design,
+        inputs: &[PathBuf],
+        out: &mut dyn Write,
+        cancel: &AtomicBool,
+    ) -> Result<(), CommandError> {
+        if inputs.iter().any(|input| input.starts_with(&self.output)) {
+            let path = shown(&self.output);
+            return Err(CommandError::Usage(format!("{path} holds what is read; choose another folder")));
+        }
+        let size = self.size.unwrap_or(Film::default().size);
+        let filmed = self.animation(design, film::Kind::Pictures, size, cancel)?;
+        filmed.film.write(&self.output).map_err(CommandError::Failed)?;
+        self.tell(out, &filmed.last, size)?;
+        words::balanced(unbalanced(&filmed.last))
+    }
+
+    /// All of the animation.
     fn animation(
         &self,
         design: &Design,
+        kind: film::Kind,
         size: (u32, u32),
         cancel: &AtomicBool,
-    ) -> Result<(Vec<u8>, Rendered), CommandError> {
-        let duration = duration_s(design);
-        let step = STEP_S.max(duration / MOST_FRAMES);
-        let frames = (duration / step).floor() as usize;
-        let (mut pngs, mut notes) = (Vec::new(), Vec::new());
-        let mut last = None;
-        for frame in 0..=frames {
-            progress::at(frame, frames + 1, "pictures");
-            let rendered = self.picture(design, What::Time(step * frame as f64), size, cancel)?;
-            pngs.push(rendered.png.clone());
-            let new: Vec<Note> = rendered.notes.iter().filter(|note| !notes.contains(*note)).cloned().collect();
-            notes.extend(new);
-            last = Some(rendered);
-        }
-        let last = last.ok_or_else(|| CommandError::Failed("the animation has no picture".into()))?;
-        Ok((picture::moving(&pngs, Duration::from_secs_f64(step))?, Rendered { notes, ..last }))
+    ) -> Result<film::Filmed, CommandError> {
+        let mut told = |step: &Progress| {
+            if let Progress::Picture { done, of } = step {
+                progress::at(*done, *of, "pictures");
+            }
+        };
+        let options = Film { kind, size, step_s: 1.0 / self.rate, texture: !self.no_texture, look: self.look.clone() };
+        film::run(design, &self.design, &options, &mut Context::telling(cancel, &mut told))
+            .map_err(|error| failed(&self.design, error))
     }
 
     fn tell(&self, out: &mut dyn Write, rendered: &Rendered, (width, height): (u32, u32)) -> Result<(), CommandError> {
@@ -162,6 +184,14 @@ impl Render {
         let colors = bar.map(|bar| Colors { title: bar.title, unit: bar.unit, from: bar.low, to: bar.high });
         say_json(out, FORMAT, &Summary { picture, width, height, error_idealized, error_realizable, colors })
     }
+}
+
+/// The plushies that did not come to equilibrium.
+fn unbalanced(rendered: &Rendered) -> impl Iterator<Item = &Unbalanced> {
+    rendered.notes.iter().filter_map(|note| match note {
+        Note::Unbalanced(unbalanced) => Some(unbalanced),
+        Note::NoTexture { .. } => None,
+    })
 }
 
 /// Why there is no picture of a design that was read from `path`.
@@ -188,6 +218,12 @@ pub fn look_names() -> PossibleValuesParser {
 fn parse_time(text: &str) -> Result<f64, String> {
     let time = text.parse::<f64>().ok().filter(|time| time.is_finite());
     time.ok_or_else(|| format!("expected a time in s, found `{text}`"))
+}
+
+/// Reads pictures in a second.
+fn parse_rate(text: &str) -> Result<f64, String> {
+    let rate = text.parse::<f64>().ok().filter(|rate| (1.0..=60.0).contains(rate));
+    rate.ok_or_else(|| format!("expected pictures in a second from 1 to 60, found `{text}`"))
 }
 
 /// Reads `WxH`.

@@ -148,7 +148,9 @@ impl Told {
                 self.errors.clone_from(errors);
                 None
             }
-            Progress::Rig(rigging::Progress::Candidates { .. }) | Progress::Proposals(_) => None,
+            Progress::Rig(rigging::Progress::Candidates { .. }) | Progress::Proposals(_) | Progress::Picture { .. } => {
+                None
+            }
         };
         let news = gain.is_none() || gain != self.gain;
         self.gain = gain;

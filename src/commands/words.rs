@@ -130,6 +130,7 @@ pub fn progress(step: &Progress) -> String {
             format!("{found}\nsewn by hand, holes {} mm off: {}", defaults::SEWN_HOLE_MM, by_hand.join(", "))
         }
         Progress::Proposals(list) => format!("{} networks so far", list.len()),
+        Progress::Picture { done, of } => format!("picture {} of {of}", done + 1),
     }
 }
 

@@ -27,6 +27,10 @@ pub fn eased(easing: Easing, s: f64) -> f64 {
     match easing {
         Easing::Linear => s,
         Easing::Smooth => s * s * (3.0 - 2.0 * s),
+        Easing::Slow { out, into } => {
+            let u = handle_parameter(out, into, s);
+            u * u * (3.0 - 2.0 * u)
+        }
         Easing::Hold => {
             if s < 1.0 {
                 0.0
@@ -35,6 +39,24 @@ pub fn eased(easing: Easing, s: f64) -> f64 {
             }
         }
     }
+}
+
+/// Halvings of an interval: enough to reach the last bit of its ends.
+const HALVINGS: usize = 60;
+
+/// The parameter `u` at which the curve of `Easing::Slow` has come to the part `s` of its time:
+/// `3 (1-u)^2 u out + 3 (1-u) u^2 (1-into) + u^3 = s`, which ascends.
+fn handle_parameter(out: f64, into: f64, s: f64) -> f64 {
+    let time = |u: f64| u * (3.0 * (1.0 - u) * ((1.0 - u) * out + u * (1.0 - into)) + u * u);
+    let (mut low, mut high) = (0.0, 1.0);
+    if s <= low || s >= high {
+        return s.clamp(low, high);
+    }
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if time(middle) < s { low = middle } else { high = middle }
+    }
+    0.5 * (low + high)
 }
 
 /// Time of the last keyframe, s: the length of the timeline, which starts at 0.
@@ -76,6 +98,20 @@ mod tests {
         assert!((activations_at(&design, 1.0)[0] - (3.0 + 4.0 * 5.0 / 32.0)).abs() < 1e-12);
         assert!((activations_at(&design, 2.75)[0] - 5.5).abs() < 1e-12);
         assert_eq!(duration_s(&design), 3.5);
+    }
+
+    #[test]
+    fn handles_of_a_third_are_smooth_and_longer_ones_slower() {
+        let slow = |out: f64, into: f64| Easing::Slow { out, into };
+        for k in 0..=20 {
+            let s = f64::from(k) / 20.0;
+            let thirds = eased(slow(1.0 / 3.0, 1.0 / 3.0), s);
+            assert!((thirds - eased(Easing::Smooth, s)).abs() < 1e-12, "{s}");
+            // Turned about the middle, the handles change places.
+            assert!((eased(slow(0.7, 0.2), s) - (1.0 - eased(slow(0.2, 0.7), 1.0 - s))).abs() < 1e-12);
+        }
+        assert!(eased(slow(0.8, 0.2), 0.3) < 0.5 * eased(Easing::Smooth, 0.3));
+        assert_eq!((eased(slow(0.8, 0.2), 0.0), eased(slow(0.8, 0.2), 1.0)), (0.0, 1.0));
     }
 
     #[test]

@@ -3,16 +3,17 @@
 //! Each function leaves a valid design valid, or returns an error and leaves it as it was. They know nothing of undo:
 //! [`super::History`] calls them.
 
+mod keyframes;
 mod networks;
 
+pub use keyframes::{keyframe_at, move_keyframe, remove_keyframe, remove_keyframes, retime_keyframes, set_keyframe};
 pub use networks::{
     accept_network, color_network, move_network, mute_network, remove_network, rename_network, set_network,
 };
 
-use super::animation::SAME_TIME_S;
 use super::{
-    ControllerSettings, Design, DesignError, FabricationSettings, FiberSettings, Gravity, Keyframe, Material, Pin,
-    Pose, Target, TendonSettings, Term, validate,
+    ControllerSettings, Design, DesignError, FabricationSettings, FiberSettings, Gravity, Material, Pin, Pose, Target,
+    TendonSettings, Term, validate,
 };
 use crate::mesh::MeshError;
 use crate::outline::drawing::Track;
@@ -172,47 +173,6 @@ pub fn remove_target(design: &mut Design, pose: usize, index: usize) -> Result<T
     Ok(targets.remove(index))
 }
 
-/// Puts a keyframe on the timeline in place of one at the same time (within [`SAME_TIME_S`]), if any; its index.
-///
-/// # Errors
-/// A figure out of range, or another number of activations than networks.
-pub fn set_keyframe(design: &mut Design, keyframe: Keyframe) -> Result<usize, EditError> {
-    validate::keyframe("keyframe", design, &keyframe)?;
-    if let Some(index) = keyframe_at(design, keyframe.time_s) {
-        design.keyframes[index] = keyframe;
-        return Ok(index);
-    }
-    Ok(insert_keyframe(design, keyframe))
-}
-
-/// Moves a keyframe in time, past others if need be; its new index. Two keyframes at one time are refused.
-///
-/// # Errors
-/// No such keyframe; a time out of range, or one that another keyframe has.
-pub fn move_keyframe(design: &mut Design, index: usize, time_s: f64) -> Result<usize, EditError> {
-    let moved = Keyframe { time_s, ..item(&mut design.keyframes, "keyframe", index)?.clone() };
-    validate::keyframe(&format!("keyframes[{index}]"), design, &moved)?;
-    if design.keyframes.iter().enumerate().any(|(i, k)| i != index && same_time(k.time_s, time_s)) {
-        return Err(EditError::TimeTaken(time_s));
-    }
-    design.keyframes.remove(index);
-    Ok(insert_keyframe(design, moved))
-}
-
-/// Takes a keyframe away and returns it.
-///
-/// # Errors
-/// No such keyframe.
-pub fn remove_keyframe(design: &mut Design, index: usize) -> Result<Keyframe, EditError> {
-    item(&mut design.keyframes, "keyframe", index)?;
-    Ok(design.keyframes.remove(index))
-}
-
-/// The keyframe at a time, within [`SAME_TIME_S`].
-pub fn keyframe_at(design: &Design, time_s: f64) -> Option<usize> {
-    design.keyframes.iter().position(|k| same_time(k.time_s, time_s))
-}
-
 /// Gives the design another name.
 ///
 /// # Errors
@@ -307,6 +267,14 @@ pub fn set_drawing(design: &mut Design, drawing: Option<Drawing>) -> Result<(), 
     set(design, |d| std::mem::replace(&mut d.drawing, drawing), |d, old| d.drawing = old)
 }
 
+/// Replaces the factors on the stiffness of the triangles, or takes them away.
+///
+/// # Errors
+/// Another number of factors than triangles, or one out of range; the design stays as it was.
+pub fn set_stiffness_map(design: &mut Design, map: Option<Vec<f64>>) -> Result<(), EditError> {
+    set(design, |d| std::mem::replace(&mut d.stiffness_map, map), |d, old| d.stiffness_map = old)
+}
+
 /// Replaces the tracks of the drawing. An outline that was not drawn is traced, so that there is one.
 ///
 /// # Errors
@@ -361,16 +329,6 @@ fn free_pose_name(design: &Design, name: &str, except: Option<usize>) -> Result<
 fn trimmed(what: &'static str, name: &str) -> Result<String, EditError> {
     let name = name.trim();
     if name.is_empty() { Err(EditError::NoName(what)) } else { Ok(name.to_string()) }
-}
-
-fn insert_keyframe(design: &mut Design, keyframe: Keyframe) -> usize {
-    let index = design.keyframes.partition_point(|k| k.time_s < keyframe.time_s);
-    design.keyframes.insert(index, keyframe);
-    index
-}
-
-fn same_time(a: f64, b: f64) -> bool {
-    (a - b).abs() < SAME_TIME_S
 }
 
 fn item<'a, T>(items: &'a mut [T], what: &'static str, index: usize) -> Result<&'a mut T, EditError> {

@@ -83,6 +83,23 @@ impl History {
         self.change(change)
     }
 
+    /// [`Self::preview`] on top of the document as it was when the gesture began, in the place of the previews so far: nothing adds up.
+    ///
+    /// # Errors
+    /// [`EditError::NoGesture`], or what the change or the validation says; the preview before it stays then.
+    pub fn preview_anew<T>(
+        &mut self,
+        change: impl FnOnce(&mut Design) -> Result<T, EditError>,
+    ) -> Result<T, EditError> {
+        let Some(start) = &self.gesture else { return Err(EditError::NoGesture) };
+        let before = std::mem::replace(&mut self.current, start.other.clone());
+        let result = self.change(change);
+        if result.is_err() {
+            self.current = before;
+        }
+        result
+    }
+
     /// Ends a gesture as one step; true if it left one. Without a gesture nothing happens.
     pub fn commit(&mut self) -> bool {
         self.gesture.take().is_some_and(|start| self.push(start))
@@ -188,6 +205,27 @@ mod tests {
 
     fn move_first_target(to: [f64; 2]) -> impl FnOnce(&mut Design) -> Result<(), EditError> {
         move |design| edit::move_target(design, 0, 0, to)
+    }
+
+    #[test]
+    fn previews_from_the_beginning_do_not_add_up() {
+        let mut history = History::new(sample());
+        let by = |d: f64| {
+            move |design: &mut Design| {
+                let [x, y] = design.poses[0].targets[0].to;
+                edit::move_target(design, 0, 0, [x + d, y])
+            }
+        };
+        assert_eq!(history.preview_anew(by(1.0)), Err(EditError::NoGesture));
+        history.begin("Move target");
+        for d in [1.0, 2.0, 3.0] {
+            history.preview_anew(by(d)).unwrap();
+        }
+        assert!(history.preview_anew(by(f64::NAN)).is_err());
+        assert_eq!(history.current().poses[0].targets[0].to, [23.0, 70.0]);
+        assert!(history.commit());
+        history.undo();
+        assert_eq!(**history.current(), sample());
     }
 
     #[test]

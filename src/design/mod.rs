@@ -103,6 +103,37 @@ pub struct Pin {
     /// N/mm.
     #[serde(default = "pin_stiffness")]
     pub stiffness: f64,
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub hold: Hold,
+}
+
+/// The part of a body that a pin holds, and in which directions.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Hold {
+    /// The point: the body may turn about it.
+    #[default]
+    Point,
+    /// The point slides along a line through its anchor, at this angle from the x axis.
+    Line { degrees: f64 },
+    /// All nodes within the radius keep their places about the point, turned by the angle: the body cannot turn there.
+    Region {
+        radius_mm: f64,
+        #[serde(default, skip_serializing_if = "is_zero")]
+        degrees: f64,
+    },
+}
+
+impl Pin {
+    /// Holds a point of the body where it is at rest.
+    pub fn at_rest(at: BodyPoint, stiffness: f64) -> Self {
+        Self { at, position: None, stiffness, hold: Hold::Point }
+    }
+
+    /// World anchor, mm.
+    pub fn anchor(&self, mesh: &Mesh) -> Point {
+        self.position.unwrap_or_else(|| mesh.position(&self.at, &mesh.nodes))
+    }
 }
 
 /// A named pose: where points of the body should go.
@@ -169,7 +200,8 @@ pub struct Keyframe {
 }
 
 /// Shape of the motion between two keyframes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub enum Easing {
     Linear,
     /// Starts and ends at rest: `3 s^2 - 2 s^3`.
@@ -177,6 +209,12 @@ pub enum Easing {
     Smooth,
     /// Stays until the next keyframe.
     Hold,
+    /// Starts and ends at rest, as slowly as its handles say: the Bezier curve from (0, 0) to (1, 1) with the handles (out, 0) and
+    /// (1 - into, 1), progress over time. With thirds it is `Smooth`.
+    Slow {
+        out: f64,
+        into: f64,
+    },
 }
 
 impl Network {

@@ -66,11 +66,14 @@ ranges! {
     HOUSING: "sewing.housing_mm", "mm", 0.0, 1e3, "0 is a bare spool";
     BETWEEN_HOUSINGS: "sewing.between_housings_mm", "mm", 0.0, 1e3, "wider than any plushie";
     PIN_STIFFNESS: "pins[].stiffness", "N/mm", 1e-6, 1e6, "beyond, the matrix loses its digits";
+    PIN_RADIUS: "pins[].hold.radius_mm", "mm", 0.0, 1e5, "larger than any plushie; holds all of it";
+    PIN_ANGLE: "pins[].hold.degrees", "degrees", -360.0, 360.0, "once round";
     POSITION: "pins[].position, poses[].targets[].to, texture_box", "mm", -1e6, 1e6, "a kilometre, as the body";
     WEIGHT: "poses[].targets[].weight", "", 0.0, 1e6, "beyond, nothing else counts";
     RATIO: "networks[].tendons[].ratio", "", 1e-3, 1e3, "spools on one shaft";
     SLACK: "networks[].tendons[].slack_mm", "mm", 0.0, 1e4, "longer than any cable";
     TIME: "keyframes[].time_s", "s", 0.0, 36000.0, "ten hours";
+    EASE: "keyframes[].easing.out, keyframes[].easing.into", "", 0.05, 0.9, "less jerks; more stands still and then leaps";
     ACTIVATION: "keyframes[].activations_mm[]", "mm or body lengths over 1000", -1e3, 1e4, "the cable on one spool";
     COORDINATE: "outline.*[], mesh.nodes[]", "mm", -1e6, 1e6, "a kilometre, as imports";
     BODY: "the longer side of the mesh", "mm", 1e-2, 2e6, "as imports";

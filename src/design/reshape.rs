@@ -81,7 +81,7 @@ mod tests {
         let arm = Primitive::Capsule { ends: [[x, y], [0.5 * design.body_length_mm(), y]], radii: [20.0, 20.0] };
         drawing.parts.push(Part::joined(arm));
         let at = design.mesh.locate_nearest([60.0, 20.0], &design.mesh.nodes).unwrap().0;
-        design.pins.push(Pin { at, position: Some([5.0, 6.0]), stiffness: 20.0 });
+        design.pins.push(Pin { position: Some([5.0, 6.0]), ..Pin::at_rest(at, 20.0) });
         design.poses.push(Pose { name: "far".into(), targets: vec![Target { at, to: [7.0, 8.0], weight: 1.0 }] });
         let imported = drawing.import(&Import::default()).unwrap();
         let corner = imported.drawn_box[0];

@@ -13,11 +13,8 @@ pub(crate) fn sample() -> Design {
         ratio: 1.0,
         slack_mm: 0.0,
     };
-    design.pins = vec![Pin {
-        at: BodyPoint { triangle: 0, weights: [1.0, 0.0, 0.0] },
-        position: None,
-        stiffness: defaults::PIN_STIFFNESS,
-    }];
+    let corner = BodyPoint { triangle: 0, weights: [1.0, 0.0, 0.0] };
+    design.pins = vec![Pin::at_rest(corner, defaults::PIN_STIFFNESS)];
     let target = Target { at: BodyPoint { triangle: 2, weights: [0.25, 0.25, 0.5] }, to: [20.0, 70.0], weight: 1.0 };
     design.poses =
         vec![Pose { name: "lean".into(), targets: vec![target] }, Pose { name: "rest".into(), targets: vec![] }];

@@ -9,6 +9,7 @@ use super::ranges::{self, Range, at_most};
 use super::{
     Design, DriveSettings, FORMAT_VERSION, FiberSet, Keyframe, MaterialPoint, Network, Pin, Pose, Target, Tendon, Term,
 };
+use super::{Easing, Hold};
 use crate::files::is_hidden;
 use crate::mesh::{BodyPoint, Mesh};
 use crate::outline::{Point, polygon::signed_area};
@@ -225,6 +226,14 @@ pub(super) fn pin(at: &str, mesh: &Mesh, pin: &Pin) -> Check {
     if let Some(position) = &pin.position {
         coordinates(&format!("{at}.position"), position, &ranges::POSITION)?;
     }
+    match pin.hold {
+        Hold::Point => {}
+        Hold::Line { degrees } => ranges::PIN_ANGLE.check(&format!("{at}.hold.degrees"), degrees)?,
+        Hold::Region { radius_mm, degrees } => {
+            ranges::PIN_RADIUS.check(&format!("{at}.hold.radius_mm"), radius_mm)?;
+            ranges::PIN_ANGLE.check(&format!("{at}.hold.degrees"), degrees)?;
+        }
+    }
     ranges::PIN_STIFFNESS.check(&format!("{at}.stiffness"), pin.stiffness)
 }
 
@@ -271,6 +280,10 @@ pub(super) fn keyframe(at: &str, design: &Design, keyframe: &Keyframe) -> Check 
     let size = (design.body_length_mm() / METRE_MM).max(1.0);
     for (i, &a) in activations.iter().enumerate() {
         ranges::ACTIVATION.check_scaled(&format!("{at}.activations_mm[{i}]"), a, size)?;
+    }
+    if let Easing::Slow { out, into } = keyframe.easing {
+        ranges::EASE.check(&format!("{at}.easing.out"), out)?;
+        ranges::EASE.check(&format!("{at}.easing.into"), into)?;
     }
     if let Some(name) = &keyframe.pose {
         shown_name(&format!("{at}.pose"), name, true)?;

@@ -4,7 +4,8 @@ use super::body_spec::BodySpec;
 use super::patch;
 use crate::defaults;
 use crate::design::Target;
-use crate::design::{Design, Network, Tendon, TendonSettings};
+use crate::design::{Design, Hold, Network, Pin, Tendon, TendonSettings};
+use crate::mesh::Mesh;
 use crate::physics::{Body, Contractile, Element, Energy, Ground, MaterialPoint, Model, ModelError, PinSpring, Pins};
 use crate::soft_ik::{Objective, PointTarget, Winch};
 use std::ops::Range;
@@ -71,12 +72,7 @@ fn compile_body(spec: &BodySpec, view: View) -> Result<Plushie, ModelError> {
         }
     }
     let fiber_elements = tendons.end..elements.len();
-    let pins = spec.pins.iter().map(|pin| {
-        let (nodes, weights) = patch::point(mesh, &pin.at);
-        let anchor = pin.position.unwrap_or_else(|| mesh.position(&pin.at, &mesh.nodes));
-        PinSpring { nodes, weights, anchor, stiffness: pin.stiffness }
-    });
-    let pins = Pins { pins: pins.collect() };
+    let pins = Pins { pins: spec.pins.iter().flat_map(|pin| springs(mesh, pin)).collect() };
     let areas = body.nodal_areas(mesh.nodes.len());
     let ground = Ground { nodes: &mesh.nodes, triangles: &mesh.triangles, nodal_areas: &areas };
     let terms: Vec<Box<dyn Energy>> = spec.terms.iter().map(|term| term.build(&ground)).collect();
@@ -84,6 +80,44 @@ fn compile_body(spec: &BodySpec, view: View) -> Result<Plushie, ModelError> {
     let area_parts = areas.into_iter().map(|a| a / total).collect();
     let model = Model::new(&mesh.nodes, body, Contractile::new(elements), pins, terms)?;
     Ok(Plushie { model, winches, fibers, tendons, fiber_elements, area_parts })
+}
+
+/// The springs of a pin. A region is held by one at each of its nodes, which share the stiffness; their anchors are where the nodes would
+/// be if the region were moved and turned as a whole.
+fn springs(mesh: &Mesh, pin: &Pin) -> Vec<PinSpring> {
+    let (nodes, weights) = patch::point(mesh, &pin.at);
+    let anchor = pin.anchor(mesh);
+    let point =
+        |slide| PinSpring { nodes: nodes.clone(), weights: weights.clone(), anchor, stiffness: pin.stiffness, slide };
+    match pin.hold {
+        Hold::Point => vec![point(None)],
+        Hold::Line { degrees } => vec![point(Some([cos_degrees(degrees), sin_degrees(degrees)]))],
+        Hold::Region { radius_mm, degrees } => {
+            let center = mesh.position(&pin.at, &mesh.nodes);
+            let held = patch::region(mesh, &pin.at, radius_mm);
+            let (c, s) = (cos_degrees(degrees), sin_degrees(degrees));
+            let place = |node: usize| {
+                let [dx, dy] = [0, 1].map(|axis| mesh.nodes[node][axis] - center[axis]);
+                [anchor[0] + c * dx - s * dy, anchor[1] + s * dx + c * dy]
+            };
+            let stiffness = pin.stiffness / held.len() as f64;
+            held.into_iter().map(|node| PinSpring::node(node, place(node), stiffness)).collect()
+        }
+    }
+}
+
+/// Exact at the quarters of a turn, where a maker means the axes.
+fn cos_degrees(degrees: f64) -> f64 {
+    sin_degrees(degrees + 90.0)
+}
+
+fn sin_degrees(degrees: f64) -> f64 {
+    match degrees.rem_euclid(360.0) {
+        0.0 | 180.0 => 0.0,
+        90.0 => 1.0,
+        270.0 => -1.0,
+        other => other.to_radians().sin(),
+    }
 }
 
 /// One network: its tendons become elements, its winch may turn as far as every tendon allows (eq. 27). Cable beyond the

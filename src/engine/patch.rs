@@ -36,12 +36,25 @@ pub fn point(mesh: &Mesh, at: &BodyPoint) -> (Vec<usize>, Vec<f64>) {
     nodes.iter().zip(at.weights).filter(|(_, w)| *w != 0.0).map(|(n, w)| (*n, w)).unzip()
 }
 
+/// The nodes of a region about a point: those within the radius that hang together with it there, and those of its triangle.
+pub fn region(mesh: &Mesh, at: &BodyPoint, radius: f64) -> Vec<usize> {
+    let center = mesh.position(at, &mesh.nodes);
+    let own = mesh.triangles[at.triangle];
+    connected(mesh, at, |n| own.contains(&n) || distance(mesh.nodes[n], center) <= radius)
+}
+
 /// Nodes nearer than `radius`, connected with the point within that radius: the limb next to it does not count.
 fn around(mesh: &Mesh, at: &BodyPoint, center: Point, radius: f64) -> Vec<usize> {
-    let near: Vec<bool> = mesh.nodes.iter().map(|p| distance(*p, center) < radius).collect();
-    if near.iter().filter(|near| **near).count() < FEWEST_NODES {
+    let near = |n: usize| distance(mesh.nodes[n], center) < radius;
+    if (0..mesh.nodes.len()).filter(|&n| near(n)).count() < FEWEST_NODES {
         return Vec::new();
     }
+    connected(mesh, at, near)
+}
+
+/// Nodes of a kind that are connected with the point by triangles with such nodes.
+fn connected(mesh: &Mesh, at: &BodyPoint, near: impl Fn(usize) -> bool) -> Vec<usize> {
+    let near: Vec<bool> = (0..mesh.nodes.len()).map(near).collect();
     let triangles: Vec<&[usize; 3]> = mesh.triangles.iter().filter(|t| t.iter().any(|&n| near[n])).collect();
     let mut found = vec![false; mesh.nodes.len()];
     for &node in &mesh.triangles[at.triangle] {

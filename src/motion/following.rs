@@ -18,10 +18,35 @@ pub struct Following {
 
 /// An order as it arrives: from then on a drive goes there at this speed.
 #[derive(Clone, Copy, Debug)]
-struct Order {
+pub(super) struct Order {
     time_s: f64,
     target: i64,
     rpm: u32,
+}
+
+impl Order {
+    /// A drive is told it.
+    pub fn give(&self, drive: &mut Drive, machine: &Machine) {
+        drive.target = self.target as f64;
+        drive.speed = f64::from(self.rpm) / 60.0 * f64::from(machine.resolution());
+    }
+}
+
+/// The orders of a winch: every step of a trajectory at its time, one step ahead.
+pub(super) fn orders(machine: &Machine, trajectory: &Trajectory, winch: usize) -> Vec<Order> {
+    let (times, lengths) = (&trajectory.times_s, &trajectory.lengths_mm);
+    let order = |k: usize| {
+        let (from, to) = (machine.counts(lengths[k][winch]), machine.counts(lengths[k + 1][winch]));
+        Order { time_s: times[k], target: to, rpm: machine.rpm(to - from, times[k + 1] - times[k]) }
+    };
+    (0..times.len().saturating_sub(1)).map(order).collect()
+}
+
+/// A drive that stands where it has wound so much, mm.
+pub(super) fn drive(machine: &Machine, wound_mm: f64) -> Drive {
+    let following = f64::from(machine.controller.drives.following_acceleration) * f64::from(machine.resolution());
+    let position = (machine.counts_per_mm * wound_mm).round();
+    Drive { position, target: position, ..Drive::new(0.0, following) }
 }
 
 /// Time of all winches together that is simulated at most, s: what bounds the work on motions of hours.
@@ -40,11 +65,7 @@ impl Following {
         let (times, lengths) = (&trajectory.times_s, &trajectory.lengths_mm);
         let mut following = Self::default();
         for winch in 0..machine.winches.len() {
-            let order = |k: usize| {
-                let (from, to) = (machine.counts(lengths[k][winch]), machine.counts(lengths[k + 1][winch]));
-                Order { time_s: times[k], target: to, rpm: machine.rpm(to - from, times[k + 1] - times[k]) }
-            };
-            let orders: Vec<Order> = (0..times.len().saturating_sub(1)).map(order).collect();
+            let orders = orders(machine, trajectory, winch);
             let track = |time_s: f64| interpolated(times, lengths, winch, time_s);
             let span_s = [times[0], times[times.len() - 1].min(times[0] + Self::most_s(machine))];
             following.add(machine, &orders, track, span_s);
@@ -75,19 +96,14 @@ impl Following {
     }
 
     fn add(&mut self, machine: &Machine, orders: &[Order], track: impl Fn(f64) -> f64, [begin, end]: [f64; 2]) {
-        let resolution = f64::from(machine.resolution());
-        let following = f64::from(machine.controller.drives.following_acceleration) * resolution;
-        let mut drive = Drive::new(0.0, following);
         let scale = machine.counts_per_mm;
-        drive.position = (scale * track(begin)).round();
-        drive.target = drive.position;
+        let mut drive = drive(machine, track(begin));
         let (mut lag, mut squares, mut fastest, mut samples) = (0.0_f64, 0.0_f64, 0.0_f64, 0_u64);
         let (mut time_s, mut next) = (begin, 0);
         let mut before = track(time_s);
         while time_s < end + AFTER_S {
             while orders.get(next).is_some_and(|order| order.time_s <= time_s + 1e-9) {
-                (drive.target, drive.speed) =
-                    (orders[next].target as f64, f64::from(orders[next].rpm) / 60.0 * resolution);
+                orders[next].give(&mut drive, machine);
                 next += 1;
             }
             let from = drive.position;

@@ -137,6 +137,11 @@ impl Plan {
         steps
     }
 
+    /// Times of the design's keyframes in the plan, s; `count`: how many it has. A lead before them does not count.
+    pub fn keyframes_s(&self, count: usize) -> &[f64] {
+        &self.times_s[self.times_s.len().saturating_sub(count)..]
+    }
+
     /// How many steps [`Plan::steps`] has.
     pub fn count(&self, rate_hz: f64) -> f64 {
         self.times_s.windows(2).map(|pair| steps_of(pair, rate_hz)).sum::<f64>() + 1.0

@@ -103,9 +103,33 @@ impl Profile {
             _ if by == 0.0 => [0.0; 2],
             // s = 3 u^2 - 2 u^3: s' is at most 3/2, s'' 6.
             Easing::Smooth => [1.5 * speed, 6.0 * acceleration],
+            Easing::Slow { out, into } => {
+                let [most_speed, most_acceleration] = handle_peaks(out, into);
+                [most_speed * speed, most_acceleration * acceleration]
+            }
             Easing::Linear | Easing::Hold => [f64::INFINITY; 2],
         }
     }
+}
+
+/// Places of a curve with handles that are looked at for its peaks, and what they may miss by between two of them, as a part.
+const PLACES: usize = 400;
+const BETWEEN: f64 = 1e-3;
+
+/// Largest first and second derivative of progress over time, of `Easing::Slow`: `y'/x'` and `(y'' x' - y' x'') / x'^3` by the curve's parameter.
+fn handle_peaks(out: f64, into: f64) -> [f64; 2] {
+    let (a, b) = (out, 1.0 - into);
+    let mut peaks = [0.0_f64; 2];
+    for k in 0..=PLACES {
+        let u = k as f64 / PLACES as f64;
+        let v = 1.0 - u;
+        let x1 = 3.0 * (v * v * a + 2.0 * v * u * (b - a) + u * u * (1.0 - b));
+        let x2 = 6.0 * (v * (b - 2.0 * a) + u * (1.0 - 2.0 * b + a));
+        let (y1, y2) = (6.0 * u * v, 6.0 - 12.0 * u);
+        peaks[0] = peaks[0].max(y1 / x1);
+        peaks[1] = peaks[1].max(((y2 * x1 - y1 * x2) / (x1 * x1 * x1)).abs());
+    }
+    peaks.map(|peak| peak * (1.0 + BETWEEN))
 }
 
 #[cfg(test)]
@@ -125,6 +149,24 @@ mod tests {
             assert!(Trapezoid::find(by, 0.999 * shortest, [0.0; 2], LIMITS).is_none());
             let found = Trapezoid::find(by, shortest, [0.0; 2], LIMITS).expect("it fits exactly");
             assert!((found.distance() - by).abs() < 1e-8 * by.abs());
+        }
+    }
+
+    #[test]
+    fn peaks_of_handles_are_those_of_differences() {
+        for (out, into) in [(1.0 / 3.0, 1.0 / 3.0), (0.7, 0.2), (0.1, 0.9), (0.9, 0.9), (0.05, 0.05)] {
+            let easing = Easing::Slow { out, into };
+            let [speed, acceleration] = Profile::peaks(easing, 1.0, 1.0);
+            let (steps, mut most) = (20_000, [0.0_f64; 2]);
+            let dt = 1.0 / f64::from(steps);
+            let at = |k: i32| eased(easing, f64::from(k) * dt);
+            for k in 1..steps {
+                most[0] = most[0].max((at(k + 1) - at(k - 1)) / (2.0 * dt));
+                most[1] = most[1].max((at(k + 1) - 2.0 * at(k) + at(k - 1)).abs() / (dt * dt));
+            }
+            assert!((speed / most[0] - 1.0).abs() < 0.01, "{out} {into}: {speed} {most:?}");
+            // At the ends of short handles it falls within one difference.
+            assert!((0.999..1.05).contains(&(acceleration / most[1])), "{out} {into}: {acceleration} {most:?}");
         }
     }
 

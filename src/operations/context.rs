@@ -16,6 +16,11 @@ pub enum Progress {
     Rig(rigging::Progress),
     /// Networks that were found so far, the best first.
     Proposals(Vec<Arc<rigging::Proposal>>),
+    /// So many pictures of a film are drawn.
+    Picture {
+        done: usize,
+        of: usize,
+    },
 }
 
 /// The operation was told to stop; nothing has changed.

@@ -7,11 +7,15 @@
 //! | [`remesh`] | a design to the same one at another resolution |
 //! | [`reshape`] | a design and another outline to the design with that body |
 //! | [`pose`] | places of the body to pins, and to targets of a pose |
+//! | [`arrange`] | targets and pins to the same ones moved, turned, scaled, weighed or mirrored together |
+//! | [`starch`] | a place of the body to a stiffer or softer patch |
 //! | [`network`] | places and numbers to winches and tendons that are changed |
 //! | [`propose`] | a pose to networks that reach it, the best first |
 //! | [`rig`] | all poses to networks, and to a timeline where there is none |
 //! | [`explore`] | all poses to the curve of their error against winches and tendons |
 //! | [`key`] | a pose to a keyframe of winch activations |
+//! | [`retime`] | a timeline to one at other times: moved, stretched, copied, or as slow as the motors need |
+//! | [`film`] | an animation to a GIF, numbered pictures, or a page that plays it |
 //! | [`check`] | a design to its figures |
 //! | [`export`] | a design to the folder of its blueprint |
 //! | [`play`] | a design to motors that play its animation |
@@ -41,11 +45,13 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod arrange;
 pub mod check;
 mod context;
 pub mod explore;
 pub mod export;
 mod fibers;
+pub mod film;
 pub mod key;
 pub mod network;
 pub mod new_design;
@@ -57,7 +63,9 @@ pub mod propose;
 pub mod remesh;
 pub mod render;
 pub mod reshape;
+pub mod retime;
 pub mod rig;
+pub mod starch;
 
 pub use context::{Cancelled, Context, Progress};
 pub use fibers::{FiberCount, MoreFibers};

@@ -6,7 +6,7 @@
 use super::{Cancelled, Context};
 use crate::defaults;
 use crate::design::edit::{self, EditError};
-use crate::design::{Design, Pin, Pose, Target};
+use crate::design::{Design, Hold, Pin, Pose, Target};
 use crate::mesh::{BodyPoint, Mesh};
 use crate::outline::Point;
 use serde::{Deserialize, Serialize};
@@ -27,7 +27,20 @@ pub struct Options {
     pub name: String,
     /// Places that are held where they are at rest.
     pub pins: Vec<Point>,
+    /// Places that are held otherwise than as points.
+    pub held: Vec<Held>,
     pub targets: Vec<Move>,
+    /// Holds the middle of the body so that it can neither move nor turn.
+    pub middle: bool,
+    /// Holds the middle where nothing is pinned, and adds a first pose.
+    pub begin: bool,
+}
+
+/// A point of the body at rest, mm, and how it is held.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Held {
+    pub at: Point,
+    pub hold: Hold,
 }
 
 /// A point of the body at rest and where it should go, mm.
@@ -55,9 +68,22 @@ pub fn run(design: &mut Design, options: &Options, context: &Context) -> Result<
     let mut changed = design.clone();
     for &place in &options.pins {
         let at = body_point(&changed.mesh, place)?;
-        put_pin(&mut changed, at)?;
+        put_pin(&mut changed, at, Hold::Point)?;
+    }
+    for held in &options.held {
+        let at = body_point(&changed.mesh, held.at)?;
+        put_pin(&mut changed, at, held.hold)?;
+    }
+    if options.middle {
+        pin_middle(&mut changed)?;
     }
     let name = options.name.trim();
+    if options.begin {
+        let pose = begin(&mut changed)?;
+        if !name.is_empty() {
+            edit::rename_pose(&mut changed, pose, name)?;
+        }
+    }
     let pose = match changed.poses.iter().position(|p| p.name == name) {
         Some(pose) => pose,
         None => edit::add_pose(&mut changed, Pose { name: name.to_owned(), targets: Vec::new() })?,
@@ -74,8 +100,59 @@ pub fn run(design: &mut Design, options: &Options, context: &Context) -> Result<
 ///
 /// # Errors
 /// As [`edit::add_pin`].
-pub fn put_pin(design: &mut Design, at: BodyPoint) -> Result<usize, EditError> {
-    let pin = Pin { at, position: None, stiffness: defaults::PIN_STIFFNESS };
+pub fn put_pin(design: &mut Design, at: BodyPoint, hold: Hold) -> Result<usize, EditError> {
+    place_pin(design, Pin { hold, ..Pin::at_rest(at, defaults::PIN_STIFFNESS) })
+}
+
+/// Holds the place of the body that is farthest from its seam, within half that distance, so that it can neither move nor turn. The number of
+/// the pin.
+///
+/// # Errors
+/// A design without a mesh.
+pub fn pin_middle(design: &mut Design) -> Result<usize, EditError> {
+    let mesh = &design.mesh;
+    let rim: Vec<usize> = mesh.boundary().into_iter().flatten().collect();
+    let from_seam = |n: usize| {
+        let [x, y] = mesh.nodes[n];
+        rim.iter().map(|&r| (mesh.nodes[r][0] - x).hypot(mesh.nodes[r][1] - y)).fold(f64::INFINITY, f64::min)
+    };
+    let inner = (0..mesh.nodes.len()).map(|n| (n, from_seam(n)));
+    let Some((node, far)) = inner.max_by(|a, b| a.1.total_cmp(&b.1)) else {
+        return Err(EditError::NoBody { place: [0.0; 2] });
+    };
+    let at = mesh.node_point(node).ok_or(EditError::NoBody { place: mesh.nodes[node] })?;
+    let radius_mm = (0.5 * far * STEPS_PER_MM).round() / STEPS_PER_MM;
+    put_pin(design, at, Hold::Region { radius_mm, degrees: 0.0 })
+}
+
+/// Begins with a body that nobody has posed yet: holds its middle where nothing is pinned, and adds a pose in which the place that is farthest
+/// from there waves. The number of the pose.
+///
+/// # Errors
+/// A design without a mesh.
+pub fn begin(design: &mut Design) -> Result<usize, EditError> {
+    if design.pins.is_empty() {
+        pin_middle(design)?;
+    }
+    let mesh = &design.mesh;
+    let held = design.pins[0].anchor(mesh);
+    let away = |p: Point| (p[0] - held[0]).hypot(p[1] - held[1]);
+    let tip = (0..mesh.nodes.len()).max_by(|&a, &b| away(mesh.nodes[a]).total_cmp(&away(mesh.nodes[b])));
+    let tip = tip.ok_or(EditError::NoBody { place: held })?;
+    let place = mesh.nodes[tip];
+    let at = mesh.node_point(tip).ok_or(EditError::NoBody { place })?;
+    let (sin, cos) = WAVE_DEGREES.to_radians().sin_cos();
+    let [dx, dy] = [place[0] - held[0], place[1] - held[1]];
+    let to = rounded([held[0] + cos * dx - sin * dy, held[1] + sin * dx + cos * dy]);
+    let name = edit::unused_pose_name(design, "Wave");
+    edit::add_pose(design, Pose { name, targets: vec![Target { at, to, weight: 1.0 }] })
+}
+
+/// How far the tip of a body turns about what holds it in its first pose: enough to be seen, little enough to be reached.
+const WAVE_DEGREES: f64 = 12.0;
+
+/// Puts a pin in, in the place of one on the same point of the body, and returns its number.
+pub(super) fn place_pin(design: &mut Design, pin: Pin) -> Result<usize, EditError> {
     match design.pins.iter().position(|old| is_same(&design.mesh, &old.at, &pin.at)) {
         Some(index) => edit::set_pin(design, index, pin).map(|()| index),
         None => edit::add_pin(design, pin),
@@ -118,7 +195,7 @@ pub(super) fn body_point(mesh: &Mesh, place: Point) -> Result<BodyPoint, EditErr
 }
 
 /// Whether two points of the body are one place at rest.
-fn is_same(mesh: &Mesh, a: &BodyPoint, b: &BodyPoint) -> bool {
+pub(super) fn is_same(mesh: &Mesh, a: &BodyPoint, b: &BodyPoint) -> bool {
     let (p, q) = (mesh.position(a, &mesh.nodes), mesh.position(b, &mesh.nodes));
     (p[0] - q[0]).hypot(p[1] - q[1]) < SAME_MM
 }
@@ -130,7 +207,7 @@ mod tests {
     use std::sync::atomic::AtomicBool;
 
     fn options(pins: &[Point], targets: &[Move]) -> Options {
-        Options { name: " wave ".into(), pins: pins.to_vec(), targets: targets.to_vec() }
+        Options { name: " wave ".into(), pins: pins.to_vec(), targets: targets.to_vec(), ..Options::default() }
     }
 
     #[test]

@@ -32,6 +32,13 @@ pub struct NoSuchPose {
     pub known: Vec<String>,
 }
 
+impl NoSuchPose {
+    /// Of a design that has no pose of that name.
+    pub(super) fn of(design: &Design, name: &str) -> Self {
+        Self { name: name.to_owned(), known: design.poses.iter().map(|p| p.name.clone()).collect() }
+    }
+}
+
 impl fmt::Display for View {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str(match self {
@@ -68,10 +75,7 @@ impl Unbalanced {
 /// The targets of a pose.
 pub(super) fn targets(design: &Design, pose: &str) -> Result<Vec<Target>, NoSuchPose> {
     let found = design.poses.iter().find(|p| p.name == pose).map(|p| p.targets.clone());
-    found.ok_or_else(|| NoSuchPose {
-        name: pose.to_owned(),
-        known: design.poses.iter().map(|p| p.name.clone()).collect(),
-    })
+    found.ok_or_else(|| NoSuchPose::of(design, pose))
 }
 
 /// Both plushies, idealized first, solved from rest; one that is not `wanted` stays at rest.

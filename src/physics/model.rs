@@ -313,7 +313,7 @@ struct Freedom {
 }
 
 impl Freedom {
-    /// A piece needs pins at two distinct points; else its nodes are shifted.
+    /// A piece needs pins at two distinct points, or slides that hold as much; else its nodes are shifted.
     fn of(nodes: &[[f64; 2]], body: &Body, contractile: &Contractile, pins: &Pins) -> Self {
         let mut pieces = Groups::new(nodes.len());
         for t in body.triangles() {
@@ -321,6 +321,7 @@ impl Freedom {
             pieces.join(t[0], t[2]);
         }
         let mut held: Vec<Vec<[f64; 2]>> = vec![Vec::new(); nodes.len()];
+        let mut slides: Vec<Vec<Slide>> = vec![Vec::new(); nodes.len()];
         let pinning = || pins.pins.iter().filter(|p| p.stiffness > 0.0);
         for pin in pinning() {
             let mut at = [0.0; 2];
@@ -329,8 +330,10 @@ impl Freedom {
                 at[1] += w * nodes[n][1];
             }
             let root = pieces.root(pin.nodes[0]);
-            if !held[root].contains(&at) {
-                held[root].push(at);
+            match pin.slide {
+                Some([dx, dy]) => slides[root].push(Slide { at, across: [-dy, dx] }),
+                None if !held[root].contains(&at) => held[root].push(at),
+                None => {}
             }
         }
         let (mut in_body, mut used) = (vec![false; nodes.len()], vec![false; nodes.len()]);
@@ -346,7 +349,7 @@ impl Freedom {
             let pinned = held[root].len();
             // A single point cannot turn.
             let needed = if in_body[i] { 2 } else { 1 };
-            if pinned < needed {
+            if pinned < needed && !holds(&held[root], &slides[root], needed) {
                 shift[2 * i] = shift_by;
                 shift[2 * i + 1] = shift_by;
                 if root == i && used[i] {
@@ -374,6 +377,46 @@ impl Freedom {
         members.retain(|m| !m.is_empty());
         Self { shift, pieces: count, loose, unpinned: members }
     }
+}
+
+/// A pin that holds its point across a line alone.
+#[derive(Clone, Copy)]
+struct Slide {
+    at: [f64; 2],
+    /// Unit vector.
+    across: [f64; 2],
+}
+
+/// Part of the largest of rows below which what is left of a row is rounding.
+const DEPENDENT: f64 = 1e-9;
+
+/// Whether points and slides hold a piece: the rows `n^T (t + omega x p)` of its rigid motions `(t, omega)` have full rank. Of a single
+/// node (`needed` is 1) the two rows of `t` do.
+fn holds(points: &[[f64; 2]], slides: &[Slide], needed: usize) -> bool {
+    if slides.is_empty() {
+        return false;
+    }
+    let both = points.iter().flat_map(|&at| [[1.0, 0.0], [0.0, 1.0]].map(|across| Slide { at, across }));
+    let all: Vec<Slide> = both.chain(slides.iter().copied()).collect();
+    // About the first point, in units of the farthest: rotations count as much as translations.
+    let from = all[0].at;
+    let away = |s: &Slide| [s.at[0] - from[0], s.at[1] - from[1]];
+    let size = all.iter().map(|s| away(s)[0].hypot(away(s)[1])).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
+    let columns = if needed == 1 { 2 } else { 3 };
+    let mut basis: Vec<[f64; 3]> = Vec::new();
+    for slide in &all {
+        let ([x, y], [nx, ny]) = (away(slide), slide.across);
+        let mut row = [nx, ny, if columns == 3 { (ny * x - nx * y) / size } else { 0.0 }];
+        for b in &basis {
+            let along: f64 = (0..3).map(|k| row[k] * b[k]).sum();
+            (0..3).for_each(|k| row[k] -= along * b[k]);
+        }
+        let left = row.iter().map(|v| v * v).sum::<f64>().sqrt();
+        if left > DEPENDENT {
+            basis.push(row.map(|v| v / left));
+        }
+    }
+    basis.len() >= columns
 }
 
 /// Disjoint sets of nodes, each known by its smallest.

@@ -1,6 +1,7 @@
 //! Pins: stiff zero-length springs from points of the body to world anchors (section 4.4).
 //!
-//! `E = sum K/2 |S x - p|^2`, `S x` the pinned point. A pin holds a node or any point of a triangle.
+//! `E = sum K/2 |S x - p|^2`, `S x` the pinned point. A pin holds a node or any point of a triangle. One that slides along the unit
+//! vector `d` holds across it alone: `E = K/2 |(I - d d^T)(S x - p)|^2`.
 
 use super::energy::{Energy, HessianForm, ROUNDING, Scales};
 use super::pattern::Scatter;
@@ -14,6 +15,8 @@ pub struct PinSpring {
     pub anchor: [f64; 2],
     /// `K`, force per length.
     pub stiffness: f64,
+    /// Unit vector along which the point moves freely.
+    pub slide: Option<[f64; 2]>,
 }
 
 #[derive(Clone, Debug, Default)]
@@ -24,17 +27,25 @@ pub struct Pins {
 impl PinSpring {
     /// A pin on one node.
     pub fn node(node: usize, anchor: [f64; 2], stiffness: f64) -> Self {
-        Self { nodes: vec![node], weights: vec![1.0], anchor, stiffness }
+        Self { nodes: vec![node], weights: vec![1.0], anchor, stiffness, slide: None }
     }
 
-    /// The force of the pin on the body, `K (p - S x)`.
+    /// The part of a vector across the way of a pin that slides, `(I - d d^T) v`; all of it where it does not.
+    pub fn across(&self, v: [f64; 2]) -> [f64; 2] {
+        self.slide.map_or(v, |[dx, dy]| {
+            let along = dx * v[0] + dy * v[1];
+            [v[0] - along * dx, v[1] - along * dy]
+        })
+    }
+
+    /// The force of the pin on the body, `K (p - S x)`, across its way.
     pub fn force(&self, x: &[f64]) -> [f64; 2] {
         let mut force = [0.0; 2];
         for axis in 0..2 {
             let at: f64 = self.nodes.iter().zip(&self.weights).map(|(n, w)| w * x[2 * n + axis]).sum();
             force[axis] = self.stiffness * (self.anchor[axis] - at);
         }
-        force
+        self.across(force)
     }
 }
 
@@ -81,7 +92,8 @@ impl Energy for Pins {
         for (k, pin) in self.pins.iter().enumerate() {
             out.add(k, |a, b| {
                 let s = pin.stiffness * pin.weights[a] * pin.weights[b];
-                [s, 0.0, 0.0, s]
+                let ([xx, yx], [xy, yy]) = (pin.across([s, 0.0]), pin.across([0.0, s]));
+                [xx, xy, yx, yy]
             });
         }
     }

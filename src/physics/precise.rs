@@ -110,6 +110,7 @@ fn evaluate(model: &Model, state: &[DoubleDouble], x: &[f64], gradient: &mut [f6
                 .fold(DoubleDouble::ZERO, |sum, (n, w)| sum + state[2 * n + axis] * DoubleDouble::from(*w));
             pin.stiffness * (DoubleDouble::from(pin.anchor[axis]) - at).value()
         });
+        let force = pin.across(force);
         for (&n, w) in pin.nodes.iter().zip(&pin.weights) {
             for axis in 0..2 {
                 gradient[2 * n + axis] -= w * force[axis];

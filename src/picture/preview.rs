@@ -1,6 +1,7 @@
 //! What was read of a file: the outline, and in colours what it does not hold.
 
 use super::color::Color;
+pub use super::pixels::Preview;
 use super::raster::{RasterError, fitted, path};
 use crate::files::marked_png;
 use crate::outline::{Imported, Point, Why};
@@ -12,14 +13,6 @@ const BODY: Color = Color(196, 178, 156, 255);
 const EDGE: Color = Color(70, 52, 36, 255);
 /// Width of the edge, pixels.
 const EDGE_PX: f32 = 1.5;
-
-/// A picture with pixels from left to right and from above, RGBA.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Preview {
-    pub width: u32,
-    pub height: u32,
-    pub pixels: Vec<u8>,
-}
 
 /// The colour of what is no part of the outline, or was not part of the drawing, and its name.
 pub fn color(why: Why) -> (Color, &'static str) {

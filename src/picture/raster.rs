@@ -2,6 +2,7 @@
 
 use super::color::Color;
 use super::palette::Palette;
+use super::pixels::Preview;
 use super::plush::{self, Felt};
 use super::ramp::Bar;
 use super::scene::{Item, Scene};
@@ -67,6 +68,19 @@ pub fn png_with_bar(
     }
     let bytes = pixmap.encode_png().map_err(|e| RasterError::Encode(e.to_string()))?;
     Ok(marked_png(&bytes))
+}
+
+/// One scene in the middle of a picture of a size, pixels.
+///
+/// # Errors
+/// A size that is empty or does not fit in memory.
+pub fn one(scene: &Scene, size: (u32, u32), background: Color) -> Result<Preview, RasterError> {
+    let mut pixmap = Pixmap::new(size.0, size.1).ok_or(RasterError::Size(size.0, size.1))?;
+    pixmap.fill(color(background));
+    let view = View::fit(&Bounds::of([scene]), 0.0, f64::from(size.0), f64::from(size.1));
+    paint_scene(&mut pixmap.as_mut(), scene, &view);
+    // Nothing shines through: premultiplied or not is the same.
+    Ok(Preview { width: size.0, height: size.1, pixels: pixmap.take() })
 }
 
 /// Points of mm (y up) to pixels, so that all of them are as large as a margin allows in a picture of a size.

@@ -23,7 +23,7 @@ pub(super) fn bar(fibers: usize) -> Design {
     let mesh = mesh::generate(&outline, fibers).unwrap();
     let mut design = Design::new("bar", outline, mesh);
     let at = |p: Point| -> BodyPoint { design.mesh.locate_nearest(p, &design.mesh.nodes).unwrap().0 };
-    let pin = |p: Point| Pin { at: at(p), position: None, stiffness: 20.0 };
+    let pin = |p: Point| Pin::at_rest(at(p), 20.0);
     let target = |p: Point, to: Point| Target { at: at(p), to, weight: 1.0 };
     let pins = vec![pin([0.0, 5.0]), pin([0.0, 55.0])];
     let pose = |name: &str, up: f64| Pose {

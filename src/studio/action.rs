@@ -4,14 +4,16 @@ use super::canvas::{Camera, Hit, Plushie};
 use super::change::Change;
 use super::commands::command::Command;
 pub use super::session::FileAction;
-use super::session::{Overlay, Renamed, Resolution, RigChoice, Selection, Task};
-use crate::engine::Quality;
+use super::session::{Brush, Order, Overlay, Renamed, Resolution, RigChoice, Selection, Task};
+use crate::engine::{Quality, Shape};
+use crate::operations::arrange::Handle;
 use crate::operations::network::Part;
 use crate::operations::play;
 use crate::outline::Point;
 use crate::outline::drawing::Item;
 use crate::picture::Stage;
 use crate::rigging::ProposeOptions;
+use std::sync::Arc;
 
 /// Wanted, in the order in which it was asked for.
 pub type Actions = Vec<Action>;
@@ -22,6 +24,8 @@ pub enum Action {
     Change(Change),
     /// Part of a gesture (a slider, a dragged keyframe): one undo step when the hand is off the controls.
     Live(Change),
+    /// Part of a gesture that begins anew from where the document was, so that nothing adds up on the way.
+    Again(Change),
     /// A command, and what it is about.
     Run(&'static Command, Hit),
     /// What stands over the window instead of what did.
@@ -40,6 +44,15 @@ pub enum Action {
     SetMotors(Box<play::Options>),
     SelectPose(Option<usize>),
     Select(Selection),
+    /// Picks targets and pins out together.
+    Gather(Vec<Handle>),
+    /// Picks keyframes out together.
+    GatherKeys(Vec<usize>),
+    /// Text from the clipboard.
+    Paste(String),
+    SetBrush(Brush),
+    /// Moves the pin, mm; part of a gesture.
+    DragPin(usize, Point),
     SetQuality(Quality),
     SetCamera(Plushie, Camera),
     Scrub(f64),
@@ -47,6 +60,9 @@ pub enum Action {
     SetResolution(Resolution),
     SetRig(RigChoice),
     ShowProposal(Option<usize>),
+    /// A proposal is under the pointer, and strikes this shape.
+    HoverProposal(Option<(usize, Option<Arc<Shape>>)>),
+    SortProposals(Order),
     /// Puts a rig of the curve in.
     TakeRig(usize),
     ShowStage(Stage),

@@ -2,9 +2,10 @@
 
 use super::action::{Action, FileAction};
 use super::adapter::Lost;
+use super::focus::Focus;
 use super::pacing::Pacing;
 use super::panels;
-use super::session::{Services, Session, desktop_has_dialogs};
+use super::session::{Overlay, Services, Session, desktop_has_dialogs};
 use super::store::Store;
 use super::tools::Toolbox;
 use super::{acts, canvas, keys, style, viewport};
@@ -19,15 +20,21 @@ use std::time::Duration;
 /// How often a window that drives motors shows that it is there.
 const WATCH: Duration = Duration::from_millis(100);
 
+/// How long folds and switches take, s.
+const MOVES_S: f32 = 0.1;
+
 pub struct Studio {
     session: Session,
     timeline: panels::timeline::State,
     palette: panels::palette::State,
+    start: panels::start::State,
+    dialogs: panels::dialogs::State,
     inspector: panels::inspector::State,
     views: viewport::State,
     sheet: canvas::State,
     tools: Toolbox,
     pacing: Pacing,
+    focus: Focus,
     title: String,
     lost: Lost,
 }
@@ -44,11 +51,14 @@ impl Studio {
             session,
             timeline: Default::default(),
             palette: Default::default(),
+            start: Default::default(),
+            dialogs: Default::default(),
             inspector: Default::default(),
             views: viewport::State::default(),
             sheet: canvas::State::default(),
             tools,
             pacing: Pacing::default(),
+            focus: Focus::default(),
             title: String::new(),
             lost: Lost::default(),
         }
@@ -91,6 +101,14 @@ impl Studio {
         self
     }
 
+    /// Shows the start page over what is open, where nothing that was left behind is offered.
+    pub fn with_start_page(mut self) -> Self {
+        if self.session.files.dialog.is_none() {
+            self.session.overlay = Some(Overlay::Start);
+        }
+        self
+    }
+
     /// Where a place in mm was on the screen in the last frame; `None` in a view that is not shown.
     pub fn on_screen(&self, plushie: viewport::Plushie, p: Point) -> Option<egui::Pos2> {
         self.views.on_screen(plushie, p)
@@ -129,8 +147,16 @@ impl Studio {
         for action in actions {
             acts::apply::apply(&mut self.session, action);
         }
+        // What egui itself moves: folds, scroll bars, switches.
+        let moves_s = if self.session.look.still { 0.0 } else { MOVES_S };
+        if ctx.global_style().animation_time != moves_s {
+            ctx.all_styles_mut(|style| style.animation_time = moves_s);
+        }
         if self.session.look.theme != theme {
             style::set_theme(&ctx, self.session.look.theme);
+        }
+        if let Some(text) = self.session.clipboard.take() {
+            ctx.copy_text(text);
         }
         if changed && hands_off {
             acts::keep::remember(&mut self.session);
@@ -143,6 +169,7 @@ impl Studio {
         self.keep_awake(&ctx);
         self.set_title(&ctx);
         self.guard_closing(&ctx);
+        self.focus.paint(&ctx, style::accent(self.session.look.theme));
     }
 
     fn layout(&mut self, ui: &mut egui::Ui, actions: &mut Vec<Action>) {
@@ -152,44 +179,48 @@ impl Studio {
         Panel::top("toolbar").frame(bar).exact_size(42.0).resizable(false).show(ui, |ui| {
             panels::toolbar::show(ui, session, actions);
         });
-        let status = Panel::bottom("status")
-            .frame(Frame::new())
-            .exact_size(panels::status::HEIGHT)
-            .resizable(false)
-            .show(ui, |ui| {
+        Panel::bottom("status").frame(Frame::new()).exact_size(panels::status::HEIGHT).resizable(false).show(
+            ui,
+            |ui| {
                 panels::status::show(ui, session);
-            });
+            },
+        );
         if session.sketching().open {
             let outline = Panel::right("outline").frame(panels::frame()).default_size(288.0).size_range(288.0..=420.0);
-            outline.show(ui, |ui| panels::outline::show(ui, session, &mut self.sheet, actions));
+            outline.show(ui, |ui| {
+                panels::messages::show(ui, session, actions);
+                panels::outline::show(ui, session, &mut self.sheet, actions);
+            });
             let (tool, entry) = self.tools.tool(session);
             CentralPanel::no_frame()
                 .show(ui, |ui| canvas::show(ui, session, &mut self.sheet, tool, entry.hint, actions));
-            panels::messages::show(ui.ctx(), session, status.response.rect.height(), actions);
-            panels::dialogs::show(ui.ctx(), session, actions);
+            panels::dialogs::show(ui.ctx(), session, &mut self.dialogs, actions);
             return;
         }
         let timeline =
             Panel::bottom("timeline").frame(bar).default_size(132.0).size_range(96.0..=320.0).resizable(true);
-        let timeline = timeline.show(ui, |ui| {
+        timeline.show(ui, |ui| {
             panels::timeline::show(ui, session, &mut self.timeline, actions);
         });
         let poses = Panel::left("poses").frame(panels::frame()).default_size(204.0).size_range(160.0..=360.0);
-        poses.show(ui, |ui| panels::poses::show(ui, session, actions));
+        poses.show(ui, |ui| {
+            panels::messages::show(ui, session, actions);
+            panels::poses::show(ui, session, actions);
+        });
         let inspector = Panel::right("inspector").frame(panels::frame()).default_size(288.0).size_range(288.0..=420.0);
         inspector.show(ui, |ui| panels::inspector::show(ui, session, &mut self.inspector, actions));
         CentralPanel::no_frame().show(ui, |ui| {
             let (tool, _) = self.tools.tool(session);
             viewport::show(ui, session, &mut self.views, tool, actions);
         });
-        let above = status.response.rect.height() + timeline.response.rect.height();
-        panels::messages::show(ui.ctx(), session, above, actions);
-        panels::dialogs::show(ui.ctx(), session, actions);
+        panels::dialogs::show(ui.ctx(), session, &mut self.dialogs, actions);
     }
 
     fn overlays(&mut self, ctx: &egui::Context, actions: &mut Vec<Action>) {
         panels::palette::show(ctx, &self.session, &mut self.palette, actions);
         panels::shortcuts::show(ctx, &self.session, actions);
+        panels::log::show(ctx, &self.session, actions);
+        panels::start::show(ctx, &self.session, &mut self.start, actions);
     }
 
     /// Asks for the next frame where something moves by itself; otherwise nothing is drawn until something happens.

@@ -2,15 +2,18 @@
 
 use crate::design::edit::{self, EditError};
 use crate::design::{
-    ControllerSettings, Design, Easing, FabricationSettings, FiberSettings, Keyframe, Material, Network, Pose, Target,
-    TendonSettings, Term,
+    ControllerSettings, Design, Easing, FabricationSettings, FiberSettings, Hold, Keyframe, Material, Network, Pin,
+    Pose, Target, TendonSettings, Term,
 };
-use crate::mesh::BodyPoint;
+use crate::mesh::{Axis, BodyPoint};
+use crate::operations::arrange::{self, Handle, Motion};
 use crate::operations::network::{self, Part};
-use crate::operations::pose::{at_hand, put_pin, put_target, rounded};
+use crate::operations::pose::{at_hand, begin, pin_middle, put_pin, put_target, rounded};
+use crate::operations::{retime, starch};
 use crate::outline::{Drawing, Point};
 use crate::physics::TermKind;
 use crate::sewing::Rules;
+use crate::studio::session::Brush;
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Change {
@@ -40,18 +43,82 @@ pub enum Change {
     ClearTargets(usize),
     AddPin(BodyPoint),
     RemovePin(usize),
+    /// Another anchor, mm; none: where its point is at rest.
+    MovePin {
+        index: usize,
+        to: Option<Point>,
+    },
+    /// Another point of the body.
+    SitePin {
+        index: usize,
+        at: BodyPoint,
+    },
+    HoldPin {
+        index: usize,
+        hold: Hold,
+    },
+    PinMiddle,
+    /// Pins and a first pose.
+    Begin,
+    /// Targets and pins together.
+    Arrange {
+        pose: Option<usize>,
+        handles: Vec<Handle>,
+        motion: Motion,
+    },
+    WeighTargets {
+        pose: usize,
+        handles: Vec<Handle>,
+        weight: f64,
+    },
+    /// Their mirror images are added.
+    Mirror {
+        pose: Option<usize>,
+        handles: Vec<Handle>,
+        axis: Axis,
+    },
+    MirrorPose {
+        pose: usize,
+        axis: Axis,
+    },
+    RemoveHandles {
+        pose: Option<usize>,
+        handles: Vec<Handle>,
+    },
+    /// A dab around a place at rest, mm.
+    Starch {
+        at: Point,
+        brush: Brush,
+    },
+    ClearStarch,
     AcceptNetwork(Network),
     /// A change of winches and tendons.
     Network(network::Edit),
     SetKeyframe(Keyframe),
-    MoveKeyframe {
-        index: usize,
-        time_s: f64,
-    },
-    EaseKeyframe(usize, Easing),
     /// What it winds stays, whatever becomes of its pose.
     FixKeyframe(usize),
     RemoveKeyframe(usize),
+    /// Keyframes together, by their numbers.
+    MoveKeyframes {
+        keys: Vec<usize>,
+        by_s: f64,
+    },
+    StretchKeyframes {
+        keys: Vec<usize>,
+        factor: f64,
+    },
+    EaseKeyframes {
+        keys: Vec<usize>,
+        easing: Easing,
+    },
+    /// Copies, the first at a time.
+    PasteKeyframes {
+        copies: Vec<Keyframe>,
+        time_s: f64,
+    },
+    RemoveKeyframes(Vec<usize>),
+    /// Numbers and new times, s.
+    RetimeKeyframes(Vec<(usize, f64)>),
     Rename(String),
     Material(Material),
     /// An energy term in the place of the one of its kind, or none.
@@ -69,12 +136,18 @@ pub enum Change {
 }
 
 /// The part that a change made and that should be picked out now.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Made {
     Nothing,
     Pose(usize),
-    Target { pose: usize, index: usize },
+    Target {
+        pose: usize,
+        index: usize,
+    },
     Keyframe(usize),
+    /// By their numbers.
+    Keyframes(Vec<usize>),
+    Pin(usize),
     Part(Part),
 }
 
@@ -93,13 +166,31 @@ impl Change {
             Self::ClearTargets(_) => "Remove all targets",
             Self::AddPin(_) => "Add pin",
             Self::RemovePin(_) => "Remove pin",
+            Self::MovePin { .. } => "Move pin",
+            Self::SitePin { .. } => "Move pin on the body",
+            Self::HoldPin { .. } => "Kind of pin",
+            Self::PinMiddle => "Pin the middle",
+            Self::Begin => "Pins and a first pose",
+            Self::Arrange { .. } => "Arrange",
+            Self::WeighTargets { .. } => "Weights of targets",
+            Self::Mirror { .. } => "Mirror",
+            Self::MirrorPose { .. } => "Mirrored pose",
+            Self::RemoveHandles { .. } => "Delete selected",
+            Self::Starch { .. } => "Starch",
+            Self::ClearStarch => "Take starch away",
             Self::AcceptNetwork(_) => "Accept network",
             Self::Network(edit) => edit.label(),
             Self::SetKeyframe(_) => "Set keyframe",
-            Self::MoveKeyframe { .. } => "Move keyframe",
-            Self::EaseKeyframe(..) => "Keyframe easing",
             Self::FixKeyframe(_) => "Fix keyframe",
             Self::RemoveKeyframe(_) => "Delete keyframe",
+            Self::MoveKeyframes { keys, .. } if keys.len() == 1 => "Move keyframe",
+            Self::MoveKeyframes { .. } => "Move keyframes",
+            Self::StretchKeyframes { .. } => "Stretch keyframes",
+            Self::EaseKeyframes { keys, .. } if keys.len() == 1 => "Keyframe easing",
+            Self::EaseKeyframes { .. } => "Easing of keyframes",
+            Self::PasteKeyframes { .. } => "Paste keyframes",
+            Self::RemoveKeyframes(_) => "Delete keyframes",
+            Self::RetimeKeyframes(_) => "Make it fit",
             Self::Rename(_) => "Rename plushie",
             Self::Material(_) => "Body settings",
             Self::Term(kind, _) => kind.label,
@@ -144,21 +235,34 @@ impl Change {
                 }
                 Made::Nothing
             }
-            Self::AddPin(at) => nothing(put_pin(design, at_hand(&design.mesh, &at))?),
+            Self::AddPin(at) => nothing(put_pin(design, at_hand(&design.mesh, &at), Hold::Point)?),
             Self::RemovePin(index) => nothing(edit::remove_pin(design, index)?),
+            Self::MovePin { .. }
+            | Self::SitePin { .. }
+            | Self::HoldPin { .. }
+            | Self::PinMiddle
+            | Self::Begin
+            | Self::Arrange { .. }
+            | Self::WeighTargets { .. }
+            | Self::Mirror { .. }
+            | Self::MirrorPose { .. }
+            | Self::RemoveHandles { .. }
+            | Self::Starch { .. }
+            | Self::ClearStarch => return self.pose(design),
             Self::AcceptNetwork(network) => Made::Part(Part::Winch(edit::accept_network(design, network)?)),
             Self::Network(edit) => network::apply(design, &edit)?.map_or(Made::Nothing, Made::Part),
             Self::SetKeyframe(keyframe) => Made::Keyframe(edit::set_keyframe(design, keyframe)?),
-            Self::MoveKeyframe { index, time_s } => Made::Keyframe(edit::move_keyframe(design, index, time_s)?),
-            Self::EaseKeyframe(index, easing) => match design.keyframes.get(index).cloned() {
-                Some(keyframe) => Made::Keyframe(edit::set_keyframe(design, Keyframe { easing, ..keyframe })?),
-                None => Made::Nothing,
-            },
             Self::FixKeyframe(index) => match design.keyframes.get(index).cloned() {
                 Some(keyframe) => Made::Keyframe(edit::set_keyframe(design, Keyframe { pose: None, ..keyframe })?),
                 None => Made::Nothing,
             },
             Self::RemoveKeyframe(index) => nothing(edit::remove_keyframe(design, index)?),
+            Self::MoveKeyframes { keys, by_s } => Made::Keyframes(retime::shift(design, &keys, by_s)?),
+            Self::StretchKeyframes { keys, factor } => Made::Keyframes(stretched(design, &keys, factor)?),
+            Self::EaseKeyframes { keys, easing } => nothing(retime::ease(design, &keys, easing)?),
+            Self::PasteKeyframes { copies, time_s } => Made::Keyframes(retime::paste(design, &copies, time_s)?),
+            Self::RemoveKeyframes(keys) => nothing(edit::remove_keyframes(design, &keys)?),
+            Self::RetimeKeyframes(times) => nothing(edit::retime_keyframes(design, &times)?),
             Self::Rename(name) => nothing(edit::rename(design, &name)?),
             Self::Material(material) => nothing(edit::set_material(design, material)?),
             Self::Term(kind, term) => nothing(edit::set_term(design, kind, term)?),
@@ -169,6 +273,45 @@ impl Change {
             Self::Sewing(rules) => nothing(edit::set_sewing(design, rules)?),
             Self::Draw { drawing, .. } => nothing(edit::set_drawing(design, Some(drawing))?),
         })
+    }
+}
+
+impl Change {
+    /// Pins, several at once, starch.
+    fn pose(self, design: &mut Design) -> Result<Made, EditError> {
+        Ok(match self {
+            Self::MovePin { index, to } => nothing(with_pin(design, index, |pin| pin.position = to.map(rounded))?),
+            Self::SitePin { index, at } => {
+                let at = at_hand(&design.mesh, &at);
+                nothing(with_pin(design, index, |pin| (pin.at, pin.position) = (at, None))?)
+            }
+            Self::HoldPin { index, hold } => nothing(with_pin(design, index, |pin| pin.hold = hold)?),
+            Self::PinMiddle => Made::Pin(pin_middle(design)?),
+            Self::Begin => Made::Pose(begin(design)?),
+            Self::Arrange { pose, handles, motion } => nothing(arrange::shift(design, pose, &handles, &motion)?),
+            Self::WeighTargets { pose, handles, weight } => nothing(arrange::weigh(design, pose, &handles, weight)?),
+            Self::Mirror { pose, handles, axis } => nothing(arrange::mirror(design, pose, &handles, axis)?),
+            Self::MirrorPose { pose, axis } => Made::Pose(arrange::mirrored_pose(design, pose, axis)?),
+            Self::RemoveHandles { pose, handles } => nothing(arrange::remove(design, pose, handles)?),
+            Self::Starch { at, brush } => nothing(starch::dab(design, at, brush.radius_mm, brush.factor)?),
+            Self::ClearStarch => nothing(starch::clear(design)?),
+            _ => Made::Nothing,
+        })
+    }
+}
+
+fn with_pin(design: &mut Design, index: usize, change: impl FnOnce(&mut Pin)) -> Result<(), EditError> {
+    let Some(mut pin) = design.pins.get(index).copied() else { return Ok(()) };
+    change(&mut pin);
+    edit::set_pin(design, index, pin)
+}
+
+/// A factor that is none leaves everything where it is.
+fn stretched(design: &mut Design, keys: &[usize], factor: f64) -> Result<Vec<usize>, EditError> {
+    match retime::stretch(design, keys, factor) {
+        Ok(keys) => Ok(keys),
+        Err(retime::Error::Edit(error)) => Err(error),
+        Err(_) => Ok(keys.to_vec()),
     }
 }
 

@@ -13,6 +13,8 @@ pub enum Icon {
     Pin,
     Tendon,
     Pull,
+    Arrange,
+    Brush,
     Fit,
     /// Of a layer of the pictures.
     Layer(&'static [layers::Stroke]),
@@ -79,7 +81,7 @@ pub fn draw(icon: Icon, rect: Rect, color: Color32) -> Vec<Shape> {
         Icon::Redo => {
             vec![pen.arc((0.48, 0.6), 0.34, -30.0, -240.0), pen.line(&[(0.84, 0.12), (0.8, 0.46), (0.48, 0.36)])]
         }
-        Icon::Hand | Icon::Pin | Icon::Tendon | Icon::Pull => tool(icon, &pen),
+        Icon::Hand | Icon::Pin | Icon::Tendon | Icon::Pull | Icon::Arrange | Icon::Brush => tool(icon, &pen),
         Icon::Fit => vec![
             pen.line(&[(0.06, 0.32), (0.06, 0.06), (0.32, 0.06)]),
             pen.line(&[(0.68, 0.06), (0.94, 0.06), (0.94, 0.32)]),
@@ -157,6 +159,17 @@ fn tool(icon: Icon, pen: &Pen) -> Vec<Shape> {
             (0.2, 0.08),
         ])],
         Icon::Pin => vec![pen.ring(0.5, 0.3, 0.2), pen.line(&[(0.5, 0.5), (0.5, 0.94)]), pen.dot(0.5, 0.3, 0.07)],
+        Icon::Arrange => vec![
+            pen.line(&[(0.14, 0.24), (0.86, 0.24), (0.86, 0.9), (0.14, 0.9), (0.14, 0.24)]),
+            pen.line(&[(0.5, 0.24), (0.5, 0.1)]),
+            pen.dot(0.5, 0.08, 0.08),
+            pen.dot(0.36, 0.48, 0.08),
+            pen.dot(0.64, 0.66, 0.08),
+        ],
+        Icon::Brush => vec![
+            pen.line(&[(0.92, 0.08), (0.5, 0.52)]),
+            pen.solid(&[(0.44, 0.44), (0.58, 0.58), (0.4, 0.84), (0.1, 0.92), (0.2, 0.62)]),
+        ],
         Icon::Pull => vec![
             pen.arc((0.3, 0.5), 0.24, 30.0, 330.0),
             pen.line(&[(0.5, 0.5), (0.94, 0.5)]),

@@ -53,6 +53,11 @@ pub enum Outcome {
         /// Its remarks.
         result: Result<Vec<String>, String>,
     },
+    Filmed {
+        path: PathBuf,
+        /// How many pictures.
+        result: Result<usize, String>,
+    },
     Textured {
         path: PathBuf,
         texture: Result<Arc<Texture>, String>,

@@ -2,6 +2,7 @@
 
 use super::action::{Action, FileAction};
 use super::canvas;
+use super::commands::animation::{COPY, CUT};
 use super::commands::{self, Command};
 use super::session::Session;
 use eframe::egui::{Context, Event, Key, Popup};
@@ -26,6 +27,17 @@ pub fn collect(ctx: &Context, session: &Session, actions: &mut Vec<Action>) {
     };
     ctx.input_mut(|input| {
         input.events.retain(|event| {
+            // egui makes these of the keys, or of what the system says.
+            let clipboard = match event {
+                Event::Copy => Some(Action::Run(&COPY, session.selected())),
+                Event::Cut => Some(Action::Run(&CUT, session.selected())),
+                Event::Paste(text) => Some(Action::Paste(text.clone())),
+                _ => None,
+            };
+            if let Some(action) = clipboard.filter(|_| !typing && !session.sketching().open) {
+                actions.push(action);
+                return false;
+            }
             let Event::Key { key, pressed: true, modifiers, .. } = event else { return true };
             let is = |command: &&Command| {
                 let mut keys = command.keys.iter();

@@ -123,11 +123,7 @@ fn subject(fibers: usize) -> Result<Design, BenchError> {
     for away in [[-0.1, 0.0], [0.1, 0.0]] {
         let place = [0, 1].map(|k| middle[k] + away[k] * design.body_length_mm());
         let node = design.mesh.nearest_node(place, &design.mesh.nodes);
-        design.pins.extend(design.mesh.node_point(node).map(|at| Pin {
-            at,
-            position: None,
-            stiffness: crate::defaults::PIN_STIFFNESS,
-        }));
+        design.pins.extend(design.mesh.node_point(node).map(|at| Pin::at_rest(at, crate::defaults::PIN_STIFFNESS)));
     }
     Ok(design)
 }

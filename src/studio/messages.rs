@@ -1,4 +1,6 @@
-//! What the window has to say, shown in a corner without stopping anybody.
+//! What the window has to say, shown beside the work without stopping anybody, and all that it has said.
+
+use std::collections::VecDeque;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
@@ -21,12 +23,16 @@ pub struct Message {
 
 /// How long an information stays, s: enough to read two lines.
 const INFO_STAYS_S: f64 = 6.0;
-/// More than this many cover the picture: the oldest go.
+/// More than this many push the rest of the panel away: the oldest go.
 const AT_MOST: usize = 4;
+/// Messages of the log; the oldest go.
+const LOGGED: usize = 500;
 
 #[derive(Clone, Debug, Default)]
 pub struct Messages {
     list: Vec<Message>,
+    /// What was said, and when on the window's clock, s.
+    log: VecDeque<(f64, Message)>,
     next_id: u64,
     now: f64,
 }
@@ -52,6 +58,11 @@ impl Messages {
         &self.list
     }
 
+    /// Everything that was said and when, s, the oldest first.
+    pub fn log(&self) -> impl DoubleEndedIterator<Item = &(f64, Message)> {
+        self.log.iter()
+    }
+
     /// Moves the clock on and drops what is over.
     pub fn tick(&mut self, now: f64) {
         self.now = now;
@@ -66,7 +77,12 @@ impl Messages {
     fn add(&mut self, level: Level, text: String, until: Option<f64>) {
         // Said again: once is enough, but it stays longer.
         self.list.retain(|m| m.text != text);
-        self.list.push(Message { id: self.next_id, level, text, until });
+        let message = Message { id: self.next_id, level, text, until };
+        self.log.push_back((self.now, message.clone()));
+        if self.log.len() > LOGGED {
+            self.log.pop_front();
+        }
+        self.list.push(message);
         self.next_id += 1;
         if self.list.len() > AT_MOST {
             self.list.remove(0);
@@ -90,5 +106,7 @@ mod tests {
         let id = messages.list()[0].id;
         messages.dismiss(id);
         assert!(messages.list().is_empty());
+        let said: Vec<&str> = messages.log().map(|(_, message)| message.text.as_str()).collect();
+        assert_eq!(said, ["saved", "no", "no"]);
     }
 }

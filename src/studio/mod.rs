@@ -17,6 +17,7 @@ mod blank;
 pub mod canvas;
 pub mod change;
 pub mod commands;
+mod focus;
 pub mod icons;
 pub mod jobs;
 pub mod keeper;
@@ -27,6 +28,7 @@ pub mod messages;
 pub mod offscreen;
 mod pacing;
 pub mod panels;
+mod pictures;
 pub mod session;
 pub mod store;
 pub mod style;
@@ -86,6 +88,7 @@ pub fn run(design: Option<Design>, path: Option<PathBuf>) -> Result<(), StudioEr
     if !has_display() {
         return Err(StudioError::NoDisplay);
     }
+    let begins = design.is_none();
     let design = design.unwrap_or_else(first_design);
     let store = Store::of_platform();
     let size = store.as_ref().and_then(|store| store.settings().window).unwrap_or(SIZE);
@@ -113,6 +116,9 @@ pub fn run(design: Option<Design>, path: Option<PathBuf>) -> Result<(), StudioEr
         let mut studio = studio.with_window(context.wgpu_render_state.as_ref(), theme);
         if let Some(store) = store {
             studio = studio.with_store(&context.egui_ctx, store);
+        }
+        if begins {
+            studio = studio.with_start_page();
         }
         end_when_asked(context.egui_ctx.clone());
         Ok(Box::new(studio))

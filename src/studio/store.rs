@@ -40,6 +40,13 @@ pub struct Settings {
     pub cameras_apart: Option<bool>,
     pub rulers: Option<bool>,
     pub onion_skins: Option<bool>,
+    /// Ways of working, each as it was left.
+    pub still: bool,
+    pub snaps: Option<bool>,
+    pub drives: bool,
+    pub looping: Option<bool>,
+    /// Whether the next step is shown.
+    pub guided: Option<bool>,
     /// Logical pixels.
     pub window: Option<[f32; 2]>,
     /// The newest first.

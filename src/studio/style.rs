@@ -5,14 +5,24 @@
 
 use crate::picture::Color;
 use crate::picture::palette::{Palette, Theme, mix};
-use eframe::egui::style::{Selection, WidgetVisuals};
-use eframe::egui::{self, Color32, CornerRadius, FontFamily, FontId, Margin, Shadow, Stroke, TextStyle, Visuals, vec2};
+use eframe::egui::style::{NumberFormatter, Selection, WidgetVisuals};
+use eframe::egui::{
+    self, Color32, CornerRadius, FontFamily, FontId, Margin, Shadow, Stroke, TextStyle, Visuals, emath, vec2,
+};
 
 /// The colour of the tool itself: primary buttons, selection, playhead.
 pub fn accent(theme: Theme) -> Color32 {
     match theme {
         Theme::Light => Color32::from_rgb(14, 116, 122),
         Theme::Dark => Color32::from_rgb(72, 190, 190),
+    }
+}
+
+/// What is softened: the warm counterpart of [`accent`].
+pub fn soft(theme: Theme) -> Color32 {
+    match theme {
+        Theme::Light => Color32::from_rgb(196, 108, 20),
+        Theme::Dark => Color32::from_rgb(246, 178, 84),
     }
 }
 
@@ -55,9 +65,23 @@ pub fn install(ctx: &egui::Context) {
         style.spacing.slider_width = 110.0;
         // Room for the scroll bar beside what is scrolled.
         style.spacing.scroll.floating_allocated_width = 6.0;
+        style.number_formatter = NumberFormatter::new(|value, decimals| {
+            unsigned_zero(emath::format_with_decimals_in_range(value, decimals))
+        });
         style.interaction.selectable_labels = false;
         style.interaction.tooltip_delay = 0.4;
     });
+}
+
+/// A number with so many decimals, never "-0".
+pub fn plain_number(value: f64, decimals: usize) -> String {
+    unsigned_zero(format!("{value:.decimals$}"))
+}
+
+/// A number as it is shown, without the sign where only zeros are left of it.
+fn unsigned_zero(text: String) -> String {
+    let is_zero = text.chars().all(|c| matches!(c, '-' | '\u{2212}' | '0' | '.'));
+    if is_zero { text.trim_start_matches(['-', '\u{2212}']).to_owned() } else { text }
 }
 
 pub fn set_theme(ctx: &egui::Context, theme: Theme) {
@@ -115,4 +139,14 @@ fn visuals(theme: Theme) -> Visuals {
     v.window_shadow = shadow;
     v.slider_trailing_fill = true;
     v
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn nothing_is_less_than_nothing() {
+        for (value, decimals, text) in [(-0.04, 1, "0.0"), (-0.06, 1, "-0.1"), (0.04, 1, "0.0"), (-0.4, 0, "0")] {
+            assert_eq!(super::plain_number(value, decimals), text);
+        }
+    }
 }

@@ -122,6 +122,7 @@ pub fn progress(step: &Progress) -> String {
             format!("{winches} winches with {tendons} tendons")
         }
         Progress::Proposals(list) => format!("{} networks so far", list.len()),
+        Progress::Picture { done, of } => format!("Picture {} of {of}", done + 1),
     }
 }
 

@@ -64,7 +64,7 @@ const RESTING: usize = 150;
 fn check(parts: Parts, quality: Quality) {
     let mut design = support::rigged();
     let corner = design.mesh.node_point(28).expect("node 28 is used");
-    design.pins.push(Pin { at: corner, position: None, stiffness: 20.0 });
+    design.pins.push(Pin::at_rest(corner, 20.0));
     let mut scene = Scene::of(design, parts);
     let mut tracker = scene.tracker();
     for k in 0..WARMING {

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-const COMMANDS: [&str; 20] = [
+const COMMANDS: [&str; 23] = [
     "demo",
     "new",
     "mesh",
@@ -12,9 +12,12 @@ const COMMANDS: [&str; 20] = [
     "reshape",
     "drawing",
     "pose",
+    "arrange",
+    "starch",
     "rig",
     "network",
     "key",
+    "retime",
     "check",
     "export",
     "play",

@@ -24,7 +24,8 @@ fn random_edit(random: &mut Random, design: &mut Design) -> Result<(), EditError
         0 => {
             let position = (random.below(2) == 0).then(|| [random.unit(), random.unit()]);
             let stiffness = random.between(-1.0, 30.0);
-            edit::add_pin(design, Pin { at: random.body_point(&design.mesh), position, stiffness }).map(drop)
+            edit::add_pin(design, Pin { position, ..Pin::at_rest(random.body_point(&design.mesh), stiffness) })
+                .map(drop)
         }
         1 => edit::remove_pin(design, index).map(drop),
         2 => edit::add_pose(design, Pose { name, targets: vec![random.target(&design.mesh)] }).map(drop),

@@ -191,7 +191,7 @@ fn two_radii_and_slack_have_their_closed_forms() {
     design.tendons.stiffness = 1e-3;
     design.tendons.epsilon_mm = 0.05;
     let all = 0..design.mesh.nodes.len();
-    let pin = |n: usize| Pin { at: design.mesh.node_point(n).unwrap(), position: None, stiffness: 1e6 };
+    let pin = |n: usize| Pin::at_rest(design.mesh.node_point(n).unwrap(), 1e6);
     design.pins = all.map(pin).collect();
     // Nodes 8 to 12 are 20 mm apart on a line; 19 lies above 12: a right angle.
     let tendon = |ratio, slack_mm| Tendon { routing: MaterialPoint::through([8, 10, 12, 19]), ratio, slack_mm };
@@ -226,7 +226,7 @@ fn two_radii_and_slack_have_their_closed_forms() {
 #[test]
 fn a_pose_under_friction_is_looked_for_again() {
     let mut design = rigged();
-    design.pins.push(Pin { at: design.mesh.node_point(28).unwrap(), position: None, stiffness: 20.0 });
+    design.pins.push(Pin::at_rest(design.mesh.node_point(28).unwrap(), 20.0));
     let targets = design.poses[0].targets.clone();
     let of = |mu: f64, from: &[f64]| pose_with_friction(&design, &targets, from, mu, GO).unwrap();
     let start = of(0.0, &[5.0, 5.0]);

@@ -45,5 +45,6 @@ mod soft_ik;
 mod studio;
 mod support;
 mod texture;
+mod timelines;
 mod tracker;
 mod winding;

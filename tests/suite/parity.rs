@@ -337,7 +337,7 @@ fn a_rig_with_fixed_options_is_the_same_both_ways() {
     let fixed = ["--max-winches", "1", "--tendons", "1", "--seed-num", "12", "--join-depth", "2", "--join-len", "2"];
     let fixed = [&["--method", "algorithm2"][..], &fixed].concat();
     run(folder.path(), &[&["rig", "bar.plush", "-o", "rigged.plush", "--phi", "0.5"][..], &fixed].concat());
-    click(&mut window, "Parameters");
+    click(&mut window, "Advanced");
     for (name, value) in [("Seeds", "12"), ("Join rounds", "2"), ("Join length", "2"), ("Phi", "0.5")] {
         enter(&mut window, Role::SpinButton, name, value);
     }
@@ -360,7 +360,7 @@ fn a_rig_of_the_curve_is_the_same_both_ways() {
     let fixed = ["--max-winches", "1", "--tendons", "1", "--seed-num", "12", "--join-depth", "2", "--join-len", "2"];
     let fixed = [&["--explore", "--method", "algorithm2", "--phi", "0.5"][..], &fixed].concat();
     run(folder.path(), &[&["rig", "bar.plush", "-o", "rigged.plush"][..], &fixed].concat());
-    click(&mut window, "Parameters");
+    click(&mut window, "Advanced");
     for (name, value) in [("Seeds", "12"), ("Join rounds", "2"), ("Join length", "2"), ("Phi", "0.5")] {
         enter(&mut window, Role::SpinButton, name, value);
     }
@@ -461,4 +461,35 @@ fn what_is_too_quick_is_refused_or_stretched_the_same_both_ways() {
     assert!(!manifest.remarks.is_empty());
     let shown = told(&window).concat();
     assert!(manifest.remarks.iter().take(4).all(|remark| shown.contains(remark.as_str())), "{shown}");
+}
+
+#[test]
+fn what_is_arranged_and_starched_is_the_same_both_ways() {
+    let (folder, mut window) = bar();
+    let at = |window: &Window, p: [f64; 2]| on_screen(window, "Idealized view", p);
+    click(&mut window, "Pin the middle");
+    for x in [90.0, 115.0] {
+        let (from, to) = (at(&window, [x, 38.0]), at(&window, [x, 46.0]));
+        drag(&mut window, from, to);
+    }
+    assert_eq!(session(&window).design().poses[0].targets.len(), 2);
+    let (a, b) = (folder.path().join("a.plush"), folder.path().join("b.plush"));
+    file::write(&a, session(&window).design()).unwrap();
+    run(folder.path(), &["arrange", "a.plush", "--pose", "Pose 1", "--move", "0,1", "-o", "b.plush"]);
+    press(&mut window, Modifiers::NONE, Key::A);
+    click(&mut window, "Target 1");
+    window.get_by_label("Target 2").click_modifiers(Modifiers::COMMAND);
+    settle(&mut window);
+    press(&mut window, Modifiers::NONE, Key::ArrowUp);
+    same(&window, &b);
+    run(folder.path(), &["arrange", "b.plush", "--pose", "Pose 1", "--mirror"]);
+    click(&mut window, "Mirror");
+    same(&window, &b);
+    run(folder.path(), &["starch", "b.plush", "--at", "20,20", "--radius", "15", "--factor", "4"]);
+    click(&mut window, "Rest");
+    press(&mut window, Modifiers::NONE, Key::B);
+    enter(&mut window, Role::SpinButton, "Radius of the brush", "15");
+    let place = at(&window, [20.0, 20.0]);
+    drag(&mut window, place, place);
+    same(&window, &b);
 }

@@ -78,9 +78,16 @@ fn terms() -> Vec<NamedTerm> {
         terms.push((format!("{name}, given tension"), Box::new(cable)));
     }
     terms.push(("pins on nodes".into(), Box::new(mesh.left_pins(40.0))));
-    let barycentric =
-        PinSpring { nodes: vec![9, 16, 10], weights: vec![0.5, 0.2, 0.3], anchor: [0.1, 0.9], stiffness: 12.0 };
+    let barycentric = PinSpring {
+        nodes: vec![9, 16, 10],
+        weights: vec![0.5, 0.2, 0.3],
+        anchor: [0.1, 0.9],
+        stiffness: 12.0,
+        slide: None,
+    };
+    let sliding = PinSpring { slide: Some([0.6, 0.8]), ..barycentric.clone() };
     terms.push(("pin on a triangle".into(), Box::new(Pins { pins: vec![barycentric] })));
+    terms.push(("pin that slides".into(), Box::new(Pins { pins: vec![sliding] })));
     let areas = mesh.body(neo_hookean(), None).nodal_areas(mesh.nodes.len());
     let (nodes, triangles) = (&mesh.nodes, &mesh.triangles);
     let ground = Ground { nodes, triangles, nodal_areas: &areas };
@@ -220,7 +227,9 @@ fn whole(material: Box<dyn Hyperelastic>) -> Model {
         weights: vec![0.5, 0.2, 0.3],
         anchor: [0.1, 0.9],
         stiffness: 12.0,
+        slide: None,
     });
+    pins.pins.push(PinSpring { slide: Some([-0.6, 0.8]), ..PinSpring::node(5, [0.3, 0.2], 7.0) });
     let areas = mesh.body(neo_hookean(), None).nodal_areas(mesh.nodes.len());
     let gravity = Gravity::new(&areas, 0.6, [0.3, -9.8]);
     let mut model = mesh.model(material, elements, pins, vec![Box::new(gravity)]);

@@ -60,6 +60,7 @@ fn rigged(seed: u64) -> (Model, Actuation, Objective) {
         weights: vec![0.3, 0.7],
         anchor: [0.6, 0.2],
         stiffness: 0.5,
+        slide: None,
     });
     let material: Box<dyn Hyperelastic> = if seed.is_multiple_of(3) {
         Box::new(StVenantKirchhoff { mu: 1.0, lambda: 1.5 })

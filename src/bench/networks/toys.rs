@@ -216,7 +216,11 @@ impl Toy {
             let targets = bends.iter().flat_map(|&(limb, degrees)| self.bent(limb, degrees));
             let targets = targets.map(|(from, to)| Move { from: here(from), to: here(to) }).collect();
             let pins = if k == 0 { self.pins.iter().copied().map(here).collect() } else { Vec::new() };
-            let posed = pose::run(&mut design, &pose::Options { name: (*name).into(), pins, targets }, &context);
+            let posed = pose::run(
+                &mut design,
+                &pose::Options { name: (*name).into(), pins, targets, ..Default::default() },
+                &context,
+            );
             posed.map_err(|error| nothing(error.to_string()))?;
         }
         Ok(design)

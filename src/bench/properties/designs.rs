@@ -152,7 +152,7 @@ fn change(random: &mut Random, design: &mut Design) -> Result<(), EditError> {
             let position = (random.index(3) == 0).then(|| [random.between(-50.0, 150.0), random.between(-50.0, 150.0)]);
             let stiffness =
                 if random.index(4) == 0 { 10f64.powf(random.between(-6.0, 12.0)) } else { random.between(-1.0, 30.0) };
-            edit::add_pin(design, Pin { at: point(random, &design.mesh), position, stiffness }).map(drop)
+            edit::add_pin(design, Pin { position, ..Pin::at_rest(point(random, &design.mesh), stiffness) }).map(drop)
         }
         2 => edit::remove_pin(design, index).map(drop),
         3 | 4 => {

@@ -18,7 +18,7 @@ fn design() -> Arc<Design> {
     let at = BodyPoint { triangle: 0, weights: [1.0, 0.0, 0.0] };
     let outline = Outline { outer: mesh.nodes.clone(), holes: Vec::new() };
     let mut design = Design::new("square", outline, mesh);
-    design.pins.push(Pin { at, position: None, stiffness: 1.0 });
+    design.pins.push(Pin::at_rest(at, 1.0));
     let tendon = Tendon { routing: MaterialPoint::through([0, 2]), ratio: 1.0, slack_mm: 0.0 };
     design.networks.push(Network::new("A", vec![tendon]));
     Arc::new(design)

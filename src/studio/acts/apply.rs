@@ -1,6 +1,6 @@
 //! What panels and tools ask for, done.
 
-use super::{animate, edit, filing, motors, sheet, wind};
+use super::{animate, edit, filing, motors, sheet, timing, wind};
 use crate::studio::action::Action;
 use crate::studio::jobs::Outcome;
 use crate::studio::session::{Session, Task};
@@ -10,6 +10,7 @@ pub fn apply(session: &mut Session, action: Action) {
     match action {
         Action::Change(change) => edit::change(session, change),
         Action::Live(change) => edit::live(session, change),
+        Action::Again(change) => edit::again(session, change),
         Action::Run(command, at) => match command.refused(session, at) {
             None => (command.run)(session, at),
             Some(why) => session.messages.info(why),
@@ -22,17 +23,28 @@ pub fn apply(session: &mut Session, action: Action) {
         Action::WindMotor(winch, length_mm) => motors::wind(session, winch, length_mm),
         Action::SetMotors(choice) => session.motors.choice = *choice,
         Action::SelectPose(pose) => edit::select_pose(session, pose),
-        Action::Select(selection) => session.picked.selection = selection,
+        Action::Select(selection) => {
+            session.picked.selection = selection;
+            session.group.set(Vec::new());
+            session.timing.keys.clear();
+        }
+        Action::Gather(handles) => edit::gather(session, handles),
+        Action::GatherKeys(keys) => edit::gather_keys(session, keys),
+        Action::Paste(text) => timing::paste_text(session, &text),
+        Action::SetBrush(brush) => session.posing.brush = brush,
+        Action::DragPin(index, to) => edit::drag_pin(session, index, to),
         Action::SetQuality(quality) => session.solver.quality = quality,
         Action::SetCamera(plushie, camera) => {
             session.look.set_camera(plushie, camera);
             (session.look.zoom, session.look.frame) = (None, None);
         }
         Action::Scrub(time_s) => animate::scrub(session, time_s),
-        Action::SetProposeOptions(options) => session.discovery.options = options,
+        Action::SetProposeOptions(options) => super::discover::set_options(session, options),
         Action::SetResolution(resolution) => session.meshing.wanted = Some(resolution),
         Action::SetRig(choice) => session.rigging.choice = choice,
         Action::ShowProposal(index) => (session.discovery.shown, session.discovery.picked) = (index, true),
+        Action::HoverProposal(hovered) => session.discovery.hovered = hovered,
+        Action::SortProposals(order) => session.discovery.order = order,
         Action::TakeRig(index) => super::rig::take_point(session, index),
         Action::ShowStage(stage) => session.discovery.stage = stage,
         Action::Sketch(sketch) => sheet::sketch(session, sketch),

@@ -1,7 +1,7 @@
 //! Network discovery on its thread, and what becomes of its proposals.
 
 use super::edit;
-use crate::rigging::Proposal;
+use crate::rigging::{Proposal, ProposeOptions};
 use crate::studio::change::Change;
 use crate::studio::jobs::{Outcome, Running};
 use crate::studio::session::Session;
@@ -28,6 +28,20 @@ pub fn start_propose(session: &mut Session) {
         };
         Outcome::Proposed(propose(&design, &targets, &options, &mut found, cancel))
     }));
+}
+
+/// Other parameters: where there was a search, it begins anew with them as soon as the hand is off.
+pub fn set_options(session: &mut Session, options: ProposeOptions) {
+    session.discovery.restart |= session.discovery.has_asked() && !session.discovery.is_stale();
+    session.discovery.options = options;
+}
+
+/// Begins the search anew that other parameters ask for.
+pub fn live(session: &mut Session, hands_off: bool) {
+    if hands_off && std::mem::take(&mut session.discovery.restart) {
+        session.discovery.cancel();
+        start_propose(session);
+    }
 }
 
 /// Takes what has been found by now, and finds out whether it still belongs to what is there.

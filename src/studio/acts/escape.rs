@@ -18,6 +18,8 @@ pub fn escape(session: &mut Session) {
         session.picked.mode = Mode::Pose;
     } else {
         session.picked.selection = Selection::Nothing;
+        session.group.set(Vec::new());
+        session.timing.keys.clear();
         session.discovery.shown = None;
     }
     edit::clamp(session);

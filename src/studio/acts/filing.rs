@@ -3,7 +3,7 @@
 //! Paths are asked for with the desktop's own dialogs, on a thread. Where there are none (a bare X server, a test) a field in the window
 //! takes their place.
 
-use super::{import, keep, open, paths, replace, save, sheet};
+use super::{film, import, keep, open, paths, replace, save, sheet};
 use crate::defaults;
 use crate::design::file::is_design;
 use crate::files;
@@ -55,6 +55,8 @@ fn go_on(session: &mut Session, action: FileAction) {
         FileAction::Export if session.design().networks.is_empty() => {
             session.messages.warning("There is nothing to export yet: propose and accept a network first.");
         }
+        FileAction::Film => paths::show_path_dialog(session, Purpose::Film),
+        FileAction::FilmPath { path, options } => film::start(session, path, options),
         FileAction::Export => paths::show_path_dialog(session, Purpose::Export),
         FileAction::Save => match session.document.path.clone() {
             Some(path) => save_and_go_on(session, path, false),
@@ -150,7 +152,7 @@ fn take_answer(session: &mut Session, purpose: Purpose, path: PathBuf) {
             save_and_go_on(session, path, asked);
         }
         // Their dialog was closed in the meantime.
-        Purpose::Import | Purpose::Export => {}
+        Purpose::Import | Purpose::Export | Purpose::Film => {}
     }
 }
 

@@ -54,6 +54,7 @@ pub fn ask_again(session: &mut Session, refused: Refused) {
         path: path.to_string_lossy().into_owned(),
         import: Box::new(choice),
         export: Box::default(),
+        film: Box::default(),
         trouble: Some(why),
     }));
 }

@@ -172,6 +172,11 @@ pub fn remember(session: &mut Session) {
         cameras_apart: Some(!now.linked),
         rulers: Some(now.rulers),
         onion_skins: Some(now.onion.on),
+        still: now.still,
+        snaps: Some(session.posing.snaps),
+        drives: session.timing.drives,
+        looping: Some(session.playback.looping),
+        guided: Some(session.guided),
         ..session.safety.settings.clone()
     };
     scribe.remember(settings);
@@ -186,6 +191,11 @@ fn take_settings(session: &mut Session) {
     session.look.linked = settings.cameras_apart != Some(true);
     session.look.rulers = settings.rulers == Some(true);
     session.look.onion.on = settings.onion_skins == Some(true);
+    session.look.still = settings.still;
+    session.posing.snaps = settings.snaps.unwrap_or(session.posing.snaps);
+    session.timing.drives = settings.drives;
+    session.playback.looping = settings.looping.unwrap_or(session.playback.looping);
+    session.guided = settings.guided.unwrap_or(session.guided);
     session.solver.quality = settings.quality().unwrap_or(session.solver.quality);
 }
 

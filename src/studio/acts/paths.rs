@@ -17,12 +17,14 @@ pub fn show_path_dialog(session: &mut Session, purpose: Purpose) {
         Purpose::Open | Purpose::Import => folder.join(""),
         Purpose::SaveAs => document.path.clone().unwrap_or_else(|| folder.join(document.file_name())),
         Purpose::Export => folder.join(document.folder_name()),
+        Purpose::Film => folder.join(document.file_name()).with_extension("gif"),
     };
     session.files.dialog = Some(Dialog::Path(PathDialog {
         purpose,
         path: path.to_string_lossy().into_owned(),
         import: Box::default(),
         export: Box::default(),
+        film: Box::default(),
         trouble: None,
     }));
 }
@@ -46,6 +48,7 @@ pub fn pick(session: &mut Session, purpose: Purpose) {
             Purpose::Import => dialog.add_filter("Outlines", &outline::extensions()).pick_file(),
             Purpose::SaveAs => dialog.add_filter("Plushies", &["plush"]).set_file_name(name).save_file(),
             Purpose::Export => dialog.pick_folder(),
+            Purpose::Film => dialog.add_filter("Films", &["gif", "html"]).save_file(),
         };
         Outcome::Picked { path, at_once: started.elapsed() < AT_ONCE }
     });

@@ -1,6 +1,6 @@
 //! Once a frame: what the threads report, the playhead, what should be seen next.
 
-use super::{animate, discover, edit, filing, follow, import, judge, mesh, motors, onion, rig, sheet, texture};
+use super::{animate, discover, edit, filing, film, follow, import, judge, mesh, motors, onion, rig, sheet, texture};
 use crate::design::animation;
 use crate::engine::Setpoint;
 use crate::studio::canvas::Plushie;
@@ -29,7 +29,11 @@ pub fn tick(session: &mut Session, now_s: f64, passed_s: f64, hands_off: bool) {
         session.playback.advance(passed_s, animation::duration_s(session.document.design()));
     }
     edit::clamp(session);
+    let design = session.document.design().clone();
+    session.posing.follow(&design);
+    session.timing.follow(&design);
     discover::follow(session);
+    discover::live(session, hands_off);
     session.rigging.curve.follow(session.document.design());
     texture::follow_texture(session);
     follow::follow(session, hands_off);
@@ -74,6 +78,7 @@ fn take(session: &mut Session, Finished { serial, outcome }: Finished) {
         Outcome::Imported(result) => filing::take_import(session, result),
         Outcome::Previewed { path, import, result } => session.files.preview.take(serial, path, *import, result),
         Outcome::Exported { folder, result } => filing::take_export(session, &folder, result),
+        Outcome::Filmed { path, result } => film::take(session, serial, &path, result),
         Outcome::Textured { path, texture } => texture::take_texture(session, path, texture),
         Outcome::Picked { path, at_once } => filing::take_path(session, serial, path, at_once),
         Outcome::Told { owner: ONION, told } => session.look.onion.take(serial, &told),
@@ -93,6 +98,7 @@ fn break_off(session: &mut Session, serial: u64) {
         &mut session.rigging.running,
         &mut session.rigging.curve.running,
         &mut session.keying,
+        &mut session.filming.running,
     ];
     for running in jobs {
         if Running::is(running.as_ref(), serial) {

@@ -5,6 +5,7 @@ use super::hit::{self, Hit};
 use super::plushie::Plushie;
 use super::surface::Surface;
 use crate::engine::Shape;
+use crate::mesh::BodyPoint;
 use crate::outline::Point;
 use crate::outline::drawing::Item;
 use crate::studio::action::Action;
@@ -51,6 +52,16 @@ impl Canvas<'_> {
                 hit::test(self.session.design(), self.session.targets(), &shape.nodes, p, self.mm_per_pixel())
             }
             _ => Hit::Nothing,
+        }
+    }
+
+    /// The point of the body under a point of the view, whatever lies over it.
+    pub fn body(&self, p: Point) -> Option<BodyPoint> {
+        match self.ground {
+            Ground::Plushie(_, Some(shape)) => {
+                hit::body_point(&self.session.design().mesh, &shape.nodes, p, self.mm_per_pixel())
+            }
+            _ => None,
         }
     }
 

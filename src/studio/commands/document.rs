@@ -53,7 +53,8 @@ pub static DELETE: Command = Command {
     keys: &[Keys::plain(Key::Delete)],
     scope: Scope::Views,
     why_not: &|session, _| {
-        (session.selection() == Selection::Nothing)
+        let several = !session.group().handles().is_empty() || !session.timing().keys.is_empty();
+        (session.selection() == Selection::Nothing && !several)
             .then_some("Select a target, pin, keyframe, network, tendon or hole first")
     },
     run: &|session, _| acts::edit::delete_selected(session),

@@ -6,7 +6,14 @@ use crate::studio::acts;
 use crate::studio::session::Overlay;
 use eframe::egui::Key;
 
-pub static ALL: [&Command; 9] = [&NEW, &NEW_DRAWING, &OPEN, &SAVE, &SAVE_AS, &EXPORT, &PALETTE, &SHORTCUTS, &QUIT];
+pub static ALL: [&Command; 11] =
+    [&START, &NEW, &NEW_DRAWING, &OPEN, &SAVE, &SAVE_AS, &EXPORT, &PALETTE, &SHORTCUTS, &LOG, &QUIT];
+
+pub static START: Command = Command {
+    places: &[Place::FileMenu],
+    run: &|session, _| session.overlay = Some(Overlay::Start),
+    ..Command::new("file.start", "Start page", "Designs to begin with, recent files, and new plushies")
+};
 
 pub static NEW: Command = Command {
     keys: &[Keys::ctrl(Key::N)],
@@ -75,6 +82,12 @@ pub static SHORTCUTS: Command = Command {
     places: &[Place::FileMenu],
     run: &|session, _| session.overlay = Some(Overlay::Shortcuts),
     ..Command::new("window.shortcuts", "Keyboard shortcuts", "Show what every key does")
+};
+
+pub static LOG: Command = Command {
+    places: &[Place::FileMenu],
+    run: &|session, _| session.overlay = Some(Overlay::Log),
+    ..Command::new("window.messages", "Messages", "Show everything that the window has said")
 };
 
 pub static QUIT: Command = Command {

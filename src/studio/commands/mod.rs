@@ -13,6 +13,7 @@ pub mod motors;
 pub mod networks;
 pub mod outline;
 pub mod panels;
+pub mod posing;
 pub mod tools;
 pub mod view;
 
@@ -25,6 +26,7 @@ pub static ALL: LazyLock<Vec<(&str, Vec<&Command>)>> = LazyLock::new(|| {
     vec![
         ("Files", files::ALL.to_vec()),
         ("Document", document::ALL.to_vec()),
+        ("Posing", posing::ALL.to_vec()),
         ("Tools", tools::ALL.iter().collect()),
         ("View", view::ALL.to_vec()),
         ("Layers", layers::ALL.iter().collect()),

@@ -8,7 +8,7 @@ use crate::studio::icons::Icon;
 use crate::studio::session::Views;
 use eframe::egui::Key;
 
-pub static ALL: [&Command; 12] = [
+pub static ALL: [&Command; 14] = [
     &FIT,
     &FIT_SELECTION,
     &ZOOM_IN,
@@ -21,6 +21,8 @@ pub static ALL: [&Command; 12] = [
     &ONION,
     &QUALITY,
     &THEME,
+    &STILL,
+    &GUIDE,
 ];
 
 /// Of a step with the keys.
@@ -164,4 +166,16 @@ pub static THEME: Command = Command {
         }
     },
     ..Command::new("view.theme", "Dark theme", "Switch to the dark theme")
+};
+
+pub static STILL: Command = Command {
+    on: Some(&|session| session.look.still),
+    run: &|session, _| session.look.still = !session.look.still,
+    ..Command::new("view.still", "Reduced motion", "Nothing in the window moves by itself but what is asked to play")
+};
+
+pub static GUIDE: Command = Command {
+    on: Some(&|session| session.guided),
+    run: &|session, _| session.guided = !session.guided,
+    ..Command::new("view.guide", "Next step", "Show what comes next on the way to a plushie, on top")
 };

@@ -1,8 +1,9 @@
 //! Dialogs over the window: unsaved changes, and paths where the desktop has no dialogs of its own.
 
 use super::blueprint_parts::parts_and_sheets;
-use super::import;
+use super::blueprint_preview;
 use super::widgets::{primary, sentence};
+use super::{film, import};
 use crate::files::shown;
 use crate::motion::{TooFast, families};
 use crate::operations::export;
@@ -10,23 +11,45 @@ use crate::studio::action::{Action, Actions, FileAction};
 use crate::studio::session::Session;
 use crate::studio::session::{Dialog, PathDialog, Purpose, Why};
 use crate::studio::words;
-use eframe::egui::{Align, Context, Id, Key, Layout, Modal, RichText, TextEdit, Ui};
+use eframe::egui::{Align, Context, Frame, Id, Key, Layout, Modal, RichText, TextEdit, Ui};
 use std::path::Path;
 
-pub fn show(ctx: &Context, session: &Session, actions: &mut Actions) {
+/// Around what a dialog says, logical pixels.
+const MARGIN: f32 = 16.0;
+
+/// What dialogs keep from frame to frame.
+#[derive(Default)]
+pub struct State {
+    preview: blueprint_preview::State,
+}
+
+pub fn show(ctx: &Context, session: &Session, state: &mut State, actions: &mut Actions) {
     let Some(dialog) = &session.files.dialog else { return };
     let is_import = matches!(dialog, Dialog::Path(dialog) if dialog.purpose == Purpose::Import);
-    let modal = Modal::new(Id::unique("dialog")).show(ctx, |ui| {
-        ui.set_width(if is_import { 560.0 } else { 430.0 });
+    let is_export = matches!(dialog, Dialog::Path(dialog) if dialog.purpose == Purpose::Export);
+    // Each kind remembers a size of its own: a short question does not get the room of a long one.
+    let frame = Frame::popup(&ctx.global_style()).inner_margin(MARGIN);
+    let modal = Modal::new(Id::unique(("dialog", kind(dialog)))).frame(frame).show(ctx, |ui| {
+        ui.set_width(if is_import || is_export { 560.0 } else { 430.0 });
         match dialog {
             Dialog::Unsaved(_) => unsaved(ui, session, actions),
-            Dialog::Path(dialog) => path(ui, session, dialog, actions),
+            Dialog::Path(dialog) => path(ui, session, dialog, state, actions),
             Dialog::Replace(path, why) => replace(ui, path, *why, actions),
             Dialog::Recover => recover(ui, session, actions),
         }
     });
     if modal.should_close() {
         actions.push(Action::File(FileAction::CloseDialog));
+    }
+}
+
+/// What tells dialogs apart that need different room.
+fn kind(dialog: &Dialog) -> u8 {
+    match dialog {
+        Dialog::Unsaved(_) => 0,
+        Dialog::Replace(_, why) => 1 + *why as u8,
+        Dialog::Recover => 9,
+        Dialog::Path(dialog) => 10 + dialog.purpose as u8,
     }
 }
 
@@ -112,7 +135,7 @@ fn spoken(seconds: u64) -> String {
     format!("{count} {unit}{}", if count == 1 { "" } else { "s" })
 }
 
-fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, actions: &mut Actions) {
+fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, state: &mut State, actions: &mut Actions) {
     let mut edited = dialog.clone();
     ui.heading(dialog.purpose.title());
     ui.add_space(6.0);
@@ -123,6 +146,7 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, actions: &mut Actio
             Purpose::Open | Purpose::SaveAs => "Path of a .plush file",
             Purpose::Import => "Path of a drawing (SVG, PDF, DXF), picture, flat mesh or drawing of parts",
             Purpose::Export => "Path of a new folder",
+            Purpose::Film => "Path of a new *.gif, *.html or folder",
         };
         let field = ui.add(TextEdit::singleline(&mut edited.path).hint_text(hint).desired_width(width));
         let field = field.accessible_name("Path");
@@ -139,6 +163,10 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, actions: &mut Actio
     }
     if dialog.purpose == Purpose::Export {
         export_settings(ui, &mut edited.export);
+        blueprint_preview::show(ui, session, &dialog.export, &mut state.preview, actions);
+    }
+    if dialog.purpose == Purpose::Film {
+        film::settings(ui, &mut edited);
     }
     let path = Path::new(edited.path.trim());
     let is_known = path.exists() && !path.is_dir();
@@ -149,6 +177,7 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, actions: &mut Actio
         }
         Purpose::SaveAs if path.is_file() && session.document.path.as_deref() != Some(path) => "This file exists.",
         Purpose::Open | Purpose::Import if is_wrong => "There is no such file.",
+        Purpose::Film if path.is_file() => "This file exists and is replaced.",
         Purpose::Import => "The filled shapes of the drawing are joined to one silhouette.",
         _ => "",
     };
@@ -161,7 +190,7 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, actions: &mut Actio
         let verb = dialog.purpose.verb();
         let ready = match dialog.purpose {
             Purpose::Open | Purpose::Import => is_known,
-            Purpose::SaveAs | Purpose::Export => !edited.path.trim().is_empty(),
+            Purpose::SaveAs | Purpose::Export | Purpose::Film => !edited.path.trim().is_empty(),
         };
         if (primary(ui, ready, verb, 100.0).clicked() || confirmed) && ready {
             actions.push(Action::File(edited.confirm()));

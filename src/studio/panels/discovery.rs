@@ -1,20 +1,21 @@
 //! Proposing networks: options, progress, and the list as it grows.
 
+use super::gallery::{self, Gallery};
 use super::widgets::heading;
-use super::{buttons, proposal, rig, stages};
+use super::{buttons, rig, stages};
 use crate::studio::action::{Action, Actions};
 use crate::studio::canvas::Hit;
 use crate::studio::commands::discovery::{ACCEPT, CANCEL, PROPOSE, PROPOSE_AGAIN, REJECT};
 use crate::studio::commands::document::ESCAPE;
 use crate::studio::session::Session;
 use crate::studio::viewport::thumbnail::Thumbnails;
-use eframe::egui::{CollapsingHeader, DragValue, Grid, ProgressBar, RichText, ScrollArea, Ui};
+use eframe::egui::{CollapsingHeader, DragValue, Grid, ProgressBar, RichText, Ui};
 use std::time::Duration;
 
 /// Time after which the bar of a search is two thirds full, s: about half of what a body of 430 fibres takes.
 const HALFWAY_S: f32 = 3.0;
 
-pub fn show(ui: &mut Ui, session: &Session, thumbnails: &mut Thumbnails, actions: &mut Actions) {
+pub fn show(ui: &mut Ui, session: &Session, thumbnails: &mut Thumbnails, gallery: &mut Gallery, actions: &mut Actions) {
     heading(ui, "Network discovery");
     let width = ui.available_width();
     match &session.discovery.running {
@@ -37,16 +38,7 @@ pub fn show(ui: &mut Ui, session: &Session, thumbnails: &mut Thumbnails, actions
         );
         buttons::primary(ui, session, &PROPOSE_AGAIN, true, width, actions);
     }
-    // Short, so that the buttons below stay in sight.
-    let rows = ScrollArea::vertical().id_salt("proposals").max_height(240.0).auto_shrink([false, true]);
-    rows.show(ui, |ui| {
-        ui.spacing_mut().item_spacing.y = 2.0;
-        ui.add_enabled_ui(!discovery.is_stale(), |ui| {
-            for (index, found) in discovery.proposals.iter().enumerate() {
-                proposal::card(ui, session, index, found, actions);
-            }
-        });
-    });
+    gallery::show(ui, session, gallery, actions);
     if let Some(shown) = session.shown_proposal() {
         verdict(ui, session, actions);
         if shown.paper.is_some() {
@@ -73,7 +65,7 @@ fn progress(ui: &mut Ui, session: &Session, elapsed: Duration, actions: &mut Act
 }
 
 fn options(ui: &mut Ui, session: &Session, actions: &mut Actions) {
-    CollapsingHeader::new("Parameters").id_salt("discovery parameters").show(ui, |ui| {
+    CollapsingHeader::new("Advanced").id_salt("discovery parameters").show(ui, |ui| {
         let mut options = session.discovery.options.clone();
         let p = &mut options.parameters;
         Grid::new("discovery parameters").num_columns(2).spacing([8.0, 4.0]).show(ui, |ui| {

@@ -1,44 +1,64 @@
-//! Messages in a corner, over the views; nothing waits for them.
+//! Messages at the foot of a side panel, beside the work; nothing waits for them.
 
+use super::widgets::frame;
 use crate::studio::action::{Action, Actions};
+use crate::studio::commands::files::LOG;
 use crate::studio::icons::{self, Icon};
-use crate::studio::messages::Level;
+use crate::studio::messages::{Level, Message};
 use crate::studio::session::Session;
-use eframe::egui::{Align2, Area, Context, Frame, Id, Label, Order, Sense, vec2};
+use eframe::egui::{Color32, Frame, Label, Panel, RichText, ScrollArea, Sense, Ui, Visuals, vec2};
 
-/// Width of a message's text, logical pixels.
-const TEXT_WIDTH: f32 = 400.0;
+/// Part of the side panel's height that messages take at most.
+const MOST: f32 = 0.22;
+/// What the button takes on the right, logical pixels.
+const CLOSE: f32 = 28.0;
 
-/// `above` is how much the panels at the bottom take, logical pixels.
-pub fn show(ctx: &Context, session: &Session, above: f32, actions: &mut Actions) {
+/// Takes room from the bottom of a side panel, as long as there is something to say. Before the rest of the panel.
+pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     if session.messages.list().is_empty() {
         return;
     }
-    let area =
-        Area::new(Id::unique("messages")).order(Order::Foreground).anchor(Align2::CENTER_BOTTOM, [0.0, -above - 12.0]);
-    area.show(ctx, |ui| {
-        ui.set_max_width(460.0);
-        for message in session.messages.list() {
-            let visuals = ui.visuals();
-            let color = match message.level {
-                Level::Info => visuals.text_color(),
-                Level::Warning => visuals.warn_fg_color,
-                Level::Error => visuals.error_fg_color,
-            };
-            Frame::popup(ui.style()).inner_margin(8).show(ui, |ui| {
-                // A row as high as its text: centred layouts would take all the height there is.
-                ui.horizontal_top(|ui| {
-                    let (bar, _) = ui.allocate_exact_size(vec2(4.0, 18.0), Sense::hover());
-                    ui.painter().rect_filled(bar, 2.0, color);
-                    ui.vertical(|ui| {
-                        ui.set_width(TEXT_WIDTH);
-                        ui.add(Label::new(eframe::egui::RichText::new(&message.text).color(color)).wrap());
-                    });
-                    if icons::small_button(ui, Icon::Close, "Dismiss message", "Dismiss").clicked() {
-                        actions.push(Action::DismissMessage(message.id));
-                    }
-                });
+    let most = MOST * ui.available_height();
+    Panel::bottom("messages").frame(Frame::new()).resizable(false).show_separator_line(false).show(ui, |ui| {
+        ScrollArea::vertical()
+            .id_salt("messages")
+            .max_height(most)
+            .auto_shrink([false, true])
+            .stick_to_bottom(true)
+            .show(ui, |ui| {
+                ui.spacing_mut().item_spacing.y = 4.0;
+                for message in session.messages.list() {
+                    row(ui, message, actions);
+                }
             });
+        if ui.link("All messages").on_hover_text(LOG.tip).clicked() {
+            actions.push(Action::Run(&LOG, session.selected()));
         }
     });
+}
+
+fn row(ui: &mut Ui, message: &Message, actions: &mut Actions) {
+    let color = color(ui.visuals(), message.level);
+    frame().inner_margin(6).fill(ui.visuals().faint_bg_color).corner_radius(6).show(ui, |ui| {
+        ui.horizontal_top(|ui| {
+            let (bar, _) = ui.allocate_exact_size(vec2(3.0, 16.0), Sense::hover());
+            ui.painter().rect_filled(bar, 1.5, color);
+            ui.vertical(|ui| {
+                ui.set_width((ui.available_width() - CLOSE).max(1.0));
+                ui.add(Label::new(RichText::new(&message.text).small().color(color)).wrap());
+            });
+            if icons::small_button(ui, Icon::Close, "Dismiss message", "Dismiss").clicked() {
+                actions.push(Action::DismissMessage(message.id));
+            }
+        });
+    });
+}
+
+/// The colour of a level of message.
+pub fn color(visuals: &Visuals, level: Level) -> Color32 {
+    match level {
+        Level::Info => visuals.text_color(),
+        Level::Warning => visuals.warn_fg_color,
+        Level::Error => visuals.error_fg_color,
+    }
 }

@@ -1,6 +1,7 @@
 //! The winch-tendon networks that are built in.
 
 use super::discovery;
+use super::gallery::Gallery;
 use super::panel::{Entry, Panel};
 use super::widgets::{heading, name_field};
 use super::{buttons, sewable, tendons, winding};
@@ -16,6 +17,7 @@ use crate::studio::commands::networks::{DOWN, MUTE, SOLO, UP};
 use crate::studio::icons::{self, Icon};
 use crate::studio::session::{Renamed, Selection, Session};
 use crate::studio::style;
+use crate::studio::style::plain_number;
 use crate::studio::viewport::thumbnail::Thumbnails;
 use eframe::egui::{
     Align, Button, Color32, Layout, Popup, RichText, Role, ScrollArea, Sense, Stroke, Ui, WidgetInfo, vec2,
@@ -31,6 +33,7 @@ pub static ENTRY: Entry = Entry {
 #[derive(Default)]
 struct Networks {
     thumbnails: Thumbnails,
+    gallery: Gallery,
 }
 
 impl Panel for Networks {
@@ -40,7 +43,7 @@ impl Panel for Networks {
             show(ui, session, breaches, actions);
             winding::show(ui, session, actions);
             ui.add_space(12.0);
-            discovery::show(ui, session, &mut self.thumbnails, actions);
+            discovery::show(ui, session, &mut self.thumbnails, &mut self.gallery, actions);
         });
     }
 }
@@ -82,7 +85,7 @@ fn rows(ui: &mut Ui, session: &Session, breaches: &[Breach], actions: &mut Actio
                 let wound = newest.as_ref().and_then(|s| s.activations_mm.get(index));
                 let wound = match network.muted {
                     true => "off".to_owned(),
-                    false => format!("{:>5.1} mm", wound.copied().unwrap_or(0.0)),
+                    false => format!("{:>5} mm", plain_number(wound.copied().unwrap_or(0.0), 1)),
                 };
                 let tendons = network.tendons.len();
                 let detail = format!("{tendons} tendon{}  {wound}", if tendons == 1 { "" } else { "s" });

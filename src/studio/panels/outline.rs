@@ -174,7 +174,10 @@ fn body(ui: &mut Ui, session: &Session, state: &mut canvas::State, actions: &mut
         n => format!("{wide_mm:.0} × {high_mm:.0} mm, {n} holes"),
     };
     ui.label(text);
-    if let Some(trouble) = &trouble {
+    if session.drawing().parts.is_empty() {
+        // Nothing is wrong with a sheet that is still empty.
+        ui.label(RichText::new("Draw the silhouette: freehand, or of polygons, circles and capsules").weak());
+    } else if let Some(trouble) = &trouble {
         ui.label(RichText::new(trouble).color(ui.visuals().warn_fg_color));
     }
     let cut_off: Vec<String> =

@@ -1,13 +1,14 @@
 //! Poses of the plushie, and the targets of the current one.
 
-use super::buttons;
 use super::widgets::{heading, name_field};
+use super::{buttons, targets};
 use crate::studio::action::{Action, Actions};
 use crate::studio::change::Change;
-use crate::studio::commands::document::{ADD_POSE, CLEAR_TARGETS, DELETE, DELETE_POSE, DUPLICATE_POSE, RENAME_POSE};
-use crate::studio::icons::{self, Icon};
-use crate::studio::session::{Mode, PoseError, Renamed, Selection, Session};
-use eframe::egui::{Align, Button, Color32, DragValue, Layout, RichText, ScrollArea, Ui, vec2};
+use crate::studio::commands::animation::ADD_KEYFRAME;
+use crate::studio::commands::document::{ADD_POSE, CLEAR_TARGETS, DELETE_POSE, DUPLICATE_POSE, RENAME_POSE};
+use crate::studio::commands::posing::MIRROR_POSE;
+use crate::studio::session::{Mode, PoseError, Renamed, Session};
+use eframe::egui::{Align, Button, Color32, Layout, RichText, ScrollArea, Ui, vec2};
 
 /// How much of its strength a figure keeps that is not of the design as it is now.
 const STALE: f32 = 0.55;
@@ -16,11 +17,11 @@ pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     title(ui, session, actions);
     ui.add_space(8.0);
     pose_buttons(ui, session, actions);
-    ScrollArea::vertical().auto_shrink([false, true]).max_height(ui.available_height() * 0.55).show(ui, |ui| {
+    ScrollArea::vertical().auto_shrink([false, true]).max_height(ui.available_height() * 0.42).show(ui, |ui| {
         list(ui, session, actions);
     });
     ui.add_space(10.0);
-    targets(ui, session, actions);
+    targets::show(ui, session, actions);
 }
 
 /// The plushie's name, which a double click edits.
@@ -98,6 +99,15 @@ fn list(ui: &mut Ui, session: &Session, actions: &mut Actions) {
             Some(error) => response.on_hover_text(error_text(session, error)),
             None => response,
         };
+        if response.secondary_clicked() {
+            actions.push(Action::SelectPose(Some(index)));
+        }
+        response.context_menu(|ui| {
+            ui.set_min_width(160.0);
+            for command in [&RENAME_POSE, &DUPLICATE_POSE, &MIRROR_POSE, &ADD_KEYFRAME, &CLEAR_TARGETS, &DELETE_POSE] {
+                buttons::entry(ui, session, command, session.selected(), actions);
+            }
+        });
         if response.double_clicked() {
             actions.push(Action::Typed(Some((Renamed::Pose(index), pose.name.clone()))));
         } else if response.clicked() {
@@ -121,62 +131,4 @@ fn error_text(session: &Session, error: PoseError) -> String {
         _ => "the best pose that winding from rest reaches",
     };
     format!("The realizable plushie misses its targets by {mm:.2} mm, {percent:.2} % of the body length: {how}")
-}
-
-fn targets(ui: &mut Ui, session: &Session, actions: &mut Actions) {
-    if session.picked.mode == Mode::Animation {
-        hint(ui, "The views show the animation. Choose a pose, or drag the body, to go on posing.");
-        return;
-    }
-    if session.picked.mode == Mode::Winding {
-        hint(ui, "The winches are wound by hand. Choose a pose, or drag the body, to go on posing.");
-        return;
-    }
-    let Some(pose) = session.picked.pose else {
-        hint(ui, "Drag any point of the body, in either view, to begin a pose.");
-        return;
-    };
-    ui.horizontal(|ui| {
-        heading(ui, "Targets");
-        if session.targets().is_empty() {
-            return;
-        }
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            buttons::small_icon(ui, session, &CLEAR_TARGETS, actions);
-        });
-    });
-    if session.targets().is_empty() {
-        hint(ui, "Drag any point of the body, in either view: the drag becomes a target.");
-        return;
-    }
-    ScrollArea::vertical().id_salt("targets").auto_shrink([false, true]).show(ui, |ui| {
-        ui.spacing_mut().item_spacing.y = 2.0;
-        for (index, target) in session.targets().iter().enumerate() {
-            ui.horizontal(|ui| {
-                let selected = session.picked.selection == Selection::Target(index);
-                let name = format!("Target {}", index + 1);
-                // Text on the right, even none, moves the name to the left, in line with the poses above.
-                let button = Button::selectable(selected, name).right_text("").min_size(vec2(78.0, 24.0));
-                if ui.add(button).clicked() {
-                    actions.push(Action::Select(Selection::Target(index)));
-                }
-                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                    let (name, tip) = (format!("Remove target {}", index + 1), DELETE.hint("Remove this target"));
-                    if icons::small_button(ui, Icon::Close, &name, &tip).clicked() {
-                        actions.push(Action::Change(Change::RemoveTarget { pose, index }));
-                    }
-                    let mut weight = target.weight;
-                    let value = DragValue::new(&mut weight).range(0.01..=100.0).speed(0.02).max_decimals(2);
-                    let response = ui.add(value).accessible_name(format!("Weight of target {}", index + 1));
-                    if response.on_hover_text("Weight: how much this target counts").changed() {
-                        actions.push(Action::Live(Change::WeighTarget { pose, index, weight }));
-                    }
-                });
-            });
-        }
-    });
-}
-
-fn hint(ui: &mut Ui, text: &str) {
-    ui.label(RichText::new(text).weak());
 }

@@ -1,16 +1,66 @@
 //! A proposal on the list: what it reaches, what it costs, whom it serves.
 
 use crate::discovery::Parameters;
+use crate::engine::Shape;
+use crate::picture::preview::Preview;
 use crate::rigging::{PoseServed, Proposal};
 use crate::studio::action::{Action, Actions};
+use crate::studio::pictures::Pictures;
 use crate::studio::session::Session;
-use eframe::egui::{Button, Label, RichText, Ui, vec2};
+use crate::studio::style;
+use eframe::egui::{Button, Frame, Label, RichText, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, vec2};
+use std::sync::Arc;
 
-/// Height of the button, logical pixels.
+/// Height of the button, and size of the picture and of those in other poses, logical pixels.
 const ROW: f32 = 26.0;
+const PICTURE: Vec2 = vec2(84.0, 63.0);
+const SMALL: Vec2 = vec2(56.0, 42.0);
 
-/// The button that shows it in the views, and its figures below.
-pub fn card(ui: &mut Ui, session: &Session, index: usize, proposal: &Proposal, actions: &mut Actions) {
+/// A proposal in a pose.
+pub struct Struck {
+    pub name: String,
+    pub picture: Arc<Preview>,
+    pub shape: Arc<Shape>,
+}
+
+/// The pictures of a card: the textures, that of the pose at hand, and those of all poses as far as they are known.
+pub type Paint<'a> = (&'a mut Pictures, Option<&'a Arc<Preview>>, &'a [Struck]);
+
+/// The button that keeps it in the views, its picture and its figures. Whether the pointer is on it.
+pub fn card(
+    ui: &mut Ui,
+    session: &Session,
+    index: usize,
+    proposal: &Proposal,
+    (pictures, picture, strip): Paint<'_>,
+    actions: &mut Actions,
+) -> bool {
+    let shown = session.discovery.shown == Some(index);
+    let stroke = if shown {
+        Stroke::new(1.5, style::accent(session.look().theme))
+    } else {
+        ui.visuals().widgets.noninteractive.bg_stroke
+    };
+    let frame = Frame::new().inner_margin(6).corner_radius(8).stroke(stroke);
+    let inner = frame.show(ui, |ui| {
+        title(ui, session, index, proposal, actions);
+        ui.horizontal_top(|ui| {
+            let (rect, _) = ui.allocate_exact_size(PICTURE, Sense::hover());
+            if let Some(picture) = picture {
+                pictures.paint(ui, picture, rect);
+            }
+            ui.vertical(|ui| figures(ui, proposal));
+        });
+        if strip.len() > 1 && (shown || session.discovery.hovered.as_ref().is_some_and(|(of, _)| *of == index)) {
+            ui.horizontal_wrapped(|ui| strip.iter().for_each(|struck| small(ui, pictures, struck)));
+        }
+    });
+    let rect = inner.response.rect.intersect(ui.clip_rect());
+    ui.is_enabled()
+        && ui.input(|i| i.pointer.hover_pos()).is_some_and(|p| rect.contains(p) && !ui.ctx().any_popup_open())
+}
+
+fn title(ui: &mut Ui, session: &Session, index: usize, proposal: &Proposal, actions: &mut Actions) {
     let tendons = proposal.network.tendons.len();
     let name = format!("{}  {tendons} tendon{}", index + 1, plural(tendons));
     let error = format!("{} to {}", percent(proposal.error_before()), percent(proposal.error_after()));
@@ -23,14 +73,28 @@ pub fn card(ui: &mut Ui, session: &Session, index: usize, proposal: &Proposal, a
     if response.on_hover_text(details(proposal)).clicked() {
         actions.push(Action::ShowProposal(Some(index)));
     }
+}
+
+fn figures(ui: &mut Ui, proposal: &Proposal) {
+    ui.spacing_mut().item_spacing.y = 2.0;
     let small = |text: String| Label::new(RichText::new(text).small().weak()).truncate();
-    ui.add(small(costs(proposal)));
+    ui.add(Label::new(RichText::new(costs(proposal)).small().weak()).wrap());
     ui.add(small(serves(proposal)));
     if !proposal.breaches.is_empty() {
         let text = format!("Hard to sew in {} place{}", proposal.breaches.len(), plural(proposal.breaches.len()));
         ui.add(Label::new(RichText::new(text).small().color(ui.visuals().warn_fg_color)).truncate());
     }
-    ui.add_space(4.0);
+}
+
+/// One of the other poses.
+fn small(ui: &mut Ui, pictures: &mut Pictures, struck: &Struck) {
+    ui.vertical(|ui| {
+        ui.set_width(SMALL.x);
+        let (rect, response) = ui.allocate_exact_size(SMALL, Sense::hover());
+        response.widget_info(|| WidgetInfo::labeled(Role::Image, true, format!("Strikes {}", struck.name)));
+        pictures.paint(ui, &struck.picture, rect);
+        ui.add(Label::new(RichText::new(&struck.name).small().weak()).truncate());
+    });
 }
 
 /// What it takes to make.

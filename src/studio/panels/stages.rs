@@ -8,28 +8,26 @@ use crate::studio::viewport::thumbnail::Thumbnails;
 use eframe::egui::{Align2, FontId, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2};
 
 /// Height of a picture, logical pixels: that of the panel must not depend on its width, which scroll bars take from.
-const HEIGHT: f32 = 104.0;
+const HEIGHT: f32 = 78.0;
 
 /// Four pictures, like the paper's fig. 6; the one chosen is shown large in the left view.
 pub fn show(ui: &mut Ui, session: &Session, thumbnails: &mut Thumbnails, actions: &mut Actions) {
-    const GAP: f32 = 6.0;
+    const GAP: f32 = 4.0;
     let stages = [
         (Stage::Activation, "Activity", "Activation graph: every fibre by its contraction"),
         (Stage::Seeds, "Seeds", "The most contracted fibres; the starting component stands out"),
         (Stage::Tree, "Tree", "Winch tree: components, and joining paths in blue"),
         (Stage::Result, "Result", "The winch and its tendons"),
     ];
-    let width = ((ui.available_width() - GAP) / 2.0).floor();
-    for row in stages.chunks(2) {
-        ui.horizontal(|ui| {
-            ui.spacing_mut().item_spacing.x = GAP;
-            for &(stage, name, tip) in row {
-                if thumbnail(ui, session, thumbnails, stage, name, width).on_hover_text(tip).clicked() {
-                    actions.push(Action::ShowStage(stage));
-                }
+    let width = ((ui.available_width() - 3.0 * GAP) / 4.0).floor();
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = GAP;
+        for (stage, name, tip) in stages {
+            if thumbnail(ui, session, thumbnails, stage, name, width).on_hover_text(tip).clicked() {
+                actions.push(Action::ShowStage(stage));
             }
-        });
-    }
+        }
+    });
 }
 
 fn thumbnail(

@@ -1,6 +1,6 @@
 //! The row on top: files, undo, tools, what is shown, discovery, export.
 
-use super::{accuracy, buttons};
+use super::{accuracy, buttons, next};
 use crate::design::bundled;
 use crate::files;
 use crate::studio::action::{Action, Actions, FileAction};
@@ -25,6 +25,7 @@ pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
             ui.add_space(4.0);
             ui.spacing_mut().item_spacing.x = 6.0;
             group(ui, session, Group::Right, actions);
+            next::show(ui, session, actions);
         });
     });
 }

@@ -7,6 +7,7 @@ use crate::studio::action::{Action, Actions};
 use crate::studio::commands::animation::ADD_KEYFRAME;
 use crate::studio::commands::networks::SLACKEN;
 use crate::studio::session::{Mode, Session};
+use crate::studio::style::plain_number;
 use crate::studio::viewport::{is_beyond, limit, load_words};
 use eframe::egui::{CollapsingHeader, DragValue, RichText, Slider, Ui};
 
@@ -61,9 +62,8 @@ fn slider(ui: &mut Ui, session: &Session, winch: usize, actions: &mut Actions) {
             ui.add(slider).accessible_name(format!("Cable of {}", network.name));
             let value = DragValue::new(&mut wound).range(-reach..=reach).speed(0.2).fixed_decimals(1).suffix(" mm");
             ui.add(value).accessible_name(format!("Cable of {} in mm", network.name));
-            // Never "-0".
-            let degrees = spool_degrees(design, wound).round() + 0.0;
-            ui.label(RichText::new(format!("{degrees:.0}°")).small().weak()).on_hover_text("Turn of the spool");
+            let degrees = plain_number(spool_degrees(design, wound), 0);
+            ui.label(RichText::new(format!("{degrees}°")).small().weak()).on_hover_text("Turn of the spool");
             if wound != before {
                 actions.push(Action::Wind(winch, wound));
             }

@@ -2,6 +2,7 @@
 
 use super::basis::Basis;
 use crate::design::{Design, Network, Target};
+use crate::engine::Shape;
 use crate::picture::Stage;
 use crate::rigging::{Proposal, ProposeOptions};
 use crate::studio::jobs::{Running, cancel};
@@ -17,6 +18,9 @@ pub struct Discovery {
     pub proposals: Vec<Arc<Proposal>>,
     /// Which proposal the views show.
     pub shown: Option<usize>,
+    /// The proposal under the pointer, which the views show meanwhile, and the shape that it strikes there.
+    pub hovered: Option<(usize, Option<Arc<Shape>>)>,
+    pub order: Order,
     pub stage: Stage,
     /// What the proposals are for; none before the first question.
     asked: Option<Asked>,
@@ -25,7 +29,26 @@ pub struct Discovery {
     /// Whether the shown proposal was picked by a hand: then it stays while others come.
     pub(crate) picked: bool,
     dropped: Vec<Network>,
+    /// Parameters have changed since the search began.
+    pub(crate) restart: bool,
     pub(crate) coming: Coming,
+}
+
+/// What proposals are sorted by.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Order {
+    /// As they were found: the best for the pose, what it costs to make considered.
+    #[default]
+    Found,
+    /// The pose's error.
+    Error,
+    /// The largest error of all poses.
+    Worst,
+    Force,
+    Thread,
+    Holes,
+    /// The error when a hand sews it.
+    Sewn,
 }
 
 /// A design and the targets that networks were looked for.
@@ -38,6 +61,36 @@ impl Discovery {
     /// The proposal that the views show.
     pub fn shown(&self) -> Option<&Arc<Proposal>> {
         self.shown.and_then(|index| self.proposals.get(index))
+    }
+
+    /// The proposal that the views show now: that under the pointer before the one that was picked.
+    pub fn displayed(&self) -> Option<&Arc<Proposal>> {
+        let hovered = self.hovered.as_ref().filter(|_| !self.stale);
+        hovered.and_then(|(index, _)| self.proposals.get(*index)).or_else(|| self.shown())
+    }
+
+    /// The shape that the proposal under the pointer strikes, where it is another pose than that at hand.
+    pub fn struck(&self) -> Option<&Arc<Shape>> {
+        self.hovered.as_ref().and_then(|(_, shape)| shape.as_ref())
+    }
+
+    /// Numbers of the proposals as they are sorted.
+    pub fn sorted(&self) -> Vec<usize> {
+        let key = |index: &usize| -> f64 {
+            let proposal = &self.proposals[*index];
+            match self.order {
+                Order::Found => 0.0,
+                Order::Error => proposal.error_after(),
+                Order::Worst => proposal.poses.iter().map(|pose| pose.after).fold(0.0, f64::max),
+                Order::Force => proposal.force_n,
+                Order::Thread => proposal.thread_mm,
+                Order::Holes => proposal.holes as f64,
+                Order::Sewn => proposal.sewn.map_or(f64::INFINITY, |sewn| sewn.median),
+            }
+        };
+        let mut sorted: Vec<usize> = (0..self.proposals.len()).collect();
+        sorted.sort_by(|a, b| key(a).total_cmp(&key(b)));
+        sorted
     }
 
     /// Whether what is on the list was found for another body or pose than there is now: its figures do not hold.
@@ -54,6 +107,7 @@ impl Discovery {
         self.proposals.clear();
         self.dropped.clear();
         (self.shown, self.asked, self.stale, self.picked) = (None, None, false, false);
+        self.hovered = None;
         self.coming = Coming::default();
     }
 
@@ -114,11 +168,14 @@ impl Default for Discovery {
             running: None,
             proposals: Vec::new(),
             shown: None,
+            hovered: None,
+            order: Order::default(),
             stage: Stage::Result,
             asked: None,
             stale: false,
             picked: false,
             dropped: Vec::new(),
+            restart: false,
             coming: Coming::default(),
         }
     }

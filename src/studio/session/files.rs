@@ -3,7 +3,7 @@
 use super::import_choice::ImportChoice;
 use super::import_preview::ImportPreview;
 use crate::design::Design;
-use crate::operations::export;
+use crate::operations::{export, film};
 use crate::studio::jobs::{New, Running};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -17,6 +17,7 @@ pub enum FileAction {
     NewDrawing,
     SaveAs,
     Export,
+    Film,
     /// To where it came from, or asks.
     Save,
     OpenPath(PathBuf),
@@ -29,6 +30,10 @@ pub enum FileAction {
     ExportPath {
         folder: PathBuf,
         options: export::Options,
+    },
+    FilmPath {
+        path: PathBuf,
+        options: film::Options,
     },
     CloseDialog,
     /// Something was typed.
@@ -58,6 +63,7 @@ pub enum Purpose {
     Import,
     SaveAs,
     Export,
+    Film,
 }
 
 /// A dialog over the window.
@@ -90,6 +96,7 @@ pub struct PathDialog {
     pub path: String,
     pub import: Box<ImportChoice>,
     pub export: Box<export::Options>,
+    pub film: Box<film::Options>,
     /// Why what was asked for last could not be had.
     pub trouble: Option<String>,
 }
@@ -150,6 +157,7 @@ impl Purpose {
             Self::Import => "New plushie from an outline",
             Self::SaveAs => "Save the plushie as",
             Self::Export => "Export the blueprint",
+            Self::Film => "Export the animation",
         }
     }
 
@@ -160,6 +168,7 @@ impl Purpose {
             Self::Import => "Create",
             Self::SaveAs => "Save",
             Self::Export => "Export",
+            Self::Film => "Make the film",
         }
     }
 }
@@ -171,6 +180,7 @@ impl PathDialog {
             Purpose::Open => FileAction::OpenPath(path),
             Purpose::Import => FileAction::ImportPath { path, choice: self.import.clone() },
             Purpose::SaveAs => FileAction::SavePath(path),
+            Purpose::Film => FileAction::FilmPath { path, options: (*self.film).clone() },
             Purpose::Export => FileAction::ExportPath { folder: path, options: (*self.export).clone() },
         }
     }

@@ -9,6 +9,8 @@ use crate::studio::canvas::{Camera, Plushie};
 
 pub struct Look {
     pub theme: Theme,
+    /// Nothing moves by itself but what is asked to play.
+    pub still: bool,
     /// Which layers of the pictures.
     pub shown: Shown,
     /// How the body is shown: a look of the pictures by its name.
@@ -114,6 +116,7 @@ impl Default for Look {
             frame: None,
             rulers: false,
             onion: Onion::default(),
+            still: false,
         }
     }
 }

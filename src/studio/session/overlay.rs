@@ -7,6 +7,10 @@ pub enum Overlay {
     Palette,
     /// What every key does.
     Shortcuts,
+    /// Designs to begin with.
+    Start,
+    /// What the window has said.
+    Log,
 }
 
 /// The thing that gets another name.

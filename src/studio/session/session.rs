@@ -3,7 +3,9 @@
 use super::discovery::Discovery;
 use super::document::Document;
 use super::files::Files;
+use super::filming::Filming;
 use super::following::Following;
+use super::group::Group;
 use super::judging::Judging;
 use super::look::Look;
 use super::meshing::{Meshing, Resolution};
@@ -11,6 +13,7 @@ use super::motors::Motors;
 use super::overlay::{Overlay, Renamed};
 use super::picked::{Mode, Picked, Selection};
 use super::playback::Playback;
+use super::posing::Posing;
 use super::rigging::Rigging;
 use super::safety::Safety;
 use super::sketching::Sketching;
@@ -18,6 +21,7 @@ use super::solo::Solo;
 use super::solver::{Shapes, Solver};
 use super::tasks::Tasks;
 use super::texturing::{self, Texturing};
+use super::timing::Timing;
 use super::winding::Winding;
 use crate::design::file::MAX_BYTES;
 use crate::design::history::History;
@@ -56,8 +60,13 @@ pub struct Services {
 pub struct Session {
     pub(crate) document: Document,
     pub(crate) picked: Picked,
+    /// Targets and pins that are picked out together.
+    pub(crate) group: Group,
+    pub(crate) posing: Posing,
     pub(crate) look: Look,
     pub(crate) playback: Playback,
+    pub(crate) timing: Timing,
+    pub(crate) filming: Filming,
     pub(crate) solver: Solver,
     pub(crate) discovery: Discovery,
     pub(crate) rigging: Rigging,
@@ -81,6 +90,10 @@ pub struct Session {
     /// Whether pictures can be drawn.
     pub(crate) gpu: bool,
     pub(crate) overlay: Option<Overlay>,
+    /// Whether the next step is shown.
+    pub(crate) guided: bool,
+    /// Text for the clipboard of the system, until the frame is over.
+    pub(crate) clipboard: Option<String>,
     /// A name that is being typed.
     pub(crate) renaming: Option<(Renamed, String)>,
     pub(crate) jobs: Jobs,
@@ -95,8 +108,12 @@ impl Session {
         let document = Document::new(design, path);
         Self {
             picked: Picked::first(document.design()),
+            group: Group::default(),
+            posing: Posing::default(),
             look: Look::default(),
             playback: Playback::default(),
+            timing: Timing::default(),
+            filming: Filming::default(),
             solver: Solver::new(document.design(), wake.clone()),
             document,
             discovery: Discovery::default(),
@@ -117,6 +134,8 @@ impl Session {
             panel: "",
             gpu: false,
             overlay: None,
+            guided: true,
+            clipboard: None,
             renaming: None,
             jobs: Jobs::new(wake),
             tasks: Tasks::default(),
@@ -201,6 +220,34 @@ impl Session {
         self.picked.selection
     }
 
+    /// Targets and pins that are picked out together.
+    pub fn group(&self) -> &Group {
+        &self.group
+    }
+
+    /// Keyframes that are picked out together, and what the motors make of the animation.
+    pub fn timing(&self) -> &Timing {
+        &self.timing
+    }
+
+    /// Numbers of the keyframes that are picked out, alone or together.
+    pub fn keys(&self) -> Vec<usize> {
+        match self.picked.selection {
+            Selection::Keyframe(key) => vec![key],
+            _ => self.timing.keys.clone(),
+        }
+    }
+
+    /// A film that is being made.
+    pub fn filming(&self) -> &Filming {
+        &self.filming
+    }
+
+    /// The ways of posing that are on.
+    pub fn posing(&self) -> &Posing {
+        &self.posing
+    }
+
     pub fn playback(&self) -> &Playback {
         &self.playback
     }
@@ -231,8 +278,9 @@ impl Session {
         let keying = self.keying.is_some().then_some("Working out the keyframe");
         let rigging = self.rigging.running.is_some() || self.rigging.curve.running.is_some();
         let rigging = rigging.then_some("Looking for winches and tendons");
+        let filming = self.filming.running.is_some().then_some("Drawing the animation");
         let following = self.following.is_running().then_some("Working out keyframes again");
-        self.files.working.or(rigging).or(keying).or(following)
+        self.files.working.or(rigging).or(keying).or(filming).or(following)
     }
 
     /// Whether the window is about to close.
@@ -276,6 +324,11 @@ impl Session {
     /// The proposal that the views show.
     pub fn shown_proposal(&self) -> Option<&Arc<Proposal>> {
         self.discovery.shown()
+    }
+
+    /// The proposal that the views show now, picked or under the pointer.
+    pub fn displayed_proposal(&self) -> Option<&Arc<Proposal>> {
+        self.discovery.displayed()
     }
 
     /// The solver's warning about the newest shapes.
@@ -377,5 +430,6 @@ impl Drop for Session {
         self.judging.cancel();
         self.tasks.cancel();
         jobs::cancel(&mut self.keying);
+        jobs::cancel(&mut self.filming.running);
     }
 }

@@ -1,5 +1,6 @@
 //! A hold on the body, a target, or the picture itself, and the tools that have one.
 
+use super::snap;
 use super::tool::Tool;
 use crate::design::Target;
 use crate::operations::network::Part;
@@ -8,7 +9,7 @@ use crate::studio::action::{Action, Actions};
 use crate::studio::canvas::{Canvas, Ground, Hit};
 use crate::studio::change::Change;
 use crate::studio::session::{Selection, Session};
-use eframe::egui::{CursorIcon, Key};
+use eframe::egui::{CursorIcon, Key, Painter, Pos2};
 
 /// The thing that the hand holds in a view.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -17,6 +18,10 @@ pub enum Grip {
     Nothing,
     /// The target that is selected; from the pointer to its goal.
     Target { offset: Point },
+    /// A pin: from the pointer to its anchor.
+    Pin { index: usize, offset: Point },
+    /// A pin that is put elsewhere on the body.
+    Site { index: usize },
     /// The picture: this point stays under the pointer.
     Picture { at: Point },
 }
@@ -33,10 +38,13 @@ impl Grip {
                 return Self::Target { offset: from(target.to) };
             }
             Hit::Body(at) if body => at,
-            Hit::Pin(index) if body => match session.design().pins.get(index) {
-                Some(pin) => pin.at,
-                None => return Self::Nothing,
-            },
+            Hit::Pin(index) => {
+                actions.push(Action::Select(Selection::Pin(index)));
+                let Some(pin) = session.design().pins.get(index) else { return Self::Nothing };
+                // The hand that poses moves what holds the body; the hand that pins moves where it is held.
+                let offset = from(pin.anchor(&session.design().mesh));
+                return if body { Self::Pin { index, offset } } else { Self::Site { index } };
+            }
             _ => return Self::Picture { at: press },
         };
         let Ground::Plushie(_, Some(shape)) = canvas.ground else { return Self::Nothing };
@@ -52,7 +60,16 @@ impl Grip {
     pub fn pull(&self, canvas: &Canvas<'_>, at: Point, actions: &mut Actions) {
         match *self {
             Self::Nothing => {}
-            Self::Target { offset } => actions.push(Action::DragTarget([at[0] + offset[0], at[1] + offset[1]])),
+            Self::Target { offset } => {
+                let goal = [at[0] + offset[0], at[1] + offset[1]];
+                actions.push(Action::DragTarget(snap::snapped(canvas, goal)));
+            }
+            Self::Pin { index, offset } => actions.push(Action::DragPin(index, [at[0] + offset[0], at[1] + offset[1]])),
+            Self::Site { index } => {
+                if let Some(at) = canvas.body(at) {
+                    actions.push(Action::Live(Change::SitePin { index, at }));
+                }
+            }
             Self::Picture { at: held } => actions.push(canvas.pan(held, at)),
         }
     }
@@ -117,10 +134,17 @@ impl Tool for Gripping {
 
     fn cursor(&self, _canvas: &Canvas<'_>, under: Hit) -> CursorIcon {
         match (self.grip, under) {
-            (Grip::Target { .. }, _) => CursorIcon::Grabbing,
+            (Grip::Target { .. } | Grip::Pin { .. } | Grip::Site { .. }, _) => CursorIcon::Grabbing,
             (_, Hit::Body(_)) => self.cursor,
             (_, Hit::Nothing) => CursorIcon::Default,
             _ => CursorIcon::Grab,
+        }
+    }
+
+    /// Lines that the goal in hand has fallen into.
+    fn paint(&self, canvas: &Canvas<'_>, painter: &Painter, _pointer: Option<Pos2>) {
+        if let Grip::Target { .. } = self.grip {
+            snap::paint(canvas, painter);
         }
     }
 }

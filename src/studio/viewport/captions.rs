@@ -8,7 +8,7 @@ use eframe::egui::{Align2, FontId, Pos2, Rect, Stroke, Ui, Vec2};
 pub fn show(ui: &Ui, canvas: &Canvas<'_>, plushie: Plushie) {
     let Canvas { session, rect, camera, .. } = *canvas;
     let painter = ui.painter_at(rect);
-    let (title, detail) = match (plushie, session.shown_proposal()) {
+    let (title, detail) = match (plushie, session.displayed_proposal()) {
         (Plushie::Idealized, Some(p)) if p.paper.is_some() => {
             ("Idealized", stage_name(session.discovery.stage).to_owned())
         }

@@ -14,7 +14,7 @@ pub fn show(ui: &mut Ui, canvas: &Canvas<'_>) {
     let session = canvas.session;
     let Ground::Plushie(Plushie::Realizable, Some(shape)) = canvas.ground else { return };
     let feeling = session.mode() == Mode::Winding || session.has_taken(PULL);
-    if !feeling || session.shown_proposal().is_some() {
+    if !feeling || session.displayed_proposal().is_some() {
         return;
     }
     let design = session.acting();

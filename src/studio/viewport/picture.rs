@@ -78,7 +78,7 @@ fn subject<'a>(session: &'a Session, drawn: &Drawn<'a>, ghosts: &'a [Ghost]) -> 
         Selection::Target(index) => Some(index),
         _ => None,
     };
-    let proposal = session.shown_proposal();
+    let proposal = session.displayed_proposal();
     let idealized = drawn.plushie == Plushie::Idealized;
     Subject {
         fibers: idealized,

@@ -21,7 +21,7 @@ const RING: f32 = 9.0;
 
 pub fn show(ui: &mut Ui, canvas: &Canvas<'_>) {
     let session = canvas.session;
-    if !matches!(canvas.ground, Ground::Plushie(_, Some(_))) || session.shown_proposal().is_some() {
+    if !matches!(canvas.ground, Ground::Plushie(_, Some(_))) || session.displayed_proposal().is_some() {
         return;
     }
     let editing = session.has_taken(TENDON);

@@ -132,7 +132,8 @@ fn solved(session: &Session, plushie: Plushie) -> Option<&Arc<Shape>> {
 
 /// The shape that a view shows now.
 fn displayed(session: &Session, plushie: Plushie) -> Option<&Arc<Shape>> {
-    let preview = session.shown_proposal().map(|proposal| &proposal.preview);
+    let proposed = session.displayed_proposal().map(|proposal| &proposal.preview);
+    let preview = proposed.map(|preview| session.discovery.struck().unwrap_or(preview));
     let preview = preview.filter(|shape| shape.nodes.len() == session.design().mesh.nodes.len());
     match plushie {
         Plushie::Realizable if preview.is_some() => preview,

@@ -1,5 +1,7 @@
 //! The window, driven by accessible names. No display and no graphics adapter are needed.
 
+mod arranging;
+mod craft;
 mod files;
 mod looks;
 mod motors;

@@ -241,3 +241,31 @@ fn networks_that_no_hand_can_sew_are_marked() {
     assert_eq!(session(&window).design().sewing.turn_degrees, 75.0);
     marked(&mut window, "right", true);
 }
+
+#[test]
+fn candidates_are_cards_that_are_sorted_and_shown_under_the_pointer() {
+    let mut window = window(bar());
+    pose(&mut window, "Idealized view");
+    click(&mut window, "Propose networks");
+    let order = |window: &Window| session(window).discovery().sorted();
+    assert_eq!(order(&window), [0, 1]);
+    wait(&mut window, |s| s.tasks().running("gallery.cards").is_none());
+    // The other one's cable is as long, its error is larger; by holes they are alike.
+    for (name, sorted) in [("Worst pose", [0, 1]), ("Fewest holes", [0, 1])] {
+        window.get_by_role_and_label(accesskit::Role::ComboBox, "Sorted by").click();
+        window.run();
+        window.get_by_label(name).click();
+        settle(&mut window);
+        assert_eq!(order(&window), sorted);
+    }
+    let card = window.get_by_label("Proposal 2").rect().center();
+    window.hover_at(card);
+    window.run_steps(3);
+    assert_eq!(session(&window).discovery().hovered.as_ref().map(|(index, _)| *index), Some(1));
+    assert!((session(&window).displayed_proposal().unwrap().error_after() - 0.1).abs() < 1e-9);
+    // What is accepted is what was picked.
+    assert_eq!(session(&window).discovery().shown, Some(0));
+    window.hover_at(window.get_by_label("Idealized view").rect().center());
+    window.run_steps(3);
+    assert!(session(&window).discovery().hovered.is_none());
+}

@@ -95,7 +95,7 @@ pub fn rigged() -> Design {
         slack_mm: 0.0,
     };
     let at = design.mesh.node_point(0).expect("node 0 is used");
-    design.pins = vec![Pin { at, position: None, stiffness: 20.0 }];
+    design.pins = vec![Pin::at_rest(at, 20.0)];
     let target = Target { at: BodyPoint { triangle: 5, weights: [0.2, 0.3, 0.5] }, to: [130.0, 90.0], weight: 1.0 };
     design.poses = vec![Pose { name: "lean".into(), targets: vec![target] }];
     // Nodes 8..12 lie on the line y = 20, 20 mm apart; 24 is (60, 60).

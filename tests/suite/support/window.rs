@@ -35,7 +35,7 @@ pub fn bar() -> Design {
     let mut design = Design::new("Bar", Outline { outer, holes: Vec::new() }, Mesh { nodes, triangles });
     for node in [0, 7, 14] {
         let at = design.mesh.node_point(node).unwrap();
-        design.pins.push(Pin { at, position: None, stiffness: 20.0 });
+        design.pins.push(Pin::at_rest(at, 20.0));
     }
     design
 }

@@ -25,6 +25,7 @@ use crate::outline::{Aside, Import, Imported, Note, Outline, OutlineError, Point
 use image::RgbaImage;
 use size::Size;
 use tree::Parsed;
+pub(crate) use tree::fonts;
 use usvg::{Transform, Tree};
 use walk::{FAINT, Walk};
 

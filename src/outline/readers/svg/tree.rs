@@ -54,6 +54,11 @@ static FONTS: LazyLock<Arc<usvg::fontdb::Database>> = LazyLock::new(|| {
     Arc::new(fonts)
 });
 
+/// The fonts that text in drawings is set in.
+pub fn fonts() -> Arc<usvg::fontdb::Database> {
+    FONTS.clone()
+}
+
 /// The default options, with references to files outside the SVG cut off, which a silhouette
 /// does not need, and embedded drawings and pictures read within the same bounds.
 fn options() -> usvg::Options<'static> {

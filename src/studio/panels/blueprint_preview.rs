@@ -1,0 +1,164 @@
+//! The blueprint before it is written: its sheets as they will be cut, what the motors are told, and remarks.
+
+use crate::design::Design;
+use crate::fabrication::blueprint;
+use crate::motion::winch_labels;
+use crate::operations::export;
+use crate::operations::network::Part;
+use crate::picture::preview::Preview;
+use crate::picture::sheet;
+use crate::studio::action::{Action, Actions, FileAction};
+use crate::studio::jobs::Told;
+use crate::studio::pictures::Pictures;
+use crate::studio::session::{Selection, Session, Task};
+use crate::studio::words;
+use eframe::egui::{Label, RichText, Role, ScrollArea, Sense, Spinner, Ui, WidgetInfo, vec2};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Which page is shown, and what was asked for.
+#[derive(Default)]
+pub struct State {
+    pictures: Pictures,
+    page: usize,
+    asked: Option<(Arc<Design>, export::Options)>,
+}
+
+/// A blueprint in memory.
+struct Made {
+    of: Arc<Design>,
+    options: export::Options,
+    pages: Result<Vec<Page>, String>,
+    remarks: Vec<String>,
+}
+
+/// A file of it, as it is shown.
+struct Page {
+    name: String,
+    content: Content,
+}
+
+enum Content {
+    Sheet(Arc<Preview>),
+    /// The first lines.
+    Text(String),
+}
+
+const OWNER: &str = "blueprint.preview";
+/// The longer side of a sheet, pixels, and the height of what is shown, logical pixels.
+const LONGEST: u32 = 900;
+const HEIGHT: f32 = 250.0;
+/// Height of the remarks, logical pixels: others are scrolled to.
+const REMARKS: f32 = 120.0;
+/// Lines of a table or a program that are shown, and files of each kind.
+const LINES: usize = 40;
+const FILES: usize = 24;
+
+/// The preview, or the button that makes it.
+pub fn show(ui: &mut Ui, session: &Session, options: &export::Options, state: &mut State, actions: &mut Actions) {
+    let design = session.design();
+    let is = |of: &Arc<Design>, asked: &export::Options| Arc::ptr_eq(of, design) && asked == options;
+    let made = session.tasks().told::<Made>(OWNER).filter(|made| is(&made.of, &made.options));
+    state.pictures.begin();
+    if let Some(made) = made {
+        return pages(ui, session, made, state, actions);
+    }
+    let running = session.tasks().running(OWNER).is_some();
+    if running && state.asked.as_ref().is_some_and(|(of, asked)| is(of, asked)) {
+        ui.horizontal(|ui| {
+            ui.add(Spinner::new());
+            ui.label("Making the preview");
+        });
+    } else if ui.button("Preview").on_hover_text("Sheets as they will be cut, motor files and remarks").clicked() {
+        state.page = 0;
+        state.asked = Some((design.clone(), options.clone()));
+        let (of, options) = (design.clone(), options.clone());
+        let work = Arc::new(move |cancel: &AtomicBool| -> Told { Arc::new(made_of(&of, &options, cancel)) });
+        actions.push(Action::Start(Task { owner: OWNER, name: "The preview of the blueprint", work }));
+    }
+}
+
+fn pages(ui: &mut Ui, session: &Session, made: &Made, state: &mut State, actions: &mut Actions) {
+    let pages = match &made.pages {
+        Ok(pages) => pages,
+        Err(why) => {
+            ui.label(RichText::new(why).color(ui.visuals().error_fg_color));
+            return;
+        }
+    };
+    let last = pages.len().saturating_sub(1);
+    state.page = state.page.min(last);
+    ui.horizontal(|ui| {
+        if ui.add_enabled(state.page > 0, eframe::egui::Button::new("Back")).clicked() {
+            state.page -= 1;
+        }
+        if ui.add_enabled(state.page < last, eframe::egui::Button::new("Next page")).clicked() {
+            state.page += 1;
+        }
+        let name = pages.get(state.page).map_or("", |page| &page.name);
+        ui.label(format!("{} of {}: {name}", state.page + 1, pages.len()));
+    });
+    let size = vec2(ui.available_width(), HEIGHT);
+    match pages.get(state.page).map(|page| &page.content) {
+        Some(Content::Sheet(picture)) => {
+            let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+            response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Sheet"));
+            state.pictures.paint(ui, picture, rect);
+        }
+        Some(Content::Text(text)) => {
+            ScrollArea::both().id_salt("file of the blueprint").max_height(HEIGHT).show(ui, |ui| {
+                ui.set_min_height(HEIGHT);
+                ui.add(Label::new(RichText::new(text).monospace().small()).extend());
+            });
+        }
+        None => {}
+    }
+    remarks(ui, session, made, actions);
+}
+
+/// What its maker should know; what is somewhere on the body can be shown there.
+fn remarks(ui: &mut Ui, session: &Session, made: &Made, actions: &mut Actions) {
+    let most = ScrollArea::vertical().id_salt("remarks of the blueprint").max_height(REMARKS);
+    most.auto_shrink([false, true]).show(ui, |ui| remark_lines(ui, session, made, actions));
+}
+
+fn remark_lines(ui: &mut Ui, session: &Session, made: &Made, actions: &mut Actions) {
+    for remark in &made.remarks {
+        ui.add(Label::new(RichText::new(remark).small().color(ui.visuals().warn_fg_color)).wrap());
+    }
+    for breach in session.judging().breaches() {
+        ui.horizontal(|ui| {
+            if ui.small_button("Show me").clicked() {
+                if let Some(winch) = breach.winches().next() {
+                    actions.push(Action::Select(Selection::Part(Part::Winch(winch))));
+                }
+                actions.push(Action::File(FileAction::CloseDialog));
+            }
+            let words = breach.words(&winch_labels(&made.of)).to_string();
+            ui.add(Label::new(RichText::new(words).small()).wrap());
+        });
+    }
+}
+
+fn made_of(design: &Arc<Design>, options: &export::Options, cancel: &AtomicBool) -> Made {
+    let (pages, remarks) = match blueprint(design, options) {
+        Err(error) => (Err(words::unexported(&error)), Vec::new()),
+        Ok((files, manifest)) => {
+            let has = |name: &str, endings: &[&str]| endings.iter().any(|ending| name.ends_with(ending));
+            let sheets = files.iter().filter(|file| has(&file.name, &[".svg"])).take(FILES);
+            let sheets = sheets.take_while(|_| !cancel.load(Ordering::Relaxed));
+            let drawn = sheets.filter_map(|file| {
+                let picture = sheet(&file.bytes, LONGEST).ok()?;
+                Some(Page { name: file.name.clone(), content: Content::Sheet(Arc::new(picture)) })
+            });
+            let texts = files.iter().filter(|file| has(&file.name, &[".csv", ".txt", ".ino", ".py"])).take(FILES);
+            let told = texts.map(|file| {
+                let text = String::from_utf8_lossy(&file.bytes);
+                let text = text.lines().take(LINES).collect::<Vec<_>>().join("\n");
+                Page { name: file.name.clone(), content: Content::Text(text) }
+            });
+            (Ok(drawn.chain(told).collect()), manifest.remarks)
+        }
+    };
+    Made { of: design.clone(), options: options.clone(), pages, remarks }
+}

@@ -1,0 +1,62 @@
+//! The next step on the way to a plushie, as one button: pin, pose, propose, accept, key, export.
+
+use crate::motion::Why;
+use crate::studio::action::{Action, Actions};
+use crate::studio::canvas::Hit;
+use crate::studio::commands::Command;
+use crate::studio::commands::animation::{ADD_KEYFRAME, FIT};
+use crate::studio::commands::discovery::{ACCEPT, PROPOSE, PROPOSE_AGAIN};
+use crate::studio::commands::files::EXPORT;
+use crate::studio::commands::posing::{BEGIN, PIN_MIDDLE};
+use crate::studio::commands::view::GUIDE;
+use crate::studio::session::Session;
+use crate::studio::style;
+use eframe::egui::{Button, RichText, Stroke, Ui};
+
+/// Least width that is left for it, logical pixels: where there is less, it is not shown.
+const LEAST: f32 = 190.0;
+
+/// What comes next, and the words for it.
+pub fn next(session: &Session) -> Option<(&'static Command, &'static str)> {
+    let design = session.design();
+    let posed = design.poses.iter().any(|pose| !pose.targets.is_empty());
+    let found = session.discovery();
+    let busy = session.sketching().open || session.is_working() || found.running.is_some();
+    if busy {
+        return None;
+    }
+    Some(if !posed && design.pins.is_empty() {
+        (&BEGIN, "Pin and pose")
+    } else if design.pins.is_empty() {
+        (&PIN_MIDDLE, "Pin the body")
+    } else if !posed {
+        (&BEGIN, "Make a pose")
+    } else if found.is_stale() {
+        (&PROPOSE_AGAIN, "Propose again")
+    } else if session.shown_proposal().is_some() {
+        (&ACCEPT, "Accept a network")
+    } else if design.networks.is_empty() {
+        (&PROPOSE, "Propose networks")
+    } else if design.keyframes.len() < 2 {
+        (&ADD_KEYFRAME, "Add a keyframe")
+    } else if session.timing().doubts().iter().any(|doubt| matches!(doubt.why, Why::TooFast { .. })) {
+        (&FIT, "Make it fit")
+    } else {
+        (&EXPORT, "Export the blueprint")
+    })
+}
+
+pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
+    let Some((command, words)) = next(session).filter(|_| session.guided && ui.available_width() > LEAST) else {
+        return;
+    };
+    let accent = style::accent(session.look().theme);
+    let text = RichText::new(format!("Next: {words}")).color(accent);
+    let button = Button::new(text).stroke(Stroke::new(1.0, accent)).corner_radius(12);
+    let response = ui.add(button).accessible_name(format!("Next step: {words}"));
+    response.context_menu(|ui| super::buttons::entry(ui, session, &GUIDE, Hit::Nothing, actions));
+    let why = command.refused(session, session.selected()).unwrap_or(command.tip);
+    if response.on_hover_text(format!("{why}. Right-click to hide this")).clicked() {
+        actions.push(Action::Run(command, session.selected()));
+    }
+}
