@@ -119,3 +119,108 @@ fn picture_fragment(in: Picture) -> @location(0) vec4f {
     let inside = all(in.place >= vec2f(0.0)) && all(in.place <= vec2f(1.0));
     return shade(vec4f(color.rgb / max(color.a, 1e-6), color.a), select(0.0, 1.0, inside));
 }
+
+// Stuffed felt: `src/picture/plush.rs` says the same, and why.
+const PUFF: f32 = 0.62;
+const LIGHT = vec3f(-0.42, 0.56, 0.714);
+const WRAP: f32 = 0.35;
+const AMBIENT: f32 = 0.60;
+const DIRECT: f32 = 0.47;
+const SHEEN: f32 = 0.10;
+const GRAIN: f32 = 0.15;
+const BUNDLE_MM: f32 = 0.9;
+
+struct Felt {
+    @builtin(position) position: vec4f,
+    // At rest, mm.
+    @location(0) rest: vec2f,
+    // Of half the square of the height, mm.
+    @location(1) slope: vec2f,
+    // From the upper left corner of the texture, 0 to 1.
+    @location(2) place: vec2f,
+    // Half the square of the height, mm^2.
+    @location(3) height: f32,
+    @location(4) color: vec4f,
+}
+
+fn felt_corner(position: vec2f, rest: vec2f, slope: vec2f, place: vec2f, height: f32, color: vec4f) -> Felt {
+    return Felt(vec4f(to_clip(position), 0.0, 1.0), rest, slope, place, height, color);
+}
+
+@vertex
+fn felt_vertex(
+    @location(0) position: vec2f,
+    @location(1) rest: vec2f,
+    @location(2) slope: vec2f,
+    @location(3) place: vec2f,
+    @location(4) height: f32,
+    @location(5) color: vec4f,
+) -> Felt {
+    return felt_corner(position, rest, slope, place, height, color);
+}
+
+@vertex
+fn felt_picture_vertex(
+    @location(0) position: vec2f,
+    @location(1) rest: vec2f,
+    @location(2) slope: vec2f,
+    @location(3) place: vec2f,
+    @location(4) height: f32,
+    @location(5) color: vec4f,
+) -> Felt {
+    return felt_corner(position, rest, slope, place, height, color);
+}
+
+// Random values at whole places, 0 to 1.
+fn knot(i: vec2i) -> f32 {
+    let u = bitcast<vec2u>(i);
+    var h = (u.x * 0x9E3779B1u) ^ (u.y * 0x85EBCA77u);
+    h = (h ^ (h >> 15u)) * 0x2C1B3C6Du;
+    return f32((h ^ (h >> 13u)) & 0xFFFFu) / 65535.0;
+}
+
+fn noise(p: vec2f) -> f32 {
+    let low = floor(p);
+    let f = p - low;
+    let s = f * f * (3.0 - 2.0 * f);
+    let i = vec2i(low);
+    let near = mix(knot(i), knot(i + vec2i(1, 0)), s.x);
+    let far = mix(knot(i + vec2i(0, 1)), knot(i + vec2i(1, 1)), s.x);
+    return mix(near, far, s.y);
+}
+
+// Bundles of fibres across each other, -1 to 1.
+fn grain(place_mm: vec2f) -> f32 {
+    let p = place_mm / BUNDLE_MM;
+    let along = noise(vec2f(0.42 * (0.8 * p.x + 0.6 * p.y), 1.3 * (0.8 * p.y - 0.6 * p.x)));
+    let across = noise(vec2f(1.3 * (0.9 * p.x - 0.44 * p.y) + 57.0, 0.42 * (0.9 * p.y + 0.44 * p.x) + 31.0));
+    return along + across - 1.0;
+}
+
+fn felt_tone(in: Felt, base: vec3f) -> vec4f {
+    let n = normalize(vec3f(-PUFF * in.slope, sqrt(2.0 * max(in.height, 0.0)) + 1e-3));
+    let lit = (dot(n, LIGHT) + WRAP) / (1.0 + WRAP);
+    let pixel_mm = 1.0 / (view.scale.x * view.half_size.x);
+    let seen = clamp(1.15 - pixel_mm / BUNDLE_MM, 0.0, 1.0);
+    var tone = AMBIENT + DIRECT * max(lit, 0.0);
+    // The same for all of a view: where pixels are too coarse for the grain, it costs nothing.
+    if seen > 0.0 {
+        tone *= 1.0 + GRAIN * seen * grain(in.rest);
+    }
+    let tilt = 1.0 - n.z;
+    let sheen = SHEEN * tilt * tilt * tilt;
+    return shade(vec4f(clamp(base * tone + sheen, vec3f(0.0), vec3f(1.0)), 1.0), 1.0);
+}
+
+@fragment
+fn felt_fragment(in: Felt) -> @location(0) vec4f {
+    return felt_tone(in, in.color.rgb);
+}
+
+@fragment
+fn felt_picture_fragment(in: Felt) -> @location(0) vec4f {
+    let color = textureSample(skin, skin_sampler, in.place);
+    let inside = all(in.place >= vec2f(0.0)) && all(in.place <= vec2f(1.0));
+    let over = select(vec4f(0.0), color, inside);
+    return felt_tone(in, over.rgb + (1.0 - over.a) * in.color.rgb);
+}

@@ -37,7 +37,7 @@ fn run(cli: &Cli) -> Result<(), CommandError> {
         Some(command) => {
             catch_interrupts()?;
             files::survive_size_limits();
-            commands::run(command, &mut Heard(io::stdout()), &CANCEL)
+            commands::run(command, &mut Heard(io::stdout()), &CANCEL, WINDOW_STUDY)
         }
         None => {
             if let Some(path) = cli.design.as_deref().filter(|path| !path.exists()) {
@@ -95,12 +95,17 @@ fn catch_interrupts() -> Result<(), CommandError> {
 }
 
 #[cfg(feature = "studio")]
+const WINDOW_STUDY: Option<commands::WindowStudy<'_>> = Some(&plushwright::studio::measure::run);
+#[cfg(not(feature = "studio"))]
+const WINDOW_STUDY: Option<commands::WindowStudy<'_>> = None;
+
+#[cfg(feature = "studio")]
 fn open_studio(cli: &Cli) -> Result<(), CommandError> {
     use plushwright::studio::{self, StudioError};
     let design = cli.design.as_deref().map(commands::document::load).transpose()?;
     files::survive_size_limits();
     studio::run(design, cli.design.clone()).map_err(|error| match error {
-        StudioError::Failed(_) => CommandError::Failed(error.to_string()),
+        StudioError::Failed(_) | StudioError::AdapterLost => CommandError::Failed(error.to_string()),
         _ => CommandError::Environment(error.to_string()),
     })
 }

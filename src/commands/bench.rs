@@ -4,6 +4,7 @@ use super::error::CommandError;
 use super::output::{check_folder, say_json, say_lines, write_folder};
 use super::progress;
 use super::reading::Reading;
+use super::render::look_names;
 use super::solve::QualityChoice;
 use crate::bench::drags::{Path as DragPath, SWEEP_FRAMES};
 use crate::bench::{
@@ -137,6 +138,23 @@ enum Study {
         #[command(flatten)]
         common: Common,
     },
+    /// The window off screen, on any graphics adapter, while a hand drags: the interface thread's own work, the adapter's, frames a second
+    Window {
+        /// Numbers of muscle fibres
+        #[arg(long, value_delimiter = ',', default_values_t = [414, 10_000], alias = "fibres")]
+        fibers: Vec<usize>,
+        /// Frames of each drag
+        #[arg(long, default_value_t = 180)]
+        frames: usize,
+        /// Time that a slow solver takes, ms
+        #[arg(long, default_value_t = 200, value_name = "MS")]
+        late: u64,
+        /// How the body is shown: a look of `render`
+        #[arg(long, default_value = "plush", value_parser = look_names())]
+        look: String,
+        #[command(flatten)]
+        common: Common,
+    },
     /// What each optional part of a scene costs per frame
     Scene {
         /// Frames of the drag
@@ -237,6 +255,7 @@ impl Study {
             | Self::Trade { common, .. }
             | Self::Resolution { common, .. }
             | Self::Scene { common, .. }
+            | Self::Window { common, .. }
             | Self::Networks { common, .. }
             | Self::Import { common, .. }
             | Self::Extremes { common, .. }
@@ -304,6 +323,7 @@ impl Study {
             Self::Scene { frames, common } => {
                 scene::Scene { shapes: common.shapes(&["pig"]), frames: *frames }.run(session)
             }
+            Self::Window { .. } => Err(BenchError::Nothing("this build has no window (feature `studio`)".into())),
             Self::Networks { rounds, fibers, winches, tendons, moves, curve, common } => {
                 let shapes = match common.shapes.as_slice() {
                     [] => networks::names(),
@@ -337,8 +357,25 @@ impl Common {
     }
 }
 
+/// A study that the window makes of itself, where the program has one.
+pub type WindowStudy<'a> = &'a dyn Fn(&WindowOptions, &Session) -> Result<Report, BenchError>;
+
+/// What is to be measured of the window.
+#[derive(Clone, Debug)]
+pub struct WindowOptions {
+    pub fibers: Vec<usize>,
+    pub frames: usize,
+    pub late_ms: u64,
+    pub look: String,
+}
+
 impl Bench {
-    pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
+    pub fn run(
+        &self,
+        out: &mut dyn Write,
+        cancel: &AtomicBool,
+        window: Option<WindowStudy<'_>>,
+    ) -> Result<(), CommandError> {
         let common = self.study.common();
         if let Study::Properties { first, show: true, .. } = &self.study {
             let text = properties::problem_text(common.seed, *first);
@@ -354,7 +391,14 @@ impl Bench {
         }
         let stop = || cancel.load(Ordering::SeqCst);
         let session = Session { seed: common.seed, stop: &stop, cancel, progress: &|what| progress::now(what) };
-        let report = self.study.run(&session);
+        let report = match (&self.study, window) {
+            (Study::Window { fibers, frames, late, look, .. }, Some(window)) => {
+                let (fibers, look) = (fibers.clone(), look.clone());
+                window(&WindowOptions { fibers, frames: *frames, late_ms: *late, look }, &session)
+                    .map(|report| (report, None))
+            }
+            (study, _) => study.run(&session),
+        };
         let (report, failed) = report.map_err(|error| failure(error, cancel))?;
         if let Some(folder) = &common.out {
             write(&report, folder, cancel)?;

@@ -173,7 +173,7 @@ impl Tour<'_> {
     /// A picture of both plushies. Of a pose, it is told how close they come.
     fn plushies(&mut self, title: &str, text: &str, design: &Design, what: What) -> Result<(), CommandError> {
         let posed = matches!(what, What::Pose(_));
-        let options = operations::render::Options { what, size: SIZE, texture: false };
+        let options = operations::render::Options { what, size: SIZE, texture: false, ..Default::default() };
         let from = Path::new("pig.plush");
         let rendered = operations::render::run(design, from, &options, &Context::new(self.cancel));
         let Rendered { png, shapes, .. } = rendered.map_err(|error| render::failed(from, error))?;

@@ -43,6 +43,7 @@ mod table;
 mod usage;
 mod words;
 
+pub use bench::{WindowOptions, WindowStudy};
 pub use error::{CommandError, ParseStop};
 pub use interrupt::is_keeping;
 
@@ -168,11 +169,17 @@ pub fn listen(cli: &Cli) -> Result<(), CommandError> {
     journal::begin(cli.log.as_deref(), cli.verbose, cli.command.is_none())
 }
 
-/// Runs one command. Figures go to `out`; a raised `cancel` ends it with [`CommandError::Cancelled`].
+/// Runs one command. Figures go to `out`; a raised `cancel` ends it with [`CommandError::Cancelled`]. `window`: what the window
+/// measures of itself, in a program that has one.
 ///
 /// # Errors
 /// What the command says; its exit code is [`CommandError::code`].
-pub fn run(command: &Command, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
+pub fn run(
+    command: &Command,
+    out: &mut dyn Write,
+    cancel: &AtomicBool,
+    window: Option<WindowStudy<'_>>,
+) -> Result<(), CommandError> {
     let _bar = command.work().map(progress::Bar::of);
     match command {
         Command::Demo(command) => command.run(out, cancel),
@@ -195,7 +202,7 @@ pub fn run(command: &Command, out: &mut dyn Write, cancel: &AtomicBool) -> Resul
         Command::Render(command) => command.run(out, cancel),
         Command::Solve(command) => command.run(out, cancel),
         Command::Discover(command) => command.run(out, cancel),
-        Command::Bench(command) => command.run(out, cancel),
+        Command::Bench(command) => command.run(out, cancel, window),
         Command::Man(command) => command.run(Cli::command(), out, cancel),
         Command::Completions(command) => command.run(Cli::command(), out),
     }

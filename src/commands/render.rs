@@ -9,7 +9,9 @@ use crate::files::shown;
 use crate::operations::film::{self, Options as Film};
 use crate::operations::render::{self, Error, Note, Options, Rendered, What};
 use crate::operations::{Context, Progress, Unbalanced};
+use crate::picture::LOOKS;
 use clap::Args;
+use clap::builder::PossibleValuesParser;
 use serde::Serialize;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -43,6 +45,9 @@ pub struct Render {
     /// Width and height in pixels, each 16 to 8192 [default: 1280x720, of an animation 640x360]
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<(u32, u32)>,
+    /// How the body is shown: plain, plush (stuffed, in soft light), wireframe, contraction (of fibres), force (of cables), strain, crumpling, gap (between the plushies)
+    #[arg(long, value_name = "LOOK", default_value = "plain", value_parser = look_names())]
+    pub look: String,
     /// Leave the design's texture out
     #[arg(long)]
     pub no_texture: bool,
@@ -65,6 +70,17 @@ struct Summary {
     error_idealized: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     error_realizable: Option<f64>,
+    /// What the colours stand for, and of what range.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    colors: Option<Colors>,
+}
+
+#[derive(Serialize)]
+struct Colors {
+    title: &'static str,
+    unit: &'static str,
+    from: f64,
+    to: f64,
 }
 
 impl Render {
@@ -115,7 +131,7 @@ impl Render {
         size: (u32, u32),
         cancel: &AtomicBool,
     ) -> Result<Rendered, CommandError> {
-        let options = Options { what, size, texture: !self.no_texture };
+        let options = Options { what, size, texture: !self.no_texture, look: self.look.clone() };
         render::run(design, &self.design, &options, &Context::new(cancel)).map_err(|error| failed(&self.design, error))
     }
 
@@ -151,7 +167,7 @@ impl Render {
                 progress::at(*done, *of, "pictures");
             }
         };
-        let options = Film { kind, size, step_s: 1.0 / self.rate, texture: !self.no_texture };
+        let options = Film { kind, size, step_s: 1.0 / self.rate, texture: !self.no_texture, look: self.look.clone() };
         film::run(design, &self.design, &options, &mut Context::telling(cancel, &mut told))
             .map_err(|error| failed(&self.design, error))
     }
@@ -159,11 +175,14 @@ impl Render {
     fn tell(&self, out: &mut dyn Write, rendered: &Rendered, (width, height): (u32, u32)) -> Result<(), CommandError> {
         let picture = shown(&self.output);
         if !self.json {
-            return say(out, &format!("{picture}: {width} x {height} pixels"));
+            let bar = rendered.bar.as_ref().map(|bar| format!(", {}", bar.range())).unwrap_or_default();
+            return say(out, &format!("{picture}: {width} x {height} pixels{bar}"));
         }
         let error = |view: usize| self.pose.as_ref().map(|_| rendered.shapes[view].target_error);
         let (error_idealized, error_realizable) = (error(0), error(1));
-        say_json(out, FORMAT, &Summary { picture, width, height, error_idealized, error_realizable })
+        let bar = rendered.bar.as_ref();
+        let colors = bar.map(|bar| Colors { title: bar.title, unit: bar.unit, from: bar.low, to: bar.high });
+        say_json(out, FORMAT, &Summary { picture, width, height, error_idealized, error_realizable, colors })
     }
 }
 
@@ -184,9 +203,15 @@ pub fn failed(path: &Path, error: Error) -> CommandError {
             format!("{error}; `plushwright rig` lays poses on the timeline, `plushwright key` adds one"),
         ),
         Error::OutsideTimeline { .. } => CommandError::input(path, error),
+        Error::NoSuchLook(_) => CommandError::Usage(error.to_string()),
         Error::Picture(_) => CommandError::Failed(error.to_string()),
         Error::Cancelled(_) => CommandError::Cancelled,
     }
+}
+
+/// The names of the looks, for help and completions.
+pub fn look_names() -> PossibleValuesParser {
+    LOOKS.iter().map(|look| look.name).collect::<Vec<_>>().into()
 }
 
 /// Reads a time, s.

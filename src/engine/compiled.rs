@@ -64,6 +64,7 @@ impl Compiled {
     ) -> Answer {
         let objective = objective(design, &self.plushie, targets);
         let fibers = !self.plushie.fiber_elements.is_empty();
+        let held = self.plushie.model.loose().is_empty();
         let rest = self.plushie.model.rest.clone();
         let mut question = soft_ik::Question { model: &mut self.plushie.model, actuation, objective: &objective };
         let stop = || work.cancel.load(Ordering::Relaxed);
@@ -81,6 +82,8 @@ impl Compiled {
             self.last = Some(answer.posture.clone());
             return answer;
         }
+        // Without targets nothing but its rest says where a body is that is not held: where a hand had turned it is gone with the pose.
+        let last = last.filter(|_| posing || held);
         let (from, x) = match &last {
             Some(last) if posing => (&last.beta, &last.x),
             Some(last) => (&beta, &last.x),

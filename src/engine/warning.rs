@@ -11,6 +11,12 @@ use crate::soft_ik::Posture;
 /// A triangle of less than this part of its area is pressed flat: stuffing does not go there.
 const PRESSED_FLAT: f64 = 1e-2;
 
+/// A triangle of less than this part of its area is pressed together as no felt is: it folds instead. The poses of the examples stay
+/// above it everywhere.
+const PRESSED: f64 = 1.0 / 3.0;
+/// Part of the body's area at rest that may be pressed so before that is told: sharp inner corners are, and fold in felt too.
+const PRESSED_AREA: f64 = 0.03;
+
 /// A pose whose target error grows by more than this part of the error at rest where a cable is a millimetre off is a narrow one:
 /// hardly a winch is set that well.
 const NARROW: f64 = 0.05;
@@ -27,6 +33,15 @@ pub enum Warning {
     },
     #[error("A part of the body is pressed flat: pull less, pull elsewhere, or soften the cables.")]
     PressedFlat,
+    #[error(
+        "Crumpled: {:.0} % of the body is pressed to less than a third of its area, where felt would fold. Wind less, or pull \
+         elsewhere.",
+        100.0 * area
+    )]
+    Crumpled {
+        /// Part of the body's area at rest.
+        area: f64,
+    },
     #[error(
         "A narrow pose: with a millimetre of cable too much or too little on {winch}, the target error grows from {:.1} % to \
          {:.1} % of the body length.",
@@ -65,6 +80,10 @@ impl Warning {
         if posture.unsettled == Some(Cause::Collapsed) || model.body.smallest_determinant(&posture.x) < PRESSED_FLAT {
             return Some(Self::PressedFlat);
         }
+        let area = model.body.pressed_area(&posture.x, PRESSED) / model.body.area();
+        if posture.unsettled.is_none() && area > PRESSED_AREA {
+            return Some(Self::Crumpled { area });
+        }
         posture.unsettled.map(Self::Unbalanced)
     }
 
@@ -75,6 +94,11 @@ impl Warning {
         let narrow = error - before > NARROW * rest;
         let winch = design.networks.get(winch)?.name.clone();
         narrow.then_some(Self::Narrow { winch, before, after: error })
+    }
+
+    /// Whether a shape is in equilibrium as a model alone: felt would have folded.
+    pub fn is_crumpled(&self) -> bool {
+        matches!(self, Self::PressedFlat | Self::Crumpled { .. })
     }
 
     /// Whether it will go by itself once the solver has had its time.

@@ -55,8 +55,14 @@ struct Slots {
 impl Worker {
     /// Starts the threads. `wake` is called from there whenever an outcome is ready.
     pub fn spawn(wake: Box<dyn Fn() + Send>) -> Self {
+        Self::late(wake, Duration::ZERO)
+    }
+
+    /// [`Worker::spawn`], each answer held back for a while: as a solver would be that is slow.
+    pub fn late(wake: Box<dyn Fn() + Send>, by: Duration) -> Self {
         let mut solver = Solver::default();
         Self::with(wake, move |request, effort, cancel| {
+            std::thread::sleep(by);
             let answer = catch_unwind(AssertUnwindSafe(|| solver.solve_with(request, effort, cancel)));
             if answer.is_err() {
                 // What a panic left behind in there cannot be trusted.
@@ -92,6 +98,17 @@ impl Worker {
         }
         drop(slots);
         self.shared.changed.notify_all();
+    }
+
+    /// Whether a thread of it has broken down: nothing will come any more.
+    pub fn is_dead(&self) -> bool {
+        self.threads.iter().any(JoinHandle::is_finished)
+    }
+
+    /// One whose thread breaks down at the first request.
+    #[cfg(all(test, feature = "studio"))]
+    pub(crate) fn mortal(wake: Box<dyn Fn() + Send>) -> Self {
+        Self::with(wake, |_, _, _| panic!("a thread that is meant to break down"))
     }
 
     /// The newest outcome that has not been taken.

@@ -24,6 +24,8 @@ pub struct Options {
     pub step_s: f64,
     /// Whether the design's texture is drawn.
     pub texture: bool,
+    /// A [look](crate::picture::LOOKS) by its name.
+    pub look: String,
 }
 
 /// The form of a film.
@@ -62,7 +64,13 @@ pub const FORMAT: &str = "plushwright-pictures/1";
 impl Default for Options {
     fn default() -> Self {
         // What most programs show of a GIF as it is asked for.
-        Self { kind: Kind::Gif, size: (640, 360), step_s: 0.08, texture: true }
+        Self {
+            kind: Kind::Gif,
+            size: (640, 360),
+            step_s: 0.08,
+            texture: true,
+            look: crate::picture::LOOKS[0].name.to_owned(),
+        }
     }
 }
 
@@ -79,7 +87,7 @@ pub fn run(design: &Design, from: &Path, options: &Options, context: &mut Contex
     for k in 0..=steps {
         context.tell(&Progress::Picture { done: k, of: steps + 1 });
         let what = What::Time((step_s * k as f64).min(duration));
-        let of = render::Options { what, size: options.size, texture: options.texture };
+        let of = render::Options { what, size: options.size, texture: options.texture, look: options.look.clone() };
         let rendered = render::run(design, from, &of, context)?;
         pngs.push(rendered.png.clone());
         let new: Vec<Note> = rendered.notes.iter().filter(|note| !notes.contains(*note)).cloned().collect();

@@ -6,6 +6,7 @@ use crate::design::animation::{SAME_TIME_S, activations_at, duration_s};
 use crate::design::texture::find;
 use crate::design::{Design, file};
 use crate::engine::{Setpoint, Shape};
+use crate::picture::ramp::Bar;
 use crate::picture::{self, Texture};
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -21,6 +22,8 @@ pub struct Options {
     pub size: (u32, u32),
     /// Whether the design's texture is drawn.
     pub texture: bool,
+    /// A [look](picture::LOOKS) by its name.
+    pub look: String,
 }
 
 /// The state of the plushies in the picture.
@@ -36,7 +39,7 @@ pub enum What {
 
 impl Default for Options {
     fn default() -> Self {
-        Self { what: What::Rest, size: (1280, 720), texture: true }
+        Self { what: What::Rest, size: (1280, 720), texture: true, look: picture::LOOKS[0].name.to_owned() }
     }
 }
 
@@ -45,6 +48,8 @@ impl Default for Options {
 pub enum Error {
     #[error(transparent)]
     NoSuchPose(#[from] NoSuchPose),
+    #[error("there is no look `{0}`; there are: {names}", names = looks())]
+    NoSuchLook(String),
     #[error("the design has no keyframes to show")]
     NoKeyframes,
     /// A time at which there is no animation, s.
@@ -82,15 +87,25 @@ pub struct Rendered {
     pub png: Vec<u8>,
     /// Idealized and realizable.
     pub shapes: [Shape; 2],
+    /// What the colours of the look stand for.
+    pub bar: Option<Bar>,
     pub notes: Vec<Note>,
+}
+
+/// Names of the looks, in a sentence.
+fn looks() -> String {
+    picture::LOOKS.iter().map(|look| look.name).collect::<Vec<_>>().join(", ")
 }
 
 /// Solves both plushies from rest and draws them, idealized left and realizable right. `from`: the file that the design was read
 /// from, beside which its texture is.
 ///
 /// # Errors
-/// There is no such pose, no animation, or none at that time; the picture is too large for the memory; [`Error::Cancelled`].
+/// There is no such pose or look, no animation, or none at that time; the picture is too large for the memory; [`Error::Cancelled`].
 pub fn run(design: &Design, from: &Path, options: &Options, context: &Context) -> Result<Rendered, Error> {
+    if !picture::LOOKS.iter().any(|look| look.name == options.look) {
+        return Err(Error::NoSuchLook(options.look.clone()));
+    }
     let (setpoint, place) = match &options.what {
         What::Rest => (Setpoint::Targets(Vec::new()), "rest".to_owned()),
         What::Pose(pose) => (Setpoint::Targets(posing::targets(design, pose)?), pose.clone()),
@@ -107,10 +122,10 @@ pub fn run(design: &Design, from: &Path, options: &Options, context: &Context) -
     };
     let shapes = solve(design, setpoint, [true, true], context)?;
     let texture = if options.texture { texture(design, from, &mut notes) } else { None };
-    let png = picture::png(design, &shapes, &targets, texture.as_ref(), options.size)
+    let (png, bar) = picture::png(design, &shapes, &targets, texture.as_ref(), &options.look, options.size)
         .map_err(|error| Error::Picture(error.to_string()))?;
     notes.extend(Unbalanced::of(&place, &shapes).into_iter().map(Note::Unbalanced));
-    Ok(Rendered { png, shapes, notes })
+    Ok(Rendered { png, shapes, bar, notes })
 }
 
 /// The texture of a design; one that cannot be read is not drawn, and that is noted.

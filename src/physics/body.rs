@@ -124,6 +124,12 @@ impl Body {
         }
     }
 
+    /// Area at rest of the triangles whose `det F` is below a bound.
+    pub fn pressed_area(&self, x: &[f64], below: f64) -> f64 {
+        let pressed = |k: &usize| self.deformation_gradient(*k, x).determinant() < below;
+        (0..self.triangles.len()).filter(pressed).map(|k| self.areas[k]).sum()
+    }
+
     /// The smallest `det F`; positive for an uninverted state, NaN never.
     pub fn smallest_determinant(&self, x: &[f64]) -> f64 {
         self.wide.smallest_determinant(x)

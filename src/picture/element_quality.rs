@@ -1,7 +1,8 @@
 //! The quality of a mesh's triangles: coloured by their smallest angle, and by their size.
 
+use super::color::Color;
 use super::palette::{Palette, Theme, mix, with_alpha};
-use super::scene::{Color, Item, Scene};
+use super::scene::{Item, Scene};
 use crate::mesh::Mesh;
 use crate::mesh::quality::{area, min_angle};
 

@@ -24,23 +24,30 @@
 //! # Ok::<(), raster::RasterError>(())
 //! ```
 
+mod color;
 pub mod element_quality;
 pub mod film;
 pub mod layers;
+mod letters;
 mod pair;
 pub mod palette;
 mod pixels;
+pub mod plush;
 mod portrait;
 pub mod preview;
+pub mod ramp;
 pub mod raster;
 mod scene;
 mod sheet;
+pub mod silhouette;
 mod texture;
 mod textured;
 
-pub use layers::{LAYERS, Layers, Shown, Stage, Subject};
+pub use color::Color;
+pub use layers::{LAYERS, LOOKS, Layers, Shown, Stage, Subject};
 pub use pair::png;
 pub use portrait::portrait;
-pub use scene::{Color, Item, Scene};
+pub use scene::{Item, Scene};
 pub use sheet::sheet;
+pub use silhouette::Silhouette;
 pub use texture::{Level, Texture};

@@ -1,6 +1,6 @@
 //! The colours of pictures, in a light and a dark theme.
 
-use super::scene::Color;
+use super::color::Color;
 use crate::design::Network;
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -17,6 +17,8 @@ pub struct Palette {
     pub background: Color,
     /// Felt.
     pub body: Color,
+    /// Felt that light falls on: brighter, since its shadows darken it.
+    pub plush: Color,
     /// The edge of the felt.
     pub seam: Color,
     pub fiber_passive: Color,
@@ -71,6 +73,7 @@ impl Palette {
             Theme::Light => Self {
                 background: Color(250, 247, 242, 255),
                 body: Color(238, 212, 174, 255),
+                plush: Color(240, 211, 170, 255),
                 seam: Color(176, 130, 84, 255),
                 fiber_passive: Color(150, 104, 62, 62),
                 fiber_active: Color(208, 28, 34, 255),
@@ -91,6 +94,7 @@ impl Palette {
             Theme::Dark => Self {
                 background: Color(29, 27, 26, 255),
                 body: Color(124, 92, 64, 255),
+                plush: Color(150, 112, 80, 255),
                 seam: Color(188, 146, 104, 255),
                 fiber_passive: Color(236, 200, 160, 52),
                 fiber_active: Color(255, 84, 76, 255),

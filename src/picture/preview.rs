@@ -1,8 +1,8 @@
 //! What was read of a file: the outline, and in colours what it does not hold.
 
+use super::color::Color;
 pub use super::pixels::Preview;
 use super::raster::{RasterError, fitted, path};
-use super::scene::Color;
 use crate::files::marked_png;
 use crate::outline::{Imported, Point, Why};
 use tiny_skia::{FillRule, Paint, Pixmap, Stroke, Transform};

@@ -1,8 +1,12 @@
 //! Scenes to PNG, without a graphics adapter.
 
+use super::color::Color;
+use super::palette::Palette;
 use super::pixels::Preview;
-use super::scene::{Color, Item, Scene};
-use super::textured::{self, Corner};
+use super::plush::{self, Felt};
+use super::ramp::Bar;
+use super::scene::{Item, Scene};
+use super::{letters, textured};
 use crate::files::marked_png;
 use crate::outline::Point;
 use tiny_skia::{
@@ -14,6 +18,10 @@ const MARGIN: f64 = 0.06;
 /// Height of the picture at which a logical pixel (line widths, disc radii) is one pixel; others scale along, so that
 /// a picture looks the same at every size.
 const REFERENCE_HEIGHT: f64 = 720.0;
+/// Height of what is kept free for a bar, its length and height, and that of its letters, logical pixels.
+const BAR_ROOM: f64 = 66.0;
+const BAR: [f32; 2] = [320.0, 12.0];
+const LETTERS: f32 = 15.0;
 const DIVIDER: Color = Color(0, 0, 0, 40);
 
 /// A picture that cannot be made.
@@ -30,15 +38,34 @@ pub enum RasterError {
 /// # Errors
 /// A size that is empty or does not fit in memory, or a picture that cannot be encoded.
 pub fn png(left: &Scene, right: &Scene, size: (u32, u32), background: Color) -> Result<Vec<u8>, RasterError> {
+    png_with_bar(left, right, size, background, None)
+}
+
+/// [`png`] with a bar below that says what colours stand for.
+///
+/// # Errors
+/// As [`png`].
+pub fn png_with_bar(
+    left: &Scene,
+    right: &Scene,
+    size: (u32, u32),
+    background: Color,
+    bar: Option<&Bar>,
+) -> Result<Vec<u8>, RasterError> {
     let mut pixmap = Pixmap::new(size.0, size.1).ok_or(RasterError::Size(size.0, size.1))?;
     pixmap.fill(color(background));
     let half = f64::from(size.0) / 2.0;
     let bounds = Bounds::of([left, right]);
+    let unit = f64::from(size.1) / REFERENCE_HEIGHT;
+    let height = f64::from(size.1) - if bar.is_some() { BAR_ROOM * unit } else { 0.0 };
     for (scene, x0) in [(left, 0.0), (right, half)] {
-        let view = View::fit(&bounds, x0, half, f64::from(size.1));
+        let view = View { unit: unit as f32, ..View::fit(&bounds, x0, half, height) };
         paint_scene(&mut pixmap.as_mut(), scene, &view);
     }
-    paint_divider(&mut pixmap.as_mut(), size);
+    paint_divider(&mut pixmap.as_mut(), (size.0, height as u32));
+    if let Some(bar) = bar {
+        paint_bar(&mut pixmap.as_mut(), bar, [half as f32, height as f32], unit as f32);
+    }
     let bytes = pixmap.encode_png().map_err(|e| RasterError::Encode(e.to_string()))?;
     Ok(marked_png(&bytes))
 }
@@ -91,9 +118,11 @@ impl Bounds {
         let mut bounds = Self { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
         for item in scenes.into_iter().flat_map(|scene| &scene.items) {
             match item {
-                Item::Mesh { points, .. } | Item::Picture { points, .. } | Item::Line { points, .. } => {
-                    points.iter().for_each(|p| bounds.add(p));
-                }
+                Item::Mesh { points, .. }
+                | Item::Cells { points, .. }
+                | Item::Picture { points, .. }
+                | Item::Line { points, .. } => points.iter().for_each(|p| bounds.add(p)),
+                Item::Plush(felt) => felt.points.iter().for_each(|p| bounds.add(p)),
                 Item::Disc { center, .. } => bounds.add(center),
             }
         }
@@ -151,11 +180,21 @@ fn paint_scene(pixmap: &mut PixmapMut, scene: &Scene, view: &View) {
                     pixmap.fill_path(&path, &paint(*color), FillRule::Winding, Transform::identity(), None);
                 }
             }
+            Item::Cells { points, triangles, colors } => {
+                for (triangle, &Color(r, g, b, _)) in triangles.iter().zip(colors) {
+                    if let Some(at) = corners(triangle, points) {
+                        let color = [r, g, b, 255].map(f64::from);
+                        textured::triangle(pixmap, at.map(|p| view.exact(&p)), |_| color);
+                    }
+                }
+            }
+            Item::Plush(felt) => paint_felt(pixmap, felt, view),
             Item::Picture { points, places, triangles, texture } => {
-                let corner = |n: usize| Some(Corner { at: view.exact(points.get(n)?), place: *places.get(n)? });
-                for t in triangles {
-                    if let [Some(a), Some(b), Some(c)] = t.map(corner) {
-                        textured::triangle(pixmap, [a, b, c], texture);
+                for triangle in triangles {
+                    if let (Some(at), Some(on_it)) = (corners(triangle, points), corners(triangle, places)) {
+                        let at = at.map(|p| view.exact(&p));
+                        let texels = textured::texels(at, on_it, texture);
+                        textured::triangle(pixmap, at, |w| texture.color(textured::mean(w, on_it), texels));
                     }
                 }
             }
@@ -174,6 +213,42 @@ fn paint_scene(pixmap: &mut PixmapMut, scene: &Scene, view: &View) {
                 }
             }
         }
+    }
+}
+
+/// The values of a triangle's corners.
+fn corners<T: Copy>(triangle: &[usize; 3], of: &[T]) -> Option<[T; 3]> {
+    let [a, b, c] = triangle.map(|n| of.get(n).copied());
+    Some([a?, b?, c?])
+}
+
+fn paint_felt(pixmap: &mut PixmapMut, felt: &Felt, view: &View) {
+    let silhouette = &felt.silhouette;
+    let base = [felt.color.0, felt.color.1, felt.color.2].map(|c| f32::from(c) / 255.0);
+    let pixel_mm = (1.0 / view.scale) as f32;
+    for triangle in &silhouette.triangles {
+        let (Some(at), Some(rest)) = (corners(triangle, &felt.points), corners(triangle, &silhouette.rest)) else {
+            continue;
+        };
+        let (Some(slopes), Some(heights)) = (corners(triangle, &felt.slopes), corners(triangle, &silhouette.heights))
+        else {
+            continue;
+        };
+        let at = at.map(|p| view.exact(&p));
+        let slopes = slopes.map(|s| s.map(f64::from));
+        let on_it = felt.texture.as_ref().and_then(|(texture, places)| Some((texture, corners(triangle, places)?)));
+        let on_it = on_it.map(|(texture, places)| (texture, places, textured::texels(at, places, texture)));
+        textured::triangle(pixmap, at, |weights| {
+            let over = on_it
+                .map_or([0.0; 4], |(texture, places, texels)| texture.color(textured::mean(weights, places), texels));
+            let left = 1.0 - over[3] as f32 / 255.0;
+            let color: [f32; 3] = std::array::from_fn(|k| over[k] as f32 / 255.0 + left * base[k]);
+            let slope = textured::mean(weights, slopes).map(|v| v as f32);
+            let [height] = textured::mean(weights, heights.map(|h| [h]));
+            let place = textured::mean(weights, rest).map(|v| v as f32);
+            let [r, g, b] = plush::shade(color, slope, height as f32, place, pixel_mm).map(|c| 255.0 * f64::from(c));
+            [r, g, b, 255.0]
+        });
     }
 }
 
@@ -223,6 +298,31 @@ fn paint_divider(pixmap: &mut PixmapMut, (width, height): (u32, u32)) {
     let stroke =
         Stroke { width: unit.max(1.0), dash: StrokeDash::new(vec![6.0 * unit, 6.0 * unit], 0.0), ..Stroke::default() };
     pixmap.stroke_path(&path, &paint(DIVIDER), &stroke, Transform::identity(), None);
+}
+
+/// A bar under a place in the middle of its title, with three figures below.
+fn paint_bar(pixmap: &mut PixmapMut, bar: &Bar, [middle, top]: [f32; 2], unit: f32) {
+    let [length, height] = BAR.map(|v| v * unit);
+    let (left, base) = (middle - 0.5 * length, top + 22.0 * unit);
+    let steps = length.ceil().max(1.0);
+    for k in 0..steps as usize {
+        let (from, to) = (left + length * k as f32 / steps, left + length * (k + 1) as f32 / steps);
+        if let Some(rect) = Rect::from_ltrb(from, base, to, base + height) {
+            let solid = Paint { anti_alias: false, ..paint(bar.color_at((k as f64 + 0.5) / f64::from(steps))) };
+            pixmap.fill_rect(rect, &solid, Transform::identity(), None);
+        }
+    }
+    let ink = Palette::of(bar.theme).pin;
+    let mut write = |text: &str, [x, y]: [f32; 2]| {
+        let size = LETTERS * unit;
+        if let Some(path) = letters::path(text, size, [x - 0.5 * letters::width(text, size), y]) {
+            pixmap.fill_path(&path, &paint(ink), FillRule::Winding, Transform::identity(), None);
+        }
+    };
+    write(&bar.words(), [middle, base - 6.0 * unit]);
+    for (place, words) in bar.ticks() {
+        write(&words, [left + place as f32 * length, base + height + 16.0 * unit]);
+    }
 }
 
 fn paint(c: Color) -> Paint<'static> {

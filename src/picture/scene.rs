@@ -1,12 +1,10 @@
 //! Scenes: primitives in painting order, for any renderer.
 
+use super::color::Color;
+use super::plush::Felt;
 use super::texture::Texture;
 use crate::outline::Point;
 use std::sync::Arc;
-
-/// An sRGB colour with alpha, straight (not premultiplied).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Color(pub u8, pub u8, pub u8, pub u8);
 
 /// A primitive. Coordinates are in mm (y up), widths and radii in logical pixels.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,6 +15,14 @@ pub enum Item {
         triangles: Vec<[usize; 3]>,
         color: Color,
     },
+    /// Triangles over `points`, a colour each.
+    Cells {
+        points: Vec<Point>,
+        triangles: Vec<[usize; 3]>,
+        colors: Vec<Color>,
+    },
+    /// Stuffed felt in its light.
+    Plush(Felt),
     /// Triangles over `points` with a picture on them; `places` says where each point lies in it, 0 to 1 from the upper left
     /// corner. What lies outside of it is clear.
     Picture {

@@ -1,6 +1,6 @@
 //! What panels, tools and keys ask for. They borrow the session, read only, and return these; [`acts`](super::acts) does them.
 
-use super::canvas::{Camera, Hit};
+use super::canvas::{Camera, Hit, Plushie};
 use super::change::Change;
 use super::commands::command::Command;
 pub use super::session::FileAction;
@@ -54,7 +54,7 @@ pub enum Action {
     /// Moves the pin, mm; part of a gesture.
     DragPin(usize, Point),
     SetQuality(Quality),
-    SetCamera(Camera),
+    SetCamera(Plushie, Camera),
     Scrub(f64),
     SetProposeOptions(ProposeOptions),
     SetResolution(Resolution),

@@ -1,6 +1,7 @@
 //! The window: state, and one update a frame.
 
 use super::action::{Action, FileAction};
+use super::adapter::Lost;
 use super::focus::Focus;
 use super::pacing::Pacing;
 use super::panels;
@@ -9,6 +10,7 @@ use super::store::Store;
 use super::tools::Toolbox;
 use super::{acts, canvas, keys, style, viewport};
 use crate::design::Design;
+use crate::outline::Point;
 use crate::picture::palette::{Palette, Theme};
 use eframe::egui::{self, CentralPanel, Frame, Margin, Panel, ViewportCommand};
 use std::path::PathBuf;
@@ -34,6 +36,7 @@ pub struct Studio {
     pacing: Pacing,
     focus: Focus,
     title: String,
+    lost: Lost,
 }
 
 impl Studio {
@@ -57,7 +60,14 @@ impl Studio {
             pacing: Pacing::default(),
             focus: Focus::default(),
             title: String::new(),
+            lost: Lost::default(),
         }
+    }
+
+    /// Ends, with its work kept, when the adapter is lost.
+    pub(super) fn watching(mut self, lost: Lost) -> Self {
+        self.lost = lost;
+        self
     }
 
     /// Lets the views draw with the window's renderer, and lets the desktop's dialogs appear.
@@ -66,6 +76,8 @@ impl Studio {
         const SAMPLES: u32 = 1;
         if let Some(state) = state {
             viewport::renderer::install(state, SAMPLES);
+            let wake = self.session.jobs.wake();
+            self.lost.watch(state, move || wake());
             self.session.gpu = true;
         }
         self.session.files.native_dialogs = desktop_has_dialogs();
@@ -80,12 +92,26 @@ impl Studio {
         self
     }
 
+    /// In a look, and where that is asked for with a solver that takes its time.
+    pub(super) fn measured(mut self, look: &'static str, late: Option<Duration>) -> Self {
+        self.session.look.body = look;
+        if let Some(late) = late {
+            self.session.solver.delay(late);
+        }
+        self
+    }
+
     /// Shows the start page over what is open, where nothing that was left behind is offered.
     pub fn with_start_page(mut self) -> Self {
         if self.session.files.dialog.is_none() {
             self.session.overlay = Some(Overlay::Start);
         }
         self
+    }
+
+    /// Where a place in mm was on the screen in the last frame; `None` in a view that is not shown.
+    pub fn on_screen(&self, plushie: viewport::Plushie, p: Point) -> Option<egui::Pos2> {
+        self.views.on_screen(plushie, p)
     }
 
     pub fn session(&self) -> &Session {
@@ -229,7 +255,7 @@ impl Studio {
             acts::keep::sized(&mut self.session, [size.width(), size.height()]);
         }
         let drawing = self.tools.unfinished(&self.session);
-        if acts::keep::is_ending() && !self.session.files.quit {
+        if (acts::keep::is_ending() || self.lost.is()) && !self.session.files.quit {
             acts::keep::end(&mut self.session, drawing);
         } else if !self.session.files.quit {
             acts::keep::keep(&mut self.session, drawing);
@@ -276,6 +302,44 @@ mod tests {
     use crate::studio::{blank, services};
     use egui_kittest::Harness;
     use egui_kittest::kittest::Queryable;
+
+    #[test]
+    fn a_lost_adapter_does_not_take_the_work_with_it() {
+        use crate::studio::keeper::Abandoned;
+        use crate::studio::offscreen::Screen;
+        let Ok(mut screen) = Screen::new([640, 480], 1.0) else {
+            eprintln!("no graphics adapter: nothing could be lost");
+            return;
+        };
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::at(folder.path());
+        let ctx = egui::Context::default();
+        let design = crate::design::bundled::ALL[0].design().unwrap();
+        let studio = Studio::new(&ctx, design, None, services()).with_window(Some(&screen.state), Theme::Light);
+        let mut studio = studio.with_store(&ctx, store.clone());
+        let mut frame = |studio: &mut Studio| {
+            let input = egui::RawInput { screen_rect: Some(screen.rect()), ..Default::default() };
+            let output = ctx.run_ui(input, |ui| studio.update(ui));
+            screen.draw(&ctx, output, [0.0; 4]);
+        };
+        frame(&mut studio);
+        studio
+            .session
+            .document
+            .history
+            .edit("Rename", |design| {
+                design.name = "kept".into();
+                Ok::<(), crate::design::EditError>(())
+            })
+            .unwrap();
+        frame(&mut studio);
+        studio.lost.raise();
+        frame(&mut studio);
+        assert!(studio.session.files.quit);
+        drop(studio);
+        let (kept, _) = Abandoned::find(&store);
+        assert_eq!(kept.len(), 1);
+    }
 
     #[test]
     fn an_import_that_is_ready_asks_about_what_is_only_being_drawn() {

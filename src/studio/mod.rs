@@ -11,6 +11,7 @@
 
 pub mod action;
 pub mod acts;
+mod adapter;
 pub mod app;
 mod blank;
 pub mod canvas;
@@ -22,7 +23,9 @@ pub mod jobs;
 pub mod keeper;
 pub mod keeping;
 mod keys;
+pub mod measure;
 pub mod messages;
+pub mod offscreen;
 mod pacing;
 pub mod panels;
 mod pictures;
@@ -71,6 +74,8 @@ pub enum StudioError {
     WindowSystem(String),
     #[error("no graphics adapter: {0}. Install a driver; without a GPU: apt-get install mesa-vulkan-drivers")]
     NoAdapter(String),
+    #[error("the graphics adapter was lost; work that was not saved is kept and offered at the next start")]
+    AdapterLost,
     #[error("the window failed: {0}")]
     Failed(String),
 }
@@ -99,13 +104,15 @@ pub fn run(design: Option<Design>, path: Option<PathBuf>) -> Result<(), StudioEr
         dithering: false,
         ..Default::default()
     };
-    let create: eframe::AppCreator<'_> = Box::new(|context| {
+    let lost = adapter::Lost::default();
+    let watched = lost.clone();
+    let create: eframe::AppCreator<'_> = Box::new(move |context| {
         let theme = match context.egui_ctx.system_theme() {
             Some(egui::Theme::Dark) => Theme::Dark,
             _ => Theme::Light,
         };
         style::set_theme(&context.egui_ctx, theme);
-        let studio = Studio::new(&context.egui_ctx, design, path, services());
+        let studio = Studio::new(&context.egui_ctx, design, path, services()).watching(watched);
         let mut studio = studio.with_window(context.wgpu_render_state.as_ref(), theme);
         if let Some(store) = store {
             studio = studio.with_store(&context.egui_ctx, store);
@@ -119,6 +126,7 @@ pub fn run(design: Option<Design>, path: Option<PathBuf>) -> Result<(), StudioEr
     quiet_about_the_display();
     // winit panics where an X library is missing; what it says then is the user's only clue.
     match catch_unwind(AssertUnwindSafe(|| eframe::run_native("plushwright", options, create))) {
+        Ok(_) if lost.is() => Err(StudioError::AdapterLost),
         Ok(outcome) => outcome.map_err(from_eframe),
         Err(panic) => {
             let text = panic.downcast_ref::<&str>().map(|s| (*s).to_owned());

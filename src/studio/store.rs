@@ -34,6 +34,12 @@ pub struct Settings {
     pub idealized: Option<bool>,
     pub realizable: Option<bool>,
     pub layers: Shown,
+    /// A look by its name.
+    pub look: Option<String>,
+    pub overlaid: Option<bool>,
+    pub cameras_apart: Option<bool>,
+    pub rulers: Option<bool>,
+    pub onion_skins: Option<bool>,
     /// Ways of working, each as it was left.
     pub still: bool,
     pub snaps: Option<bool>,
@@ -155,6 +161,7 @@ impl Settings {
         match (shows(self.idealized), shows(self.realizable)) {
             (true, false) => Views::Only(Plushie::Idealized),
             (false, true) => Views::Only(Plushie::Realizable),
+            _ if self.overlaid == Some(true) => Views::Overlay,
             _ => Views::Both,
         }
     }

@@ -3,9 +3,13 @@
 use crate::design::MaterialPoint;
 use crate::engine::Shape;
 use crate::outline::Point;
-use crate::picture::scene::{Color, Item};
+use crate::picture::color::Color;
+use crate::picture::scene::Item;
+use crate::picture::silhouette::Silhouette;
 
 pub const SEAM: f32 = 3.0;
+/// The seam where the felt beside it is lit.
+pub const SEWN: f32 = 2.2;
 pub const FIBER_PASSIVE: f32 = 1.0;
 pub const FIBER_ACTIVE: f32 = 3.2;
 pub const TENDON: f32 = 3.4;
@@ -15,6 +19,12 @@ pub const WINCH: f32 = 8.5;
 pub const PIN: f32 = 6.0;
 pub const TARGET: f32 = 5.0;
 pub const GOAL: f32 = 7.0;
+
+/// The felt in one colour; nothing for a shape of another mesh.
+pub fn body(silhouette: &Silhouette, shape: &Shape, color: Color) -> Option<Item> {
+    let points = silhouette.places(&shape.nodes)?;
+    Some(Item::Mesh { points, triangles: silhouette.triangles.clone(), color })
+}
 
 /// Where a point of the body is in a shape; `None` where the shape is of another mesh.
 pub fn place(point: &MaterialPoint, shape: &Shape) -> Option<Point> {

@@ -3,9 +3,11 @@
 //! A layer takes its own inputs from the [`Subject`] and draws from these alone. [`Layers`] are the inputs of a whole picture:
 //! whoever keeps what was drawn compares them, and draws anew where they differ.
 
-mod felt;
 mod fibers;
+mod ghosts;
 mod layer;
+mod look;
+pub mod looks;
 mod marks;
 mod pins;
 mod seam;
@@ -15,25 +17,28 @@ mod targets;
 mod tendons;
 mod texture;
 
-pub use felt::Felt;
 pub use fibers::Fibers;
+pub use ghosts::Ghosts;
 pub use layer::{Entry, Layer, Shared, Stroke, Switch};
+pub use look::LookEntry;
+pub use looks::{LOOKS, look};
 pub use pins::Pins;
 pub use seam::Seam;
 pub use stages::Discovery;
-pub use subject::{Shown, Stage, Subject};
+pub use subject::{Ghost, Shown, Stage, Subject};
 pub use targets::Targets;
 pub use tendons::Tendons;
 pub use texture::Textured;
 
+use super::ramp::Bar;
 use super::scene::Scene;
 use layer::Inputs;
 
-/// All layers in painting order.
+/// All layers over the body in painting order; the body itself is drawn by a [look](LOOKS).
 pub const LAYERS: &[Entry] = &[
-    Entry::of::<Felt>(),
     Entry::of::<Textured>(),
     Entry::of::<Seam>(),
+    Entry::of::<Ghosts>(),
     Entry::of::<Fibers>(),
     Entry::of::<Discovery>(),
     Entry::of::<Tendons>(),
@@ -50,7 +55,7 @@ impl Shown {
 
 /// The inputs of all layers of a picture. Equal ones make the same picture.
 #[derive(Debug, Default)]
-pub struct Layers(Vec<Box<dyn Inputs>>);
+pub struct Layers(Vec<Box<dyn Inputs>>, Option<Bar>);
 
 impl Layers {
     /// Takes the inputs of every layer that is shown. A shape of another mesh has none.
@@ -58,8 +63,16 @@ impl Layers {
         if subject.shape.nodes.len() != subject.design.mesh.nodes.len() {
             return Self::default();
         }
-        let shown = LAYERS.iter().filter(|entry| entry.is_shown(subject.shown));
-        Self(shown.filter_map(|entry| (entry.take)(subject)).collect())
+        let look = look(subject.look).unwrap_or(&LOOKS[0]);
+        let (body, bar) = (look.take)(subject).unzip();
+        let shown = |entry: &&Entry| entry.is_shown(subject.shown) && !look.replaces.contains(&entry.name);
+        let over = LAYERS.iter().filter(shown).filter_map(|entry| (entry.take)(subject));
+        Self(body.into_iter().chain(over).collect(), bar.flatten())
+    }
+
+    /// What the colours of the look stand for.
+    pub fn bar(&self) -> Option<&Bar> {
+        self.1.as_ref()
     }
 
     /// Draws them.

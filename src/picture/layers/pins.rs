@@ -5,8 +5,9 @@ use super::marks::{self, disc};
 use super::subject::Subject;
 use crate::design::Hold;
 use crate::outline::Point;
+use crate::picture::color::Color;
 use crate::picture::palette::{Palette, Theme};
-use crate::picture::scene::{Color, Item};
+use crate::picture::scene::Item;
 use std::f64::consts::TAU;
 
 /// A disc on every pinned point of the body, with the line that it slides along or the ring of what it holds.

@@ -6,8 +6,9 @@ use super::subject::{Stage, Subject};
 use crate::design::Design;
 use crate::discovery::Stages;
 use crate::engine::Shape;
+use crate::picture::color::Color;
 use crate::picture::palette::{Palette, Theme, mix, with_alpha};
-use crate::picture::scene::{Color, Item};
+use crate::picture::scene::Item;
 
 /// One stage of discovery, in the place of fibres and tendons.
 #[derive(Debug, PartialEq)]

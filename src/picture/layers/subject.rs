@@ -3,7 +3,9 @@
 use crate::design::{Design, Network, Target};
 use crate::discovery::Stages;
 use crate::engine::Shape;
+use crate::picture::color::Color;
 use crate::picture::palette::Theme;
+use crate::picture::silhouette::Silhouette;
 use crate::picture::texture::Texture;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -15,6 +17,14 @@ pub struct Subject<'a> {
     pub design: &'a Arc<Design>,
     /// A solved plushie of that design, or its rest.
     pub shape: &'a Arc<Shape>,
+    /// That of the design.
+    pub silhouette: Arc<Silhouette>,
+    /// By its name in [`LOOKS`](super::LOOKS).
+    pub look: &'a str,
+    /// The other plushie in the same state: figures of both are shown on one scale.
+    pub beside: Option<&'a Arc<Shape>>,
+    /// Other states whose outlines are shown as well.
+    pub ghosts: &'a [Ghost],
     /// Whether the plushie has fibres: the idealized one.
     pub fibers: bool,
     pub theme: Theme,
@@ -35,10 +45,19 @@ pub struct Subject<'a> {
 impl<'a> Subject<'a> {
     /// A shape of a design in the light theme, with everything that it has and no targets.
     pub fn new(design: &'a Arc<Design>, shape: &'a Arc<Shape>) -> Self {
+        Self::with(design, &Arc::new(Silhouette::of(design)), shape)
+    }
+
+    /// [`Self::new`] with a silhouette that is known.
+    pub fn with(design: &'a Arc<Design>, silhouette: &Arc<Silhouette>, shape: &'a Arc<Shape>) -> Self {
         static AS_AT_FIRST: Shown = Shown(BTreeMap::new());
         Self {
             design,
             shape,
+            silhouette: silhouette.clone(),
+            look: "plain",
+            beside: None,
+            ghosts: &[],
             fibers: true,
             theme: Theme::Light,
             shown: &AS_AT_FIRST,
@@ -49,6 +68,13 @@ impl<'a> Subject<'a> {
             stage: None,
         }
     }
+}
+
+/// Another state whose outline is shown as well, and its colour.
+#[derive(Clone, Debug)]
+pub struct Ghost {
+    pub shape: Arc<Shape>,
+    pub color: Color,
 }
 
 /// The layers that somebody has asked to show or to hide, by their names; the others are as at first.

@@ -6,8 +6,9 @@ use crate::discovery::Stages;
 use crate::engine::Shape;
 use crate::mesh::{BodyPoint, Mesh};
 use crate::outline::Outline;
+use crate::picture::color::Color;
 use crate::picture::palette::{Palette, Theme};
-use crate::picture::scene::{Color, Item};
+use crate::picture::scene::Item;
 use std::sync::Arc;
 
 /// A square of two triangles with a pin, a target and a network along its diagonal.
@@ -111,6 +112,69 @@ fn a_picture_is_the_same_until_the_inputs_of_a_layer_differ() {
     }
     // What no layer takes is no reason to draw anew.
     assert_eq!(before, Layers::of(&Subject { selected_target: Some(3), ..subject }));
+}
+
+#[test]
+fn fibres_are_seen_on_textures_of_every_colour() {
+    use crate::picture::{Texture, raster};
+    let design = design();
+    let shape = rest(&design);
+    let hidden = [Tendons::NAME, Pins::NAME].iter().fold(Shown::default(), |shown, name| shown.with(name, false));
+    for theme in [Theme::Light, Theme::Dark] {
+        let palette = Palette::of(theme);
+        let colors =
+            [palette.body, palette.seam, palette.fiber_passive, Color(255, 255, 255, 255), Color(0, 0, 0, 255)];
+        for Color(r, g, b, _) in colors.into_iter().chain([Color(200, 30, 40, 255), Color(120, 120, 120, 255)]) {
+            let texture = Arc::new(Texture::of(image::RgbaImage::from_pixel(4, 4, image::Rgba([r, g, b, 255]))));
+            let picture = |fibers: bool| {
+                let shown = hidden.clone().with(Fibers::NAME, fibers);
+                let subject =
+                    Subject { theme, shown: &shown, texture: Some(&texture), ..Subject::new(&design, &shape) };
+                let scene = Layers::of(&subject).scene();
+                let png = raster::png(&scene, &scene, (1440, 720), palette.background).unwrap();
+                image::load_from_memory(&png).unwrap().to_rgb8()
+            };
+            let (with, without) = (picture(true), picture(false));
+            // Across the diagonal, in the middle of the left view.
+            let most = (345..375).map(|x| {
+                let (p, q) = (with.get_pixel(x, 360).0, without.get_pixel(x, 360).0);
+                p.iter().zip(q).map(|(a, b)| a.abs_diff(b)).max().unwrap()
+            });
+            assert!(most.max().unwrap() > 60, "{theme:?} {r} {g} {b}");
+        }
+    }
+}
+
+#[test]
+fn looks_have_names_and_take_the_place_of_layers_that_are_there() {
+    let mut names: Vec<_> = LOOKS.iter().flat_map(|look| [look.name, look.label]).collect();
+    let count = names.len();
+    names.sort_unstable();
+    names.dedup();
+    assert_eq!(names.len(), count);
+    let known = |name: &&str| LAYERS.iter().any(|layer| layer.name == *name);
+    assert!(LOOKS.iter().all(|look| look.replaces.iter().all(known) && !look.tip.ends_with('.')));
+}
+
+#[test]
+fn both_plushies_of_a_look_have_one_scale() {
+    let design = design();
+    let shape = rest(&design);
+    let pulled = |n: f64| Arc::new(Shape { tendon_tensions: vec![n], ..Shape::clone(&shape) });
+    let (weak, strong) = (pulled(1.0), pulled(8.0));
+    let bar = |shape, beside| {
+        Layers::of(&Subject { look: "force", beside: Some(beside), ..Subject::new(&design, shape) }).bar().cloned()
+    };
+    assert_eq!(bar(&weak, &strong), bar(&strong, &weak));
+    assert_eq!(bar(&weak, &strong).unwrap().high, 8.0);
+    // Pressed to half its width, and turned: the strain is what remains of the area, the gap how far the corners went.
+    let nodes: Vec<_> = shape.nodes.iter().map(|p| [-p[1], 0.5 * p[0]]).collect();
+    let pressed = Arc::new(Shape { nodes, ..Shape::clone(&shape) });
+    let of =
+        |look| Layers::of(&Subject { look, beside: Some(&shape), ..Subject::new(&design, &pressed) }).bar().cloned();
+    assert!((of("strain").unwrap().high - 2.0).abs() < 1e-9);
+    assert!((of("gap").unwrap().high - (20.0_f64.hypot(5.0))).abs() < 1e-9, "{:?}", of("gap"));
+    assert!(of("crumpling").unwrap().high > 0.1 && of("plush").is_none() && of("wireframe").is_none());
 }
 
 #[test]

@@ -6,6 +6,7 @@ use crate::design::Design;
 use crate::engine::Shape;
 use crate::outline::Point;
 use crate::picture::scene::Item;
+use crate::picture::silhouette::Silhouette;
 use crate::picture::texture::Texture;
 use std::sync::Arc;
 
@@ -13,6 +14,7 @@ use std::sync::Arc;
 #[derive(Debug, PartialEq)]
 pub struct Textured {
     design: Shared<Design>,
+    silhouette: Shared<Silhouette>,
     shape: Shared<Shape>,
     texture: Shared<Texture>,
 }
@@ -36,15 +38,21 @@ impl Layer for Textured {
 
     fn of(subject: &Subject<'_>) -> Option<Self> {
         let (design, shape) = (Shared::of(subject.design), Shared::of(subject.shape));
-        Some(Self { design, shape, texture: Shared::of(subject.texture?) })
+        let silhouette = Shared::of(&subject.silhouette);
+        Some(Self { design, silhouette, shape, texture: Shared::of(subject.texture?) })
     }
 
     fn draw(&self, items: &mut Vec<Item>) {
-        let [low, high] = self.design.texture_rect();
-        let place = |p: &Point| [(p[0] - low[0]) / (high[0] - low[0]), (high[1] - p[1]) / (high[1] - low[1])];
-        let mesh = &self.design.mesh;
-        let places = mesh.nodes.iter().map(place).collect();
-        let (points, triangles) = (self.shape.nodes.clone(), mesh.triangles.clone());
+        let Some(points) = self.silhouette.places(&self.shape.nodes) else { return };
+        let places = places(&self.design, &self.silhouette.rest);
+        let triangles = self.silhouette.triangles.clone();
         items.push(Item::Picture { points, places, triangles, texture: Arc::clone(&self.texture) });
     }
+}
+
+/// Where points at rest lie in the texture of a design: 0 to 1 from its upper left corner.
+pub fn places(design: &Design, rest: &[Point]) -> Vec<Point> {
+    let [low, high] = design.texture_rect();
+    let place = |p: &Point| [(p[0] - low[0]) / (high[0] - low[0]), (high[1] - p[1]) / (high[1] - low[1])];
+    rest.iter().map(place).collect()
 }

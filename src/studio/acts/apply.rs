@@ -34,9 +34,9 @@ pub fn apply(session: &mut Session, action: Action) {
         Action::SetBrush(brush) => session.posing.brush = brush,
         Action::DragPin(index, to) => edit::drag_pin(session, index, to),
         Action::SetQuality(quality) => session.solver.quality = quality,
-        Action::SetCamera(camera) => {
-            session.look.camera = Some(camera);
-            session.look.zoom = None;
+        Action::SetCamera(plushie, camera) => {
+            session.look.set_camera(plushie, camera);
+            (session.look.zoom, session.look.frame) = (None, None);
         }
         Action::Scrub(time_s) => animate::scrub(session, time_s),
         Action::SetProposeOptions(options) => super::discover::set_options(session, options),

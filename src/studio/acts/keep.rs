@@ -3,10 +3,11 @@
 use super::replace;
 use crate::files::shown;
 use crate::outline::Drawing;
+use crate::picture::layers::look;
 use crate::picture::palette::Theme;
 use crate::studio::canvas::Plushie;
 use crate::studio::keeper::{Abandoned, Keeper, Kept, Revision, Sources, Work};
-use crate::studio::session::{Dialog, Session};
+use crate::studio::session::{Dialog, Session, Views};
 use crate::studio::store::{Scribe, Settings, Store};
 use std::path::Path;
 use std::sync::Arc;
@@ -159,14 +160,19 @@ pub fn sized(session: &mut Session, size: [f32; 2]) {
 /// Writes down how the window is set, where that has changed.
 pub fn remember(session: &mut Session) {
     let Some(scribe) = &mut session.safety.scribe else { return };
-    let look = &session.look;
+    let now = &session.look;
     let settings = Settings {
-        dark: Some(look.theme == Theme::Dark),
+        dark: Some(now.theme == Theme::Dark),
         quality: Some(format!("{:?}", session.solver.quality)),
-        idealized: Some(look.views.shows(Plushie::Idealized)),
-        realizable: Some(look.views.shows(Plushie::Realizable)),
-        layers: look.shown.clone(),
-        still: look.still,
+        idealized: Some(now.views.shows(Plushie::Idealized)),
+        realizable: Some(now.views.shows(Plushie::Realizable)),
+        layers: now.shown.clone(),
+        look: Some(now.body.to_owned()),
+        overlaid: Some(now.views == Views::Overlay),
+        cameras_apart: Some(!now.linked),
+        rulers: Some(now.rulers),
+        onion_skins: Some(now.onion.on),
+        still: now.still,
         snaps: Some(session.posing.snaps),
         drives: session.timing.drives,
         looping: Some(session.playback.looping),
@@ -181,6 +187,10 @@ fn take_settings(session: &mut Session) {
     session.look.theme = settings.theme().unwrap_or(session.look.theme);
     session.look.shown = settings.layers.clone();
     session.look.views = settings.views();
+    session.look.body = settings.look.as_deref().and_then(look).map_or(session.look.body, |look| look.name);
+    session.look.linked = settings.cameras_apart != Some(true);
+    session.look.rulers = settings.rulers == Some(true);
+    session.look.onion.on = settings.onion_skins == Some(true);
     session.look.still = settings.still;
     session.posing.snaps = settings.snaps.unwrap_or(session.posing.snaps);
     session.timing.drives = settings.drives;

@@ -24,7 +24,8 @@ pub fn open(session: &mut Session, design: Design, path: Option<PathBuf>) {
     session.safety.unclaim();
     session.playback.time_s = 0.0;
     session.playback.playing = false;
-    session.look.camera = None;
+    session.look.fit();
+    session.look.onion.clear();
     session.discovery.clear();
     session.solver.forget();
 }

@@ -108,7 +108,7 @@ pub fn give_body(session: &mut Session, hands_off: bool) {
         Err(error) => return refuse(session, &error.into()),
     };
     session.meshing.wanted = None;
-    session.look.camera = None;
+    session.look.fit();
     session.sketching.fresh = false;
     if goes_on {
         session.sketching.camera = session.sketching.camera.map(|camera| camera.moved(by));

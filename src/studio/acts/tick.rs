@@ -1,11 +1,11 @@
 //! Once a frame: what the threads report, the playhead, what should be seen next.
 
-use super::{animate, discover, edit, filing, film, follow, import, judge, mesh, motors, rig, sheet, texture};
+use super::{animate, discover, edit, filing, film, follow, import, judge, mesh, motors, onion, rig, sheet, texture};
 use crate::design::animation;
 use crate::engine::Setpoint;
 use crate::studio::canvas::Plushie;
 use crate::studio::jobs::{Finished, Outcome, Running};
-use crate::studio::session::{Mode, Session};
+use crate::studio::session::{Mode, ONION, Session};
 
 /// Takes what the threads have to report, moves the playhead, asks for what should be seen next.
 /// `hands_off`: nobody holds a button or types, so gestures are over.
@@ -15,6 +15,11 @@ pub fn tick(session: &mut Session, now_s: f64, passed_s: f64, hands_off: bool) {
         take(session, finished);
     }
     motors::follow(session);
+    if session.solver.revive() {
+        session.messages.error(
+            "The solver broke down and was started again. Your work is as it was; the last good shapes are shown",
+        );
+    }
     session.solver.take(session.design().mesh.nodes.len());
     if hands_off {
         session.document.history.commit();
@@ -36,6 +41,7 @@ pub fn tick(session: &mut Session, now_s: f64, passed_s: f64, hands_off: bool) {
     // Nobody sees the plushies while the outline is drawn.
     if !session.sketching.open {
         ask(session);
+        onion::follow(session);
         judge::follow(session, hands_off);
     }
 }
@@ -75,6 +81,7 @@ fn take(session: &mut Session, Finished { serial, outcome }: Finished) {
         Outcome::Filmed { path, result } => film::take(session, serial, &path, result),
         Outcome::Textured { path, texture } => texture::take_texture(session, path, texture),
         Outcome::Picked { path, at_once } => filing::take_path(session, serial, path, at_once),
+        Outcome::Told { owner: ONION, told } => session.look.onion.take(serial, &told),
         Outcome::Told { owner, told } => session.tasks.finish(owner, serial, told),
         Outcome::Broken { job, why } => {
             break_off(session, serial);
@@ -101,6 +108,9 @@ fn break_off(session: &mut Session, serial: u64) {
     if session.following.running.as_ref().is_some_and(|(running, _)| running.serial == serial) {
         let design = session.document.design().clone();
         session.following.settle(&design);
+    }
+    if Running::is(session.look.onion.running.as_ref(), serial) {
+        session.look.onion.running = None;
     }
     session.judging.break_off(serial);
     session.files.preview.break_off(serial);

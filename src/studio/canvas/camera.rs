@@ -3,7 +3,7 @@
 use crate::outline::Point;
 use eframe::egui::{Pos2, Rect, Vec2, pos2};
 
-/// The part of the plane that a viewport shows: a point in its middle and a scale. Both views share one, so that they compare.
+/// The part of the plane that a viewport shows: a point in its middle and a scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     /// mm.
@@ -12,15 +12,26 @@ pub struct Camera {
     pub scale: f32,
 }
 
-/// Air around a fitted body, as a fraction of its box on each side: room to pose it in.
-const MARGIN: f64 = 0.16;
+/// Air around a fitted drawing, as a fraction of its box on each side: room to draw on.
+const ROOM: f64 = 0.16;
+/// Air around a body that is looked at: it fills its view.
+const MARGIN: f64 = 0.06;
 /// Logical pixels per mm.
 const SCALES: std::ops::RangeInclusive<f32> = 0.01..=200.0;
 
 impl Camera {
-    /// Shows the box from `low` to `high` in a view of `size`.
+    /// Shows the box from `low` to `high` in a view of `size`, with room around it.
     pub fn fit(low: Point, high: Point, size: Vec2) -> Self {
-        let span = [0, 1].map(|axis| ((high[axis] - low[axis]) * (1.0 + 2.0 * MARGIN)).max(1e-6));
+        Self::within(low, high, size, ROOM)
+    }
+
+    /// Shows the box from `low` to `high` as large as a view of `size` allows.
+    pub fn close(low: Point, high: Point, size: Vec2) -> Self {
+        Self::within(low, high, size, MARGIN)
+    }
+
+    fn within(low: Point, high: Point, size: Vec2, margin: f64) -> Self {
+        let span = [0, 1].map(|axis| ((high[axis] - low[axis]) * (1.0 + 2.0 * margin)).max(1e-6));
         let scale = (f64::from(size.x) / span[0]).min(f64::from(size.y) / span[1]) as f32;
         let scale = if scale.is_finite() { scale.clamp(*SCALES.start(), *SCALES.end()) } else { 1.0 };
         Self { center: [(low[0] + high[0]) / 2.0, (low[1] + high[1]) / 2.0], scale }

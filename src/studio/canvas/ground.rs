@@ -73,7 +73,7 @@ impl Canvas<'_> {
     /// Shows it with another camera.
     pub fn look(&self, camera: Camera) -> Action {
         match self.ground {
-            Ground::Plushie(..) => Action::SetCamera(camera),
+            Ground::Plushie(plushie, _) => Action::SetCamera(plushie, camera),
             Ground::Outline(_) => Action::Sketch(Sketch::Camera(Some(camera))),
         }
     }

@@ -1,6 +1,7 @@
 //! From the pointer to the tool, the same on every canvas; and moving about.
 
-use super::ground::Canvas;
+use super::camera::Camera;
+use super::ground::{Canvas, Ground};
 use crate::outline::Point;
 use crate::studio::action::Actions;
 use crate::studio::tools::Tool;
@@ -62,6 +63,9 @@ pub fn navigate(ui: &Ui, canvas: &Canvas<'_>, response: &Response, actions: &mut
         if factor != 1.0 {
             actions.push(canvas.look(camera.zoomed(rect, pointer, factor)));
         }
+    }
+    if let (Ground::Plushie(..), Some([low, high])) = (canvas.ground, session.look().frame) {
+        actions.push(canvas.look(Camera::close(low, high, rect.size())));
     }
     if let Some(factor) = session.look().zoom {
         actions.push(canvas.look(camera.zoomed(rect, rect.center(), factor)));

@@ -59,6 +59,10 @@ pub enum Place {
     FileMenu,
     /// The menu under the pointer in a view.
     ContextMenu,
+    /// How the body is shown, over the views.
+    LookMenu,
+    /// How one looks at it, over the views.
+    ViewMenu,
     Toolbar(Group),
 }
 

@@ -8,6 +8,7 @@ pub mod discovery;
 pub mod document;
 pub mod files;
 pub mod layers;
+pub mod looks;
 pub mod motors;
 pub mod networks;
 pub mod outline;
@@ -29,6 +30,7 @@ pub static ALL: LazyLock<Vec<(&str, Vec<&Command>)>> = LazyLock::new(|| {
         ("Tools", tools::ALL.iter().collect()),
         ("View", view::ALL.to_vec()),
         ("Layers", layers::ALL.iter().collect()),
+        ("Looks", looks::ALL.iter().collect()),
         ("Networks", discovery::ALL.to_vec()),
         ("Winches and tendons", networks::ALL.to_vec()),
         ("Animation", animation::ALL.to_vec()),
@@ -86,7 +88,10 @@ mod tests {
     #[test]
     fn every_place_is_filled_and_an_icon_is_there_where_the_toolbar_shows_one() {
         let groups = [Group::File, Group::History, Group::Tools, Group::Shown, Group::Views, Group::Right];
-        for place in [Place::FileMenu, Place::ContextMenu].into_iter().chain(groups.map(Place::Toolbar)) {
+        for place in [Place::FileMenu, Place::ContextMenu, Place::LookMenu, Place::ViewMenu]
+            .into_iter()
+            .chain(groups.map(Place::Toolbar))
+        {
             assert!(at(place).count() > 0, "{place:?}");
         }
         for command in at(Place::Toolbar(Group::Tools)).chain(at(Place::Toolbar(Group::Shown))) {

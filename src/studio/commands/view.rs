@@ -2,11 +2,28 @@
 
 use super::command::{Command, Group, Keys, Place, Scope};
 use crate::picture::palette::Theme;
+use crate::studio::acts::frame;
 use crate::studio::canvas::Plushie;
 use crate::studio::icons::Icon;
+use crate::studio::session::Views;
 use eframe::egui::Key;
 
-pub static ALL: [&Command; 9] = [&FIT, &ZOOM_IN, &ZOOM_OUT, &IDEALIZED, &REALIZABLE, &QUALITY, &THEME, &STILL, &GUIDE];
+pub static ALL: [&Command; 14] = [
+    &FIT,
+    &FIT_SELECTION,
+    &ZOOM_IN,
+    &ZOOM_OUT,
+    &IDEALIZED,
+    &REALIZABLE,
+    &OVERLAY,
+    &LINKED,
+    &RULERS,
+    &ONION,
+    &QUALITY,
+    &THEME,
+    &STILL,
+    &GUIDE,
+];
 
 /// Of a step with the keys.
 const ZOOM: f32 = 1.25;
@@ -16,10 +33,77 @@ pub static FIT: Command = Command {
     keys: &[Keys::plain(Key::F)],
     places: &[Place::Toolbar(Group::Shown), Place::ContextMenu],
     run: &|session, _| {
-        let camera = if session.sketching.open { &mut session.sketching.camera } else { &mut session.look.camera };
-        *camera = None;
+        if session.sketching.open {
+            session.sketching.camera = None;
+        } else {
+            session.look.fit();
+        }
     },
     ..Command::new("view.fit", "Fit view", "Fit the body into the views. Scroll to zoom, drag beside the body to pan")
+};
+
+pub static FIT_SELECTION: Command = Command {
+    keys: &[Keys::shift(Key::F)],
+    scope: Scope::Views,
+    places: &[Place::ViewMenu, Place::ContextMenu],
+    run: &|session, at| frame::fit_selection(session, at),
+    ..Command::new(
+        "view.fit-selection",
+        "Fit selection",
+        "Fit the target, pin, winch or tendon that is selected into the views; with none, the plushies as they are posed",
+    )
+};
+
+pub static OVERLAY: Command = Command {
+    keys: &[Keys::plain(Key::Num3)],
+    scope: Scope::Views,
+    places: &[Place::ViewMenu],
+    on: Some(&|session| session.look.views == Views::Overlay),
+    run: &|session, _| {
+        let overlaid = session.look.views == Views::Overlay;
+        session.look.views = if overlaid { Views::Both } else { Views::Overlay };
+    },
+    ..Command::new(
+        "view.overlay",
+        "One view, overlaid",
+        "Show the realizable plushie alone, with the outline of the idealized one over it",
+    )
+};
+
+pub static LINKED: Command = Command {
+    scope: Scope::Views,
+    places: &[Place::ViewMenu],
+    on: Some(&|session| session.look.linked),
+    run: &|session, _| {
+        let linked = session.look.linked;
+        session.look.link(!linked);
+    },
+    ..Command::new("view.linked", "Linked cameras", "Move and zoom both views together, so that they compare")
+};
+
+pub static RULERS: Command = Command {
+    keys: &[Keys::shift(Key::R)],
+    scope: Scope::Views,
+    places: &[Place::ViewMenu],
+    on: Some(&|session| session.look.rulers),
+    run: &|session, _| session.look.rulers = !session.look.rulers,
+    ..Command::new("view.rulers", "Rulers and grid", "Show rulers and a grid in mm")
+};
+
+pub static ONION: Command = Command {
+    keys: &[Keys::shift(Key::K)],
+    scope: Scope::Views,
+    places: &[Place::ViewMenu],
+    on: Some(&|session| session.look.onion.on),
+    why_not: &|session, _| {
+        session.design().keyframes.is_empty().then_some("There are no keyframes whose neighbours could be shown")
+    },
+    run: &|session, _| session.look.onion.on = !session.look.onion.on,
+    ..Command::new(
+        "view.onion",
+        "Onion skins",
+        "Show the realizable plushie at the keyframes before (blue) and after (orange) the playhead",
+    )
 };
 
 pub static ZOOM_IN: Command = Command {

@@ -69,6 +69,20 @@ pub fn entry(ui: &mut Ui, session: &Session, command: &'static Command, at: Hit,
     }
 }
 
+/// A line of a menu that is on or off.
+pub fn ticked(ui: &mut Ui, session: &Session, command: &'static Command, at: Hit, actions: &mut Actions) {
+    let keys = command.keys.first().map(|keys| keys.text()).unwrap_or_default();
+    let refused = command.refused(session, at);
+    let button = Button::selectable(command.is_on(session), command.label(session));
+    let button = button.shortcut_text(RichText::new(keys).weak());
+    let response = ui.add_enabled(refused.is_none(), button).accessible_name(command.label(session));
+    let why = command.hint(refused.unwrap_or(command.tip));
+    if response.on_hover_text(command.tip(session)).on_disabled_hover_text(why).clicked() {
+        actions.push(Action::Run(command, at));
+        ui.close();
+    }
+}
+
 fn square(ui: &mut Ui, session: &Session, command: &'static Command, side: f32, actions: &mut Actions) {
     let Some(icon) = command.icon(session) else { return text(ui, session, command, actions) };
     // One that changes its face says what a press does, not what is.

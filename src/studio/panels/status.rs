@@ -1,7 +1,7 @@
 //! The lines at the bottom: what can be done, what the solver is at, and for each view what its shape cost and is worth.
 
 use super::accuracy;
-use crate::engine::{EQUILIBRIUM, NEAR_EQUILIBRIUM, Shape};
+use crate::engine::{EQUILIBRIUM, NEAR_EQUILIBRIUM, Shape, Warning};
 use crate::studio::canvas::Plushie;
 use crate::studio::commands::command::Scope;
 use crate::studio::session::{Mode, Session};
@@ -115,7 +115,10 @@ fn shape_figures(session: &Session, shape: &Shape) -> (String, bool) {
         format!("{mm:>7.2} mm {percent:>6.2} %")
     };
     let distance = shape.distance_from_equilibrium();
-    let words = if distance < EQUILIBRIUM && shape.converged {
+    let crumpled = shape.warning.as_ref().is_some_and(Warning::is_crumpled);
+    let words = if crumpled {
+        "crumpled"
+    } else if distance < EQUILIBRIUM && shape.converged {
         "in equilibrium"
     } else if distance < NEAR_EQUILIBRIUM {
         "near equilibrium"
@@ -124,7 +127,7 @@ fn shape_figures(session: &Session, shape: &Shape) -> (String, bool) {
     };
     let distance_text = if distance == 0.0 { "0".to_owned() } else { format!("{distance:.0e}") };
     let text = format!("{:>7.1} ms  {error}  {words:<16} {distance_text:>5}", shape.milliseconds);
-    (text, distance < NEAR_EQUILIBRIUM)
+    (text, distance < NEAR_EQUILIBRIUM && !crumpled)
 }
 
 #[cfg(test)]

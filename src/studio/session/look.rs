@@ -1,6 +1,9 @@
 //! How things are shown.
 
-use crate::picture::layers::Shown;
+use super::onion::Onion;
+use crate::outline::Point;
+use crate::picture::layers::looks;
+use crate::picture::layers::{Layer, Shown};
 use crate::picture::palette::Theme;
 use crate::studio::canvas::{Camera, Plushie};
 
@@ -10,11 +13,23 @@ pub struct Look {
     pub still: bool,
     /// Which layers of the pictures.
     pub shown: Shown,
+    /// How the body is shown: a look of the pictures by its name.
+    pub body: &'static str,
     pub views: Views,
-    /// `None`: fits the body.
+    /// Of both views, or of the idealized one where each has its own. `None`: fits the body.
     pub camera: Option<Camera>,
+    /// Whether both views have one camera.
+    pub linked: bool,
+    /// Of the realizable view where each has its own.
+    pub apart: Option<Camera>,
     /// Times which the scale shall change about the middle, as soon as a view knows what it shows.
     pub zoom: Option<f32>,
+    /// A box that shall fill the views, as soon as they know their sizes, mm.
+    pub frame: Option<[Point; 2]>,
+    /// Whether rulers and a grid are shown.
+    pub rulers: bool,
+    /// Outlines of neighbouring keyframes.
+    pub onion: Onion,
 }
 
 /// Which views are shown: one at least. What is hidden is not solved.
@@ -22,13 +37,24 @@ pub struct Look {
 pub enum Views {
     Both,
     Only(Plushie),
+    /// Both in one place: the realizable plushie, and the outline of the idealized one over it.
+    Overlay,
 }
 
 impl Views {
+    /// Whether a plushie is seen, and so has to be solved.
     pub fn shows(self, plushie: Plushie) -> bool {
         match self {
-            Self::Both => true,
+            Self::Both | Self::Overlay => true,
             Self::Only(shown) => shown == plushie,
+        }
+    }
+
+    /// Whether a plushie has a view of its own.
+    pub fn has_place(self, plushie: Plushie) -> bool {
+        match self {
+            Self::Overlay => plushie == Plushie::Realizable,
+            _ => self.shows(plushie),
         }
     }
 
@@ -40,6 +66,7 @@ impl Views {
     pub fn with(self, plushie: Plushie, shown: bool) -> Self {
         let other = plushie.other();
         match (shown, self.shows(other)) {
+            (true, true) if self == Self::Overlay => self,
             (true, true) => Self::Both,
             (true, false) => Self::Only(plushie),
             (false, _) => Self::Only(other),
@@ -48,6 +75,27 @@ impl Views {
 }
 
 impl Look {
+    /// That of a view; `None` fits the body.
+    pub fn camera_of(&self, plushie: Plushie) -> Option<Camera> {
+        if self.linked || plushie == Plushie::Idealized { self.camera } else { self.apart }
+    }
+
+    pub(crate) fn set_camera(&mut self, plushie: Plushie, camera: Camera) {
+        let held = if self.linked || plushie == Plushie::Idealized { &mut self.camera } else { &mut self.apart };
+        *held = Some(camera);
+    }
+
+    /// Fits the body into the views.
+    pub(crate) fn fit(&mut self) {
+        (self.camera, self.apart, self.frame, self.zoom) = (None, None, None, None);
+    }
+
+    /// Lets each view have its own camera, or both that of the idealized one.
+    pub(crate) fn link(&mut self, linked: bool) {
+        self.linked = linked;
+        self.apart = self.camera;
+    }
+
     /// Changes the scale about the middle.
     pub(crate) fn zoom(&mut self, factor: f32) {
         self.zoom = Some(self.zoom.unwrap_or(1.0) * factor);
@@ -58,11 +106,17 @@ impl Default for Look {
     fn default() -> Self {
         Self {
             theme: Theme::Light,
-            still: false,
             shown: Shown::default(),
+            body: looks::Plush::NAME,
             views: Views::Both,
             camera: None,
+            linked: true,
+            apart: None,
             zoom: None,
+            frame: None,
+            rulers: false,
+            onion: Onion::default(),
+            still: false,
         }
     }
 }

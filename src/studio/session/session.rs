@@ -424,6 +424,7 @@ impl Session {
 impl Drop for Session {
     fn drop(&mut self) {
         self.discovery.cancel();
+        self.look.onion.clear();
         self.meshing.cancel();
         self.rigging.cancel();
         self.judging.cancel();

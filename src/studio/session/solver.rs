@@ -5,6 +5,7 @@ use crate::engine::worker::Worker;
 use crate::engine::{NEAR_EQUILIBRIUM, Quality, Request, Setpoint, Shape};
 use crate::studio::jobs::Wake;
 use std::sync::Arc;
+use std::time::Duration;
 
 /// The newest good shapes.
 #[derive(Default)]
@@ -16,6 +17,7 @@ pub struct Shapes {
 /// The worker, what it was asked and what is known.
 pub struct Solver {
     pub worker: Worker,
+    wake: Wake,
     pub shapes: Shapes,
     /// Of the user's, not of the document.
     pub quality: Quality,
@@ -33,7 +35,11 @@ pub struct Solver {
 impl Solver {
     pub fn new(design: &Arc<Design>, wake: Wake) -> Self {
         Self {
-            worker: Worker::spawn(Box::new(move || wake())),
+            worker: Worker::spawn(Box::new({
+                let wake = wake.clone();
+                move || wake()
+            })),
+            wake,
             shapes: Shapes::default(),
             quality: Quality::Balanced,
             warning: None,
@@ -42,6 +48,12 @@ impl Solver {
             first_id: 0,
             answered_id: None,
         }
+    }
+
+    /// Lets every answer wait: what the window does with a slow solver is measured so.
+    pub fn delay(&mut self, by: Duration) {
+        let wake = self.wake.clone();
+        self.worker = Worker::late(Box::new(move || wake()), by);
     }
 
     /// Another document or mesh: what is known or still to come is not wanted.
@@ -70,6 +82,19 @@ impl Solver {
     pub fn next_quality(&mut self) {
         let next = Quality::ALL.into_iter().skip_while(|quality| *quality != self.quality).nth(1);
         self.quality = next.unwrap_or(Quality::ALL[0]);
+    }
+
+    /// Starts the solver's thread again where it has broken down, and asks again what was asked. Whether that was so.
+    pub fn revive(&mut self) -> bool {
+        if !self.worker.is_dead() {
+            return false;
+        }
+        let wake = self.wake.clone();
+        self.worker = Worker::spawn(Box::new(move || wake()));
+        if let Some(asked) = &self.asked {
+            self.worker.submit(asked.clone());
+        }
+        true
     }
 
     /// Takes what the worker has found for a body of so many nodes.
@@ -134,6 +159,23 @@ fn same_setpoint(a: &Setpoint, b: &Setpoint) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_thread_that_breaks_down_is_started_again_and_answers() {
+        let design = Arc::new(crate::studio::blank::design());
+        let mut solver = Solver::new(&design, Arc::new(|| ()));
+        assert!(!solver.revive());
+        solver.worker = Worker::mortal(Box::new(|| ()));
+        solver.ask(design.clone(), Setpoint::Targets(Vec::new()), [true, true]);
+        while !solver.worker.is_dead() {
+            std::thread::yield_now();
+        }
+        assert!(solver.revive() && !solver.worker.is_dead());
+        while solver.shapes.realizable.is_none() {
+            solver.take(design.mesh.nodes.len());
+            std::thread::yield_now();
+        }
+    }
 
     #[test]
     fn only_a_shape_far_from_equilibrium_is_worth_a_warning() {

@@ -133,7 +133,7 @@ fn a_hand_holds_the_body_a_target_or_the_picture() {
     // Beside the body the picture moves, and what was under the pointer stays there.
     tool.press(&canvas, [-50.0, 0.0], &mut actions);
     tool.drag(&canvas, &[[-40.0, 5.0]], &mut actions);
-    assert_eq!(actions, [Action::SetCamera(Camera { center: [110.0, 70.0], ..CAMERA })]);
+    assert_eq!(actions, [Action::SetCamera(Plushie::Idealized, Camera { center: [110.0, 70.0], ..CAMERA })]);
     let (mut tool, mut actions) = ((entry("tool.pin").make)(), Vec::new());
     tool.click(&canvas, [120.0, 70.0], false, &mut actions);
     tool.click(&canvas, [-50.0, 0.0], false, &mut actions);

@@ -18,7 +18,8 @@ pub fn show(ui: &Ui, canvas: &Canvas<'_>, plushie: Plushie) {
         (Plushie::Idealized, _) => ("Idealized", "muscle fibres".to_owned()),
         (Plushie::Realizable, None) => ("Realizable", networks_text(session)),
     };
-    let corner = rect.left_top() + Vec2::new(14.0, 10.0);
+    let beside = if session.look.rulers { super::rulers::WIDTH } else { 0.0 };
+    let corner = rect.left_top() + Vec2::new(14.0 + beside, 10.0 + beside);
     let text = ui.visuals().strong_text_color();
     let weak = ui.visuals().weak_text_color();
     let title = painter.text(corner, Align2::LEFT_TOP, title, FontId::proportional(15.0), text);
@@ -29,7 +30,7 @@ pub fn show(ui: &Ui, canvas: &Canvas<'_>, plushie: Plushie) {
         FontId::proportional(12.0),
         weak,
     );
-    scale_bar(ui, rect, camera);
+    scale_bar(ui, rect, camera, beside);
 }
 
 fn stage_name(stage: Stage) -> &'static str {
@@ -57,7 +58,7 @@ fn networks_text(session: &Session) -> String {
 }
 
 /// A length in mm, lower left.
-fn scale_bar(ui: &Ui, rect: Rect, camera: Camera) {
+fn scale_bar(ui: &Ui, rect: Rect, camera: Camera, beside: f32) {
     let Some(length_mm) = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 5000.0]
         .into_iter()
         .find(|mm| mm * camera.scale > 48.0)
@@ -67,7 +68,7 @@ fn scale_bar(ui: &Ui, rect: Rect, camera: Camera) {
     let painter = ui.painter_at(rect);
     let weak = ui.visuals().weak_text_color();
     let stroke = Stroke::new(1.5, weak);
-    let start = rect.left_bottom() + Vec2::new(14.0, -14.0);
+    let start = rect.left_bottom() + Vec2::new(14.0 + beside, -14.0);
     let end: Pos2 = start + Vec2::new(length_mm * camera.scale, 0.0);
     painter.line_segment([start, end], stroke);
     for p in [start, end] {

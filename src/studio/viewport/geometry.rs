@@ -5,6 +5,7 @@
 
 use crate::mesh::Mesh;
 use crate::outline::Point;
+use crate::picture::plush::Felt;
 use crate::picture::{Color, Item, Scene, Texture};
 use bytemuck::{Pod, Zeroable};
 use std::ops::Range;
@@ -46,6 +47,23 @@ pub struct Textured {
     pub place: [f32; 2],
 }
 
+/// A corner of a triangle of stuffed felt.
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Woolly {
+    /// mm.
+    pub position: [f32; 2],
+    /// At rest, mm: where the grain is.
+    pub rest: [f32; 2],
+    /// Of half the square of the height, mm.
+    pub slope: [f32; 2],
+    /// From the upper left corner of the texture, 0 to 1.
+    pub place: [f32; 2],
+    /// Half the square of the height, mm^2.
+    pub height: f32,
+    pub color: [u8; 4],
+}
+
 /// A run of primitives of one kind, in painting order.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Batch {
@@ -53,6 +71,8 @@ pub enum Batch {
     Fill(Range<u32>),
     /// Range of textured corners.
     Picture(Range<u32>),
+    /// Range of corners of felt, and whether the texture is on it.
+    Felt(Range<u32>, bool),
     /// Range of capsules.
     Capsules(Range<u32>),
 }
@@ -61,6 +81,7 @@ pub enum Batch {
 pub struct Geometry {
     pub corners: Vec<Corner>,
     pub textured: Vec<Textured>,
+    pub felt: Vec<Woolly>,
     /// On all of these: a scene has one texture at most.
     pub texture: Option<Arc<Texture>>,
     pub capsules: Vec<Capsule>,
@@ -76,6 +97,11 @@ impl Geometry {
         for item in &scene.items {
             match item {
                 Item::Mesh { points, triangles, color } => geometry.fill(points, triangles, *color),
+                Item::Cells { points, triangles, colors } => geometry.cells(points, triangles, colors),
+                Item::Plush(felt) => {
+                    geometry.felt(felt);
+                    geometry.texture = felt.texture.as_ref().map(|(texture, _)| texture.clone());
+                }
                 Item::Picture { points, places, triangles, texture } => {
                     geometry.picture(points, places, triangles);
                     geometry.texture = Some(texture.clone());
@@ -107,6 +133,32 @@ impl Geometry {
             }
         }
         self.note(Batch::Fill(start..self.corners.len() as u32));
+    }
+
+    fn cells(&mut self, points: &[Point], triangles: &[[usize; 3]], colors: &[Color]) {
+        let start = self.corners.len() as u32;
+        let whole = triangles.iter().zip(colors).filter(|(t, _)| t.iter().all(|&n| n < points.len()));
+        self.corners.extend(whole.flat_map(|(t, &color)| {
+            let color = bytes(color);
+            t.map(|node| Corner { position: f32s(points[node]), outward: [0.0; 2], coverage: 1.0, color })
+        }));
+        self.note(Batch::Fill(start..self.corners.len() as u32));
+    }
+
+    fn felt(&mut self, felt: &Felt) {
+        let (start, silhouette) = (self.felt.len() as u32, &felt.silhouette);
+        let color = bytes(felt.color);
+        let place = |n: usize| felt.texture.as_ref().map_or([0.0; 2], |(_, places)| f32s(places[n]));
+        let corner = |n: usize| Woolly {
+            position: f32s(felt.points[n]),
+            rest: f32s(silhouette.rest[n]),
+            slope: felt.slopes[n],
+            place: place(n),
+            height: silhouette.heights[n] as f32,
+            color,
+        };
+        self.felt.extend(silhouette.triangles.iter().flat_map(|t| t.map(corner)));
+        self.note(Batch::Felt(start..self.felt.len() as u32, felt.texture.is_some()));
     }
 
     fn picture(&mut self, points: &[Point], places: &[Point], triangles: &[[usize; 3]]) {

@@ -3,9 +3,8 @@
 use crate::mesh::BodyPoint;
 use crate::operations::network::Part;
 use crate::outline::Point;
-use crate::studio::action::{Action, Actions};
+use crate::studio::action::Actions;
 use crate::studio::canvas::{Canvas, Ground, Hit, act, navigate};
-use crate::studio::commands::view::FIT;
 use crate::studio::commands::{self, Place};
 use crate::studio::panels::{buttons, tendons};
 use crate::studio::session::Session;
@@ -31,9 +30,6 @@ pub fn interact(
     if let Some(at) = *menu_at {
         let hits = [canvas.strung(at).map_or(Hit::Nothing, Hit::Part), canvas.hit(at)];
         response.context_menu(|ui| menu(ui, canvas.session, hits, actions));
-    }
-    if response.double_clicked() {
-        actions.push(Action::Run(&FIT, Hit::Nothing));
     }
     pointer.map(|p| tool.under(canvas, p))
 }

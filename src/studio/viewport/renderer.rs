@@ -1,6 +1,6 @@
 //! Draws plushies with wgpu inside egui's pass. Knows nothing of panels, tools or designs.
 
-use super::geometry::{Batch, Capsule, Corner, Geometry, Textured};
+use super::geometry::{Batch, Capsule, Corner, Geometry, Textured, Woolly};
 use super::skin::Skin;
 use crate::studio::canvas::Camera;
 use bytemuck::{Pod, Zeroable};
@@ -29,6 +29,8 @@ pub struct ViewCallback {
 struct Renderer {
     fill: wgpu::RenderPipeline,
     picture: wgpu::RenderPipeline,
+    felt: wgpu::RenderPipeline,
+    felt_picture: wgpu::RenderPipeline,
     capsule: wgpu::RenderPipeline,
     layout: wgpu::BindGroupLayout,
     skin: Skin,
@@ -41,6 +43,7 @@ struct View {
     bind_group: wgpu::BindGroup,
     corners: wgpu::Buffer,
     textured: wgpu::Buffer,
+    felt: wgpu::Buffer,
     capsules: wgpu::Buffer,
     /// What the buffers hold.
     geometry: Arc<Geometry>,
@@ -56,6 +59,32 @@ struct Uniform {
     pixels_per_point: f32,
     linear_target: f32,
 }
+
+/// Corners and capsules as the shaders read them.
+const CORNER: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
+    array_stride: size_of::<Corner>() as u64,
+    step_mode: wgpu::VertexStepMode::Vertex,
+    attributes: &wgpu::vertex_attr_array![0 => Float32x2, 1 => Float32x2, 2 => Float32, 3 => Unorm8x4],
+};
+const TEXTURED: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
+    array_stride: size_of::<Textured>() as u64,
+    step_mode: wgpu::VertexStepMode::Vertex,
+    attributes: &wgpu::vertex_attr_array![0 => Float32x2, 1 => Float32x2],
+};
+const WOOLLY: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
+    array_stride: size_of::<Woolly>() as u64,
+    step_mode: wgpu::VertexStepMode::Vertex,
+    attributes: &wgpu::vertex_attr_array![
+        0 => Float32x2, 1 => Float32x2, 2 => Float32x2, 3 => Float32x2, 4 => Float32, 5 => Unorm8x4
+    ],
+};
+const CAPSULE: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
+    array_stride: size_of::<Capsule>() as u64,
+    step_mode: wgpu::VertexStepMode::Instance,
+    attributes: &wgpu::vertex_attr_array![
+        0 => Float32x2, 1 => Float32x2, 2 => Float32, 3 => Float32, 4 => Unorm8x4
+    ],
+};
 
 impl CallbackTrait for ViewCallback {
     fn prepare(
@@ -137,28 +166,13 @@ impl Renderer {
                 cache: None,
             })
         };
-        let corner = wgpu::VertexBufferLayout {
-            array_stride: size_of::<Corner>() as u64,
-            step_mode: wgpu::VertexStepMode::Vertex,
-            attributes: &wgpu::vertex_attr_array![0 => Float32x2, 1 => Float32x2, 2 => Float32, 3 => Unorm8x4],
-        };
-        let textured = wgpu::VertexBufferLayout {
-            array_stride: size_of::<Textured>() as u64,
-            step_mode: wgpu::VertexStepMode::Vertex,
-            attributes: &wgpu::vertex_attr_array![0 => Float32x2, 1 => Float32x2],
-        };
-        let capsule = wgpu::VertexBufferLayout {
-            array_stride: size_of::<Capsule>() as u64,
-            step_mode: wgpu::VertexStepMode::Instance,
-            attributes: &wgpu::vertex_attr_array![
-                0 => Float32x2, 1 => Float32x2, 2 => Float32, 3 => Float32, 4 => Unorm8x4
-            ],
-        };
         let (list, strip) = (wgpu::PrimitiveTopology::TriangleList, wgpu::PrimitiveTopology::TriangleStrip);
         Self {
-            fill: pipeline("fill", plain, corner, list),
-            picture: pipeline("picture", &[Some(&layout), Some(&skin.layout)], textured, list),
-            capsule: pipeline("capsule", plain, capsule, strip),
+            fill: pipeline("fill", plain, CORNER, list),
+            picture: pipeline("picture", &[Some(&layout), Some(&skin.layout)], TEXTURED, list),
+            felt: pipeline("felt", plain, WOOLLY, list),
+            felt_picture: pipeline("felt_picture", &[Some(&layout), Some(&skin.layout)], WOOLLY, list),
+            capsule: pipeline("capsule", plain, CAPSULE, strip),
             layout,
             skin,
             linear_target: if format.is_srgb() { 1.0 } else { 0.0 },
@@ -181,6 +195,7 @@ impl Renderer {
         if !Arc::ptr_eq(&view.geometry, &call.geometry) {
             upload(device, queue, &mut view.corners, bytemuck::cast_slice(&call.geometry.corners));
             upload(device, queue, &mut view.textured, bytemuck::cast_slice(&call.geometry.textured));
+            upload(device, queue, &mut view.felt, bytemuck::cast_slice(&call.geometry.felt));
             upload(device, queue, &mut view.capsules, bytemuck::cast_slice(&call.geometry.capsules));
             view.geometry = call.geometry.clone();
         }
@@ -204,6 +219,18 @@ impl Renderer {
                     pass.set_pipeline(&self.picture);
                     pass.set_bind_group(1, skin, &[]);
                     pass.set_vertex_buffer(0, view.textured.slice(..));
+                    pass.draw(range.clone(), 0..1);
+                }
+                Batch::Felt(range, false) => {
+                    pass.set_pipeline(&self.felt);
+                    pass.set_vertex_buffer(0, view.felt.slice(..));
+                    pass.draw(range.clone(), 0..1);
+                }
+                Batch::Felt(range, true) => {
+                    let Some(skin) = self.skin.bind_group() else { continue };
+                    pass.set_pipeline(&self.felt_picture);
+                    pass.set_bind_group(1, skin, &[]);
+                    pass.set_vertex_buffer(0, view.felt.slice(..));
                     pass.draw(range.clone(), 0..1);
                 }
                 Batch::Capsules(range) => {
@@ -234,6 +261,7 @@ impl View {
             bind_group,
             corners: vertex_buffer(device, 0),
             textured: vertex_buffer(device, 0),
+            felt: vertex_buffer(device, 0),
             capsules: vertex_buffer(device, 0),
             geometry: Arc::default(),
         }

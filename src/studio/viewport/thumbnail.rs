@@ -7,7 +7,7 @@ use crate::engine::Shape;
 use crate::outline::polygon;
 use crate::picture::layers::{Layer, Pins};
 use crate::picture::palette::Theme;
-use crate::picture::{Layers, Shown, Stage, Subject};
+use crate::picture::{Layers, Shown, Silhouette, Stage, Subject};
 use crate::rigging::Proposal;
 use crate::studio::canvas::Camera;
 use crate::studio::session::Session;
@@ -42,7 +42,8 @@ impl Thumbnails {
             Arc::ptr_eq(&made.design, design) && Arc::ptr_eq(&made.proposal, proposal) && made.theme == theme
         });
         if !fresh {
-            let pictures = Stage::ALL.map(|stage| Arc::new(picture(design, proposal, theme, stage)));
+            let silhouette = Arc::new(Silhouette::of(design));
+            let pictures = Stage::ALL.map(|stage| Arc::new(picture(design, &silhouette, proposal, theme, stage)));
             self.made = Some(Made { design: design.clone(), proposal: proposal.clone(), theme, pictures });
         }
         let Some(made) = &self.made else { return };
@@ -58,11 +59,17 @@ impl Thumbnails {
 }
 
 /// The rest shape with the stage on it.
-fn picture(design: &Arc<Design>, proposal: &Proposal, theme: Theme, stage: Stage) -> Geometry {
+fn picture(
+    design: &Arc<Design>,
+    silhouette: &Arc<Silhouette>,
+    proposal: &Proposal,
+    theme: Theme,
+    stage: Stage,
+) -> Geometry {
     let rest = Arc::new(Shape { nodes: design.mesh.nodes.clone(), ..Shape::default() });
     let shown = Shown::default().with(Pins::NAME, false);
     let stage = proposal.paper.as_ref().map(|(_, stages)| (stage, stages));
-    let subject = Subject { theme, shown: &shown, stage, ..Subject::new(design, &rest) };
+    let subject = Subject { theme, shown: &shown, stage, ..Subject::with(design, silhouette, &rest) };
     let mut geometry = Geometry::of(&Layers::of(&subject).scene());
     for capsule in &mut geometry.capsules {
         capsule.radius *= THINNER;

@@ -1,21 +1,22 @@
-//! Both views side by side.
+//! Both views side by side, one alone, or one over the other.
 
-use super::picture::Picture;
-use super::{captions, loads, pointer, strings};
-use crate::design::Design;
+use super::picture::{Drawn, Picture};
+use super::silhouettes::Silhouettes;
+use super::{bars, captions, loads, pointer, rulers, strings, strip};
 use crate::engine::Shape;
 use crate::outline::{Point, polygon};
 use crate::studio::action::Actions;
 use crate::studio::canvas::{Camera, Canvas, Ground, Hit, Plushie};
 use crate::studio::session::{Session, Views};
 use crate::studio::tools::Tool;
-use eframe::egui::{Rect, Role, Sense, Ui, Vec2, WidgetInfo, pos2};
+use eframe::egui::{Pos2, Rect, Role, Sense, Ui, Vec2, WidgetInfo, pos2};
 use std::sync::Arc;
 
 /// The state that the views keep from frame to frame.
 #[derive(Default)]
 pub struct State {
     views: [View; 2],
+    silhouettes: Silhouettes,
     /// What is under the pointer, marked in both views.
     hovered: Option<Hit>,
 }
@@ -23,23 +24,35 @@ pub struct State {
 #[derive(Default)]
 struct View {
     picture: Picture,
+    /// Where it was in the last frame, and what it showed.
+    seen: Option<(Rect, Camera)>,
     /// Where the context menu was opened, mm.
     menu_at: Option<Point>,
+}
+
+impl State {
+    /// Where a place in mm was on the screen in the last frame.
+    pub fn on_screen(&self, plushie: Plushie, p: Point) -> Option<Pos2> {
+        let (rect, camera) = self.views[plushie as usize].seen?;
+        Some(camera.to_screen(rect, p))
+    }
 }
 
 /// Shows both views side by side, or the one that is not hidden.
 pub fn show(ui: &mut Ui, session: &Session, state: &mut State, tool: &mut dyn Tool, actions: &mut Actions) {
     let area = ui.available_rect_before_wrap();
     let views = session.look.views;
+    state.silhouettes.follow(session.design());
     let mut hovered = None;
     for (plushie, rect) in rects(ui, views, area) {
-        if !views.shows(plushie) {
+        if !views.has_place(plushie) {
+            state.views[plushie as usize].seen = None;
             continue;
         }
-        let camera = session.look.camera.unwrap_or_else(|| fit(session.design(), rect.size()));
+        let camera = session.look.camera_of(plushie).unwrap_or_else(|| fit(session, rect.size()));
         let shape = displayed(session, plushie);
         let canvas = Canvas { session, rect, camera, ground: Ground::Plushie(plushie, shape.map(Arc::as_ref)) };
-        let hit = view(ui, &canvas, (plushie, shape.filter(|_| session.gpu)), state, tool, actions);
+        let hit = view(ui, &canvas, (plushie, shape), state, tool, actions);
         hovered = hovered.or(hit);
     }
     if hovered != state.hovered {
@@ -47,13 +60,14 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut State, tool: &mut dyn To
         // The other view was drawn before this was known.
         ui.ctx().request_repaint();
     }
+    strip::show(ui, session, area, actions);
     ui.allocate_rect(area, Sense::hover());
 }
 
 /// Where the views are; one that is hidden leaves its place to the other.
 fn rects(ui: &Ui, views: Views, area: Rect) -> [(Plushie, Rect); 2] {
     let (left, right) = match views {
-        Views::Only(_) => (area, area),
+        Views::Only(_) | Views::Overlay => (area, area),
         Views::Both => {
             let middle = area.center().x.round();
             ui.painter().vline(middle, area.y_range(), ui.visuals().widgets.noninteractive.bg_stroke);
@@ -82,16 +96,29 @@ fn view(
     if canvas.rect.width() < 2.0 || canvas.rect.height() < 2.0 {
         return None;
     }
-    let view = &mut state.views[plushie as usize];
-    if let Some(shape) = drawn {
-        view.picture.paint(ui, canvas, plushie, shape);
+    if canvas.session.look().rulers {
+        rulers::grid(ui, canvas);
     }
+    let view = &mut state.views[plushie as usize];
+    view.seen = Some((canvas.rect, canvas.camera));
+    let bar = drawn.and_then(|shape| {
+        let beside = displayed(canvas.session, plushie.other());
+        let beside = beside.filter(|_| canvas.session.look().views.shows(plushie.other()));
+        let silhouette = state.silhouettes.newest()?;
+        view.picture.paint(ui, canvas, &Drawn { plushie, shape, beside, silhouette })
+    });
     let hit = pointer::interact(ui, canvas, tool, &mut view.menu_at, &response, actions);
     strings::show(ui, canvas);
     loads::show(ui, canvas);
     pointer::highlight(ui, canvas, state.hovered);
     tool.paint(canvas, &ui.painter_at(canvas.rect), response.hover_pos());
+    if canvas.session.look().rulers {
+        rulers::show(ui, canvas, response.hover_pos());
+    }
     captions::show(ui, canvas, plushie);
+    if let Some(bar) = bar {
+        bars::show(ui, canvas, &bar);
+    }
     hit
 }
 
@@ -114,7 +141,9 @@ fn displayed(session: &Session, plushie: Plushie) -> Option<&Arc<Shape>> {
     }
 }
 
-fn fit(design: &Design, size: Vec2) -> Camera {
-    let (low, high) = polygon::bounding_box(&design.mesh.nodes);
-    Camera::fit(low, high, size)
+/// The body at rest, as large as the view allows beside what stands over it.
+fn fit(session: &Session, size: Vec2) -> Camera {
+    let (low, high) = polygon::bounding_box(&session.design().mesh.nodes);
+    let rulers = if session.look().rulers { 2.0 * rulers::WIDTH } else { 0.0 };
+    Camera::close(low, high, (size - Vec2::splat(rulers)).max(Vec2::splat(1.0)))
 }

@@ -10,4 +10,5 @@ mod outline;
 mod posing;
 mod tendons;
 mod timeline;
+mod views;
 mod winding;

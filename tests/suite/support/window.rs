@@ -149,7 +149,7 @@ pub fn press(window: &mut Window, modifiers: Modifiers, key: Key) {
 /// Where a point of the body is on the screen; both views fit the bar in the same way.
 pub fn on_screen(window: &Window, view: &str, p: [f64; 2]) -> Pos2 {
     let rect = window.get_by_label(view).rect();
-    let scale = (rect.width() / (120.0 * 1.32)).min(rect.height() / (40.0 * 1.32));
+    let scale = (rect.width() / (120.0 * 1.12)).min(rect.height() / (40.0 * 1.12));
     let center = rect.center();
     pos2(center.x + (p[0] as f32 - 60.0) * scale, center.y - (p[1] as f32 - 20.0) * scale)
 }

@@ -2,25 +2,13 @@
 
 use super::*;
 use crate::picture::{Color, Item, Scene, Texture};
+use crate::studio::offscreen::finish;
 use eframe::egui::vec2;
 use image::{Rgba, RgbaImage};
-use std::pin::pin;
-use std::task::{Context, Poll, Waker};
 
 /// Side of the picture, pixels: a row is as long as copies from the card must be.
 const SIDE: u32 = 64;
 const FELT: Color = Color(0, 120, 0, 255);
-
-/// The future of an adapter or a device, which is ready at once or after a little asking.
-fn finish<T>(future: impl Future<Output = T>) -> T {
-    let mut future = pin!(future);
-    loop {
-        if let Poll::Ready(done) = future.as_mut().poll(&mut Context::from_waker(Waker::noop())) {
-            return done;
-        }
-        std::thread::yield_now();
-    }
-}
 
 /// What a view of `geometry` shows, 1 mm a pixel, its middle in the origin.
 fn drawn(geometry: Geometry) -> Option<RgbaImage> {
@@ -99,4 +87,42 @@ fn a_texture_is_mapped_by_its_places_over_the_felt() {
         }
     }
     assert_eq!(shown.get_pixel(2, 2).0, [0, 0, 0, 255]);
+}
+
+#[test]
+fn felt_is_lit_as_the_formula_says() {
+    use crate::design::Design;
+    use crate::mesh::Mesh;
+    use crate::outline::Outline;
+    use crate::picture::Silhouette;
+    use crate::picture::plush::{Felt, shade};
+    let ring = (0..40).map(|i| std::f64::consts::TAU * f64::from(i) / 40.0).map(|a| [28.0 * a.cos(), 28.0 * a.sin()]);
+    let outline = Outline { outer: ring.collect(), holes: Vec::new() };
+    let mesh = crate::mesh::generate(&outline, 60).unwrap();
+    let silhouette = Arc::new(Silhouette::of(&Design::new("disc", outline, mesh)));
+    // A quarter of a picture on it, the rest is bare.
+    let texture = Arc::new(Texture::of(RgbaImage::from_pixel(8, 8, Rgba([40, 60, 200, 255]))));
+    let places: Vec<_> = silhouette.rest.iter().map(|p| [p[0] / 28.0, p[1] / 28.0]).collect();
+    let points = silhouette.rest.clone();
+    let felt = Felt::of(silhouette.clone(), points.clone(), Color(200, 170, 120, 255), Some((texture, places)));
+    let Some(shown) = drawn(Geometry::of(&Scene { items: vec![Item::Plush(felt.clone())] })) else {
+        eprintln!("no graphics adapter: nothing was drawn");
+        return;
+    };
+    let cells = Mesh::from((&*silhouette, points));
+    for (x, y) in [(32, 32), (20, 25), (44, 40), (32, 10), (12, 40), (50, 20), (40, 25)] {
+        let p = [f64::from(x) + 0.5 - 32.0, 32.0 - f64::from(y) - 0.5];
+        let at = cells.locate(p, &cells.nodes).unwrap();
+        let corners = cells.triangles[at.triangle];
+        let mean =
+            |of: &dyn Fn(usize) -> f32| -> f32 { corners.iter().zip(at.weights).map(|(&n, w)| w as f32 * of(n)).sum() };
+        let slope = [0, 1].map(|k| mean(&|n| felt.slopes[n][k]));
+        let height = mean(&|n| silhouette.heights[n] as f32);
+        let covered = p[0] > 0.0 && p[1] > 0.0;
+        let base = if covered { [40.0, 60.0, 200.0] } else { [200.0, 170.0, 120.0] }.map(|c: f32| c / 255.0);
+        let expected = shade(base, slope, height, p.map(|v| v as f32), 1.0).map(|c| 255.0 * c);
+        let found = shown.get_pixel(x, y).0;
+        let far = expected.iter().zip(found).map(|(e, f)| (e - f32::from(f)).abs()).fold(0.0, f32::max);
+        assert!(far < 4.0, "{x} {y}: {found:?}, not {expected:?}");
+    }
 }
