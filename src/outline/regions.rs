@@ -170,6 +170,25 @@ mod tests {
     }
 
     #[test]
+    fn thousands_of_strokes_unite_to_what_they_unite_to_all_at_once() {
+        let mut state = 7_u64;
+        let mut random = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        let mut shapes = vec![vec![square(20.0, 20.0, 60.0)]];
+        shapes.extend((0..6000).map(|_| vec![square(100.0 * random(), 100.0 * random(), 0.5 + random())]));
+        // A hole stays one where nothing covers it.
+        shapes.push(vec![square(200.0, 0.0, 10.0), square(203.0, 3.0, 4.0).into_iter().rev().collect()]);
+        assert!(shapes.iter().flatten().map(Vec::len).sum::<usize>() > BATCHED_FROM);
+        let at_once = resolve(&shapes.concat(), FillRule::NonZero).unwrap();
+        let batched = union(shapes).unwrap();
+        assert!((area(&batched) - area(&at_once)).abs() < 1e-6, "{} {}", area(&batched), area(&at_once));
+        assert!(unlike(&batched, &at_once) < 1e-6);
+        assert_eq!(batched.len(), at_once.len());
+    }
+
+    #[test]
     fn a_scribble_is_refused_and_a_fine_circle_is_not() {
         let mut state = 1_u64;
         let mut random = || {

@@ -261,4 +261,30 @@ mod tests {
         assert!(pinches(&joined).is_empty());
         assert!((regions::area(&joined) - 200.0).abs() < 1.0);
     }
+
+    /// A disc of radius 50 with so many hairs of 0.6 by 20 around it.
+    fn hairy(count: usize) -> Shapes {
+        let ring = |n: usize, r: f64| -> Vec<Point> {
+            (0..n).map(|i| std::f64::consts::TAU * i as f64 / n as f64).map(|a| [r * a.cos(), r * a.sin()]).collect()
+        };
+        let hair = |i: usize| {
+            let a = std::f64::consts::TAU * i as f64 / count as f64;
+            let (along, across) = ([a.cos(), a.sin()], [-a.sin(), a.cos()]);
+            let at = |r: f64, w: f64| [r * along[0] + w * across[0], r * along[1] + w * across[1]];
+            vec![vec![at(40.0, -0.3), at(70.0, -0.3), at(70.0, 0.3), at(40.0, 0.3)]]
+        };
+        regions::union(std::iter::once(vec![ring(400, 50.0)]).chain((0..count).map(hair)).collect()).unwrap()
+    }
+
+    #[test]
+    fn much_hair_is_shaved_off_and_whiskers_stay() {
+        let disc = std::f64::consts::PI * 2500.0;
+        let (shaved, hairs) = shaved(&hairy(80), 1.4).unwrap().expect("hair");
+        assert_eq!((hairs, shaved.len()), (80, 1));
+        assert!((regions::area(&shaved) / disc - 1.0).abs() < 0.01, "{}", regions::area(&shaved));
+        let (low, high) = regions::bounding_box(&shaved);
+        assert!(high[0] - low[0] < 103.0 && high[1] - low[1] < 103.0, "{low:?} {high:?}");
+        assert!(super::shaved(&hairy(12), 1.4).unwrap().is_none());
+        assert!(super::shaved(&hairy(0), 1.4).unwrap().is_none());
+    }
 }

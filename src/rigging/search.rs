@@ -325,3 +325,37 @@ fn verified(design: &Design, fit: &Fit, sewn: bool, cancel: &AtomicBool) -> (Des
     let poses = poses.collect();
     (with, poses)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A design by its name, with poses of (error, pull), the error at rest being 0.2.
+    fn candidate(name: &str, poses: &[(f64, f64)]) -> (Design, Vec<Verified>) {
+        let mut design = crate::design::testing::sample();
+        name.clone_into(&mut design.name);
+        let pose = |&(error, pull_n): &(f64, f64)| {
+            let sewn = Some(Sewn { median: error, worst: error });
+            Verified { name: "pose".into(), error, real: error, sewn, rest: 0.2, pull_n }
+        };
+        (design, poses.iter().map(pose).collect())
+    }
+
+    #[test]
+    fn of_rigs_that_nobody_can_tell_apart_the_one_that_pulls_least_is_chosen() {
+        let all = || {
+            vec![
+                candidate("worse", &[(0.0200, 1.0), (0.0180, 1.0)]),
+                candidate("best", &[(0.0100, 50.0), (0.0080, 9.0)]),
+                candidate("alike", &[(0.0115, 20.0), (0.0095, 30.0)]),
+                candidate("worse in one pose", &[(0.0105, 2.0), (0.0104, 2.0)]),
+            ]
+        };
+        assert_eq!(chosen(all(), true).unwrap().0.name, "alike");
+        assert_eq!(chosen(all(), false).unwrap().0.name, "best");
+        assert!(chosen(Vec::new(), true).is_none());
+        // One that has no figure is the last choice.
+        let none = vec![candidate("none", &[(f64::INFINITY, 0.0)]), candidate("some", &[(0.1, 5.0)])];
+        assert_eq!(chosen(none, true).unwrap().0.name, "some");
+    }
+}
