@@ -27,6 +27,10 @@ const HALVINGS: usize = 6;
 /// Ends of which no proof holds, at most: each costs a few hundred states, and a body of which so many are not reached snaps wherever it is wound.
 const MOST_UNPROVED: usize = 6;
 
+/// Factorisations of walks that may lead to no state of theirs: a snap costs up to three hundred, a body that crumples ten thousand, each as much as
+/// several others since its forces hardly ever balance.
+const MOST_WASTED: usize = 500;
+
 /// The bottom of a valley on a line.
 struct Valley {
     posture: Posture,
@@ -93,6 +97,7 @@ pub struct Search {
     polished: usize,
     repeats: usize,
     unproved: usize,
+    wasted: usize,
     stage: Stage,
     best: Posture,
     converged: bool,
@@ -123,6 +128,7 @@ impl Search {
             polished: 0,
             repeats: 0,
             unproved: 0,
+            wasted: 0,
             stage: if count == 0 { Stage::Done } else { Stage::Walking },
             best: origin.clone(),
             converged: count == 0,
@@ -198,7 +204,7 @@ impl Search {
     }
 
     fn walk_on(&mut self, question: &mut Question, stop: &dyn Fn() -> bool) -> Stage {
-        if self.walk.is_none() && self.walked < self.care.walking {
+        if self.walk.is_none() && self.walked < self.care.walking && self.wasted < MOST_WASTED {
             let next = self.rays.pop_front();
             self.walk = next.map(|ray| Walk::new(&self.origin, ray.end, self.size, self.care.pace));
         }
@@ -207,7 +213,8 @@ impl Search {
             return self.next_valley(question, stop);
         };
         let (valley, spent) = walk.step(question, stop);
-        let over = walk.is_over() || self.walked + spent >= self.care.walking;
+        let wasted = self.wasted + walk.wasted;
+        let over = walk.is_over() || self.walked + spent >= self.care.walking || wasted >= MOST_WASTED;
         self.walked += spent;
         self.factorizations += spent;
         if let Some(posture) = valley {
@@ -215,6 +222,7 @@ impl Search {
             self.valleys.push_back(Valley { posture, parts });
         }
         if over {
+            self.wasted = wasted;
             self.walk = None;
         }
         Stage::Walking

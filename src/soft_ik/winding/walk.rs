@@ -50,6 +50,8 @@ pub struct Walk {
     /// States in a row in which forces do not balance, and snaps.
     lost: usize,
     snaps: usize,
+    /// Factorisations of states that were not kept, or in which forces do not balance.
+    pub wasted: usize,
     pace: Pace,
     /// Largest move of a node in a step, length.
     stride: f64,
@@ -67,6 +69,7 @@ impl Walk {
             falling: false,
             lost: 0,
             snaps: 0,
+            wasted: 0,
             pace,
             stride: pace.stride * size,
         }
@@ -80,7 +83,7 @@ impl Walk {
     /// the factorisations spent. What is returned lies within the last stride of the bottom.
     pub fn step(&mut self, question: &mut Question, stop: &dyn Fn() -> bool) -> (Option<Posture>, usize) {
         let mut spent = 0;
-        let (next, t, moved) = loop {
+        let (next, t, moved, last_spent) = loop {
             let t = if self.t + 1.25 * self.step >= 1.0 { 1.0 } else { self.t + self.step };
             let beta: Vec<f64> = if t == 1.0 {
                 self.to.clone()
@@ -92,11 +95,12 @@ impl Walk {
             spent += count;
             let moved = distance(&next.x, &self.now.x);
             if moved <= TOO_FAR * self.stride || t - self.t <= SHORTEST_STEP || stop() {
-                break (next, t, moved);
+                break (next, t, moved, count);
             }
             self.step = ((t - self.t) * (AIM * self.stride / moved).max(0.25)).max(SHORTEST_STEP);
         };
         self.lost = if next.in_equilibrium() { 0 } else { self.lost + 1 };
+        self.wasted += if self.lost == 0 { spent - last_spent } else { spent };
         self.snaps += (moved > TOO_FAR * self.stride) as usize;
         let longer = (AIM * self.stride / moved.max(f64::MIN_POSITIVE)).clamp(1.0 / GROWTH, GROWTH);
         self.step = ((t - self.t) * longer).clamp(SHORTEST_STEP, self.pace.longest);

@@ -18,6 +18,8 @@ use eframe::egui::{Align, Button, ComboBox, DragValue, Layout, RichText, ScrollA
 
 /// A target that even the fibres miss by more than this part of the body length cannot be reached: what a maker sees.
 const OUT_OF_REACH: f64 = 0.02;
+const OUT_OF_REACH_TIP: &str = "Out of reach: even with all its fibres the body does not come nearer, as the other targets and the pins are. Move the goal \
+                                nearer, take a pin out, or give this target more weight";
 /// Weights that are offered.
 const WEIGHTS: std::ops::RangeInclusive<f64> = 0.01..=100.0;
 
@@ -79,7 +81,7 @@ fn row(ui: &mut Ui, session: &Session, pose: usize, index: usize, target: &Targe
         let selected = session.picked.selection == Selection::Target(index) || session.group().has(handle);
         let name = format!("Target {}", index + 1);
         // Text on the right, even none, moves the name to the left, in line with the poses above.
-        let button = Button::selectable(selected, &name).right_text("").min_size(vec2(78.0, 24.0));
+        let button = Button::selectable(selected, &name).right_text("").min_size(vec2(70.0, 24.0));
         let response =
             ui.add(button).accessible_name(&name).on_hover_text("Click to select, with Ctrl or Shift beside others");
         if response.clicked() {
@@ -96,15 +98,15 @@ fn row(ui: &mut Ui, session: &Session, pose: usize, index: usize, target: &Targe
             if response.on_hover_text("Weight: how much this target counts").changed() {
                 actions.push(Action::Live(Change::WeighTarget { pose, index, weight }));
             }
+            // In the row, so that nothing moves away from under the pointer while the body settles.
+            if let Some(missed) = missed {
+                let text = RichText::new(format!("{:.0} mm", missed.ceil())).small().color(ui.visuals().warn_fg_color);
+                ui.label(text)
+                    .on_hover_text(OUT_OF_REACH_TIP)
+                    .accessible_name(format!("Out of reach by {:.0} mm", missed.ceil()));
+            }
         });
     });
-    if let Some(missed) = missed {
-        let text = RichText::new(format!("Out of reach by {:.0} mm", missed.ceil())).small();
-        ui.label(text.color(ui.visuals().warn_fg_color)).on_hover_text(
-            "Even with all its fibres the body does not come there, as the other targets and the pins are. Move the goal nearer, take a pin \
-             out, or give this target more weight",
-        );
-    }
 }
 
 /// How far a target's point of the body is from its goal even in the idealized plushie, mm, where that can be seen.
