@@ -1,6 +1,6 @@
 //! Timelines from the command line: keyframes moved, stretched, copied, eased and fitted; films of them.
 
-use super::support::window::{bar, network};
+use super::support::{bar, network};
 use plushwright::design::{Design, Easing, Keyframe, file};
 use plushwright::motion::{Plan, TooFast};
 use std::path::Path;

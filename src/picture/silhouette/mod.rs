@@ -1,8 +1,8 @@
 //! The silhouette as it was drawn, tied to the mesh: smooth in every pose, however coarse the mesh is.
 //!
 //! A mesh follows its outline from node to node in straight lines. What is seen follows the drawn outline instead: each of its points
-//! is tied to the stretch of rim beside it ([`rim`]) and goes with that. The felt within is cut into cells between those points and the
-//! inside of the mesh ([`cells`]), with a height over the plane as a stuffed body has one ([`height`]).
+//! is tied to the stretch of rim beside it (`rim`) and goes with that. The felt within is cut into cells between those points and the
+//! inside of the mesh (`cells`), with a height over the plane as a stuffed body has one (`height`).
 
 mod cells;
 mod height;

@@ -14,7 +14,7 @@ use crate::studio::commands::posing::{self, CLEAR_STARCH, MIRROR, PIN_MIDDLE, SN
 use crate::studio::icons::{self, Icon};
 use crate::studio::session::{Brush, Mode, Selection, Session};
 use crate::studio::tools::{RADIUS_MM, STARCH, taken};
-use eframe::egui::{Align, Button, ComboBox, DragValue, Layout, RichText, ScrollArea, Ui, vec2};
+use eframe::egui::{Align, Button, ComboBox, DragValue, Layout, RichText, Role, ScrollArea, Ui, WidgetInfo, vec2};
 
 /// A target that even the fibres miss by more than this part of the body length cannot be reached: what a maker sees.
 const OUT_OF_REACH: f64 = 0.02;
@@ -101,9 +101,9 @@ fn row(ui: &mut Ui, session: &Session, pose: usize, index: usize, target: &Targe
             // In the row, so that nothing moves away from under the pointer while the body settles.
             if let Some(missed) = missed {
                 let text = RichText::new(format!("{:.0} mm", missed.ceil())).small().color(ui.visuals().warn_fg_color);
-                ui.label(text)
-                    .on_hover_text(OUT_OF_REACH_TIP)
-                    .accessible_name(format!("Out of reach by {:.0} mm", missed.ceil()));
+                let response = ui.label(text).on_hover_text(OUT_OF_REACH_TIP);
+                let spoken = format!("Out of reach by {:.0} mm", missed.ceil());
+                response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &spoken));
             }
         });
     });

@@ -67,6 +67,32 @@ impl Random {
     }
 }
 
+/// A bar of 6 x 2 squares, 120 x 40 mm, its left end pinned.
+pub fn bar() -> Design {
+    let (across, up) = (7, 3);
+    let nodes = (0..up).flat_map(|j| (0..across).map(move |i| [20.0 * i as f64, 20.0 * j as f64])).collect();
+    let mut triangles = Vec::new();
+    for j in 0..up - 1 {
+        for i in 0..across - 1 {
+            let [a, b, c, d] = [j * across + i, j * across + i + 1, (j + 1) * across + i + 1, (j + 1) * across + i];
+            triangles.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    let outer = vec![[0.0, 0.0], [120.0, 0.0], [120.0, 40.0], [0.0, 40.0]];
+    let mut design = Design::new("Bar", Outline { outer, holes: Vec::new() }, Mesh { nodes, triangles });
+    for node in [0, 7, 14] {
+        let at = design.mesh.node_point(node).unwrap();
+        design.pins.push(Pin::at_rest(at, 20.0));
+    }
+    design
+}
+
+/// A winch at the left end with a tendon along the top, as discovery might propose.
+pub fn network() -> Network {
+    let tendon = Tendon { routing: MaterialPoint::through(14..20), ratio: 1.0, slack_mm: 0.0 };
+    Network::new("winch 1", vec![tendon])
+}
+
 /// A `width` x `height` mm rectangle in `columns` x `rows` cells of two triangles.
 pub fn rectangle(width: f64, height: f64, columns: usize, rows: usize) -> Design {
     let node = |i: usize, j: usize| j * (columns + 1) + i;

@@ -1,12 +1,11 @@
 //! The window in tests, driven by accessible names: a harness on it, hands that click, drag and type, and a small design.
 
+pub use super::{bar, network};
 use eframe::egui::{Key, Modifiers, Pos2, pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
-use plushwright::design::{Design, MaterialPoint, Network, Pin, Tendon};
+use plushwright::design::{Design, MaterialPoint, Network, Tendon};
 use plushwright::engine::Shape;
-use plushwright::mesh::Mesh;
-use plushwright::outline::Outline;
 use plushwright::rigging::{PoseServed, Proposal, Sewn};
 use plushwright::studio::app::Studio;
 use plushwright::studio::session::{Services, Session};
@@ -19,32 +18,6 @@ use std::time::{Duration, Instant};
 const PATIENCE: Duration = Duration::from_secs(300);
 
 pub type Window = Harness<'static, Option<Studio>>;
-
-/// A bar of 6 x 2 squares, 120 x 40 mm, its left end pinned.
-pub fn bar() -> Design {
-    let (across, up) = (7, 3);
-    let nodes = (0..up).flat_map(|j| (0..across).map(move |i| [20.0 * i as f64, 20.0 * j as f64])).collect();
-    let mut triangles = Vec::new();
-    for j in 0..up - 1 {
-        for i in 0..across - 1 {
-            let [a, b, c, d] = [j * across + i, j * across + i + 1, (j + 1) * across + i + 1, (j + 1) * across + i];
-            triangles.extend([[a, b, c], [a, c, d]]);
-        }
-    }
-    let outer = vec![[0.0, 0.0], [120.0, 0.0], [120.0, 40.0], [0.0, 40.0]];
-    let mut design = Design::new("Bar", Outline { outer, holes: Vec::new() }, Mesh { nodes, triangles });
-    for node in [0, 7, 14] {
-        let at = design.mesh.node_point(node).unwrap();
-        design.pins.push(Pin::at_rest(at, 20.0));
-    }
-    design
-}
-
-/// A winch at the left end with a tendon along the top, as discovery might propose.
-pub fn network() -> Network {
-    let tendon = Tendon { routing: MaterialPoint::through(14..20), ratio: 1.0, slack_mm: 0.0 };
-    Network::new("winch 1", vec![tendon])
-}
 
 pub fn proposal(design: &Design, error_after: f64) -> Proposal {
     Proposal {
