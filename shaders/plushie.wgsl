@@ -120,15 +120,7 @@ fn picture_fragment(in: Picture) -> @location(0) vec4f {
     return shade(vec4f(color.rgb / max(color.a, 1e-6), color.a), select(0.0, 1.0, inside));
 }
 
-// Stuffed felt: `src/picture/plush.rs` says the same, and why.
-const PUFF: f32 = 0.62;
-const LIGHT = vec3f(-0.42, 0.56, 0.714);
-const WRAP: f32 = 0.35;
-const AMBIENT: f32 = 0.60;
-const DIRECT: f32 = 0.47;
-const SHEEN: f32 = 0.10;
-const GRAIN: f32 = 0.15;
-const BUNDLE_MM: f32 = 0.9;
+// Stuffed felt: `src/picture/plush.rs` says the same for pictures without a graphics adapter, and puts its constants before this file.
 
 struct Felt {
     @builtin(position) position: vec4f,
@@ -143,10 +135,6 @@ struct Felt {
     @location(4) color: vec4f,
 }
 
-fn felt_corner(position: vec2f, rest: vec2f, slope: vec2f, place: vec2f, height: f32, color: vec4f) -> Felt {
-    return Felt(vec4f(to_clip(position), 0.0, 1.0), rest, slope, place, height, color);
-}
-
 @vertex
 fn felt_vertex(
     @location(0) position: vec2f,
@@ -156,19 +144,7 @@ fn felt_vertex(
     @location(4) height: f32,
     @location(5) color: vec4f,
 ) -> Felt {
-    return felt_corner(position, rest, slope, place, height, color);
-}
-
-@vertex
-fn felt_picture_vertex(
-    @location(0) position: vec2f,
-    @location(1) rest: vec2f,
-    @location(2) slope: vec2f,
-    @location(3) place: vec2f,
-    @location(4) height: f32,
-    @location(5) color: vec4f,
-) -> Felt {
-    return felt_corner(position, rest, slope, place, height, color);
+    return Felt(vec4f(to_clip(position), 0.0, 1.0), rest, slope, place, height, color);
 }
 
 // Random values at whole places, 0 to 1.

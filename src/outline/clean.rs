@@ -9,7 +9,8 @@ use super::options::{Holes, Import, Pieces};
 use super::readers::Painting;
 use super::regions::{self, Shapes};
 use super::simplify::simplify;
-use super::{Outline, OutlineError, Point, even, gaps, polygon, smooth, thin};
+use super::thin::{self, Opened};
+use super::{Outline, OutlineError, Point, even, gaps, polygon, smooth};
 
 /// Farthest that simplification may move the boundary, as a fraction of the longer side of the box: 0.03 mm on a
 /// 300 mm plushie, a tenth of what scissors can follow. Larger values drop detail, smaller ones keep needless points.
@@ -88,11 +89,16 @@ fn shaped(shapes: Shapes, longer: f64, import: &Import, changes: &mut Changes) -
     // Offsets of polygons much finer than their distance take quadratic time.
     let shapes = simplified(shapes, 0.25 * SIMPLIFY_FRACTION * longer)?;
     let shapes = smooth_enough(shapes, longer, import, changes)?;
-    let (shapes, hairs) = shaved(shapes, longer, import, changes)?;
-    if hairs > 0 {
-        reference.clone_from(&shapes);
-    }
-    let shapes = widened(shapes, longer, import.min_width_mm, changes)?;
+    let width = import.min_width_mm.unwrap_or(HAIRLINE_FRACTION * longer);
+    let shapes = if width > 0.0 {
+        let (opened, shaved) = opened(shapes, width, import.min_width_mm.is_some(), changes)?;
+        if shaved {
+            reference.clone_from(opened.shapes());
+        }
+        widened(opened, width, import.min_width_mm.is_some(), changes)?
+    } else {
+        shapes
+    };
     if import.min_width_mm.is_some() {
         reference.clone_from(&shapes);
     }
@@ -273,50 +279,34 @@ fn placed(mut shapes: Shapes, low: Point, scale: f64) -> Shapes {
     shapes
 }
 
-fn widened(
-    shapes: Shapes,
-    longer: f64,
-    min_width_mm: Option<f64>,
-    changes: &mut Changes,
-) -> Result<Shapes, OutlineError> {
-    let before = regions::area(&shapes);
-    let (width, budget) = match min_width_mm {
-        Some(width) => (width, f64::INFINITY),
-        None => (HAIRLINE_FRACTION * longer, HAIRLINE_BUDGET * before),
-    };
-    if width <= 0.0 {
-        return Ok(shapes);
+/// What is thin of a silhouette, hair shaved off where there is much of it and a width is not asked for; whether it was.
+fn opened(shapes: Shapes, width: f64, asked: bool, changes: &mut Changes) -> Result<(Opened, bool), OutlineError> {
+    let opened = Opened::of(shapes, width);
+    if asked {
+        return Ok((opened, false));
     }
-    let thin::Widened { shapes: wide, parts, kept } = thin::widen(shapes.clone(), width, budget)?;
+    let Some((smooth, hairs)) = opened.shaved()? else { return Ok((opened, false)) };
+    let cut = regions::unlike(opened.shapes(), &smooth) / regions::area(opened.shapes());
+    if cut > HAIR_BUDGET {
+        return Ok((opened, false));
+    }
+    changes.add(What::Hairs, hairs, cut, false);
+    Ok((Opened::of(smooth, width), true))
+}
+
+fn widened(opened: Opened, width: f64, asked: bool, changes: &mut Changes) -> Result<Shapes, OutlineError> {
+    let shapes = opened.shapes().clone();
+    let before = regions::area(&shapes);
+    let budget = if asked { f64::INFINITY } else { HAIRLINE_BUDGET * before };
+    let thin::Widened { shapes: wide, parts, kept } = opened.widened(budget)?;
     if wide.len() != 1 {
         return Ok(shapes);
     }
-    let asked = min_width_mm.is_some();
     changes.add(What::ThinParts, parts, (regions::area(&wide) - before) / before, asked);
     if kept > 0 {
         changes.notes.push(Note::ThinParts { count: kept, width_mm: width });
     }
     Ok(wide)
-}
-
-/// Without hair, where there is much of it and a width is not asked for.
-fn shaved(
-    shapes: Shapes,
-    longer: f64,
-    import: &Import,
-    changes: &mut Changes,
-) -> Result<(Shapes, usize), OutlineError> {
-    if import.min_width_mm.is_some() {
-        return Ok((shapes, 0));
-    }
-    let Some((smooth, hairs)) = thin::shaved(&shapes, HAIRLINE_FRACTION * longer)? else { return Ok((shapes, 0)) };
-    let area = regions::area(&shapes);
-    let cut = regions::unlike(&shapes, &smooth) / area;
-    if cut > HAIR_BUDGET {
-        return Ok((shapes, 0));
-    }
-    changes.add(What::Hairs, hairs, cut, false);
-    Ok((smooth, hairs))
 }
 
 fn smoothed(shapes: Shapes, tolerance: f64, changes: &mut Changes) -> Result<Shapes, OutlineError> {

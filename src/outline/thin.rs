@@ -42,65 +42,87 @@ pub(super) struct Widened {
     pub kept: usize,
 }
 
-/// Widens what is thinner than `width`, the smallest parts first, as long as no more than `budget` of area is added.
-pub(super) fn widen(shapes: Shapes, width: f64, budget: f64) -> Result<Widened, OutlineError> {
-    let r = 0.5 * width;
-    let shrunk = regions::grown(&shapes, -r);
-    let opening = regions::grown(&shrunk, (1.0 + SLIVER) * r);
-    let mut rest = regions::difference(&shapes, &opening);
-    rest.retain(|piece| regions::piece_area(piece) > SPECK * r * r);
-    rest.sort_by(|a, b| regions::piece_area(a).total_cmp(&regions::piece_area(b)));
-    let grid = Grid::new(shapes.iter().flatten().map(Vec::as_slice));
-    let thin: Vec<Vec<Vec<Point>>> =
-        rest.into_iter().take(MAX_PIECES).filter(|piece| is_thin(piece, &grid, r)).collect();
-    let joints: Vec<Shapes> = joints(&shapes, &shrunk, r).into_iter().map(|p| vec![vec![disc(p, r)]]).collect();
-    let total = thin.len() + joints.len();
-    let mut added = Shapes::new();
-    let (mut parts, mut spent) = (0, 0.0);
-    let widened = thin.into_iter().map(|piece| {
-        let grow = vec![piece];
-        let area = regions::area(&grow);
-        let length: f64 = grow.iter().flatten().map(|ring| polygon::perimeter(ring)).sum();
-        // A strip of length l and width w has area l w and perimeter 2 l: its width is 2 A / P.
-        let wide = 2.0 * area / length;
-        regions::grown(&grow, (0.5 * (width - wide)).max(0.1 * r))
-    });
-    for grow in joints.into_iter().chain(widened) {
-        let more = regions::area(&regions::difference(&grow, &shapes));
-        if spent + more > budget {
-            break;
-        }
-        spent += more;
-        added.extend(grow);
-        parts += 1;
-    }
-    let shapes = if parts > 0 { regions::union([shapes, added].concat())? } else { shapes };
-    Ok(Widened { shapes, parts, kept: total.saturating_sub(parts) })
+/// What a disc of a width reaches of a silhouette, and what it does not.
+pub(super) struct Opened {
+    shapes: Shapes,
+    r: f64,
+    shrunk: Shapes,
+    opening: Shapes,
+    rest: Shapes,
+    grid: Grid,
 }
 
-/// A silhouette of hair without it, and how many hairs there were: what a disc of the width reaches, with necks kept and gaps between tufts closed.
-/// `None` where few parts are that thin: whiskers and the like are there to be seen.
-pub(super) fn shaved(shapes: &Shapes, width: f64) -> Result<Option<(Shapes, usize)>, OutlineError> {
-    let r = 0.5 * width;
-    let opening = regions::grown(&regions::grown(shapes, -r), (1.0 + SLIVER) * r);
-    let mut rest = regions::difference(shapes, &opening);
-    rest.retain(|piece| regions::piece_area(piece) > SPECK * r * r);
-    let grid = Grid::new(shapes.iter().flatten().map(Vec::as_slice));
-    let (necks, ends): (Vec<_>, Vec<_>) = rest.into_iter().partition(|piece| cuts(piece, &grid, r).1 != 1);
-    let hairs = ends.iter().take(MAX_PIECES).filter(|piece| is_thin(piece, &grid, r)).count();
-    if hairs < HAIRS {
-        return Ok(None);
+impl Opened {
+    pub fn of(shapes: Shapes, width: f64) -> Self {
+        let r = 0.5 * width;
+        let shrunk = regions::grown(&shapes, -r);
+        let opening = regions::grown(&shrunk, (1.0 + SLIVER) * r);
+        let mut rest = regions::difference(&shapes, &opening);
+        rest.retain(|piece| regions::piece_area(piece) > SPECK * r * r);
+        let grid = Grid::new(shapes.iter().flatten().map(Vec::as_slice));
+        Self { shapes, r, shrunk, opening, rest, grid }
     }
-    let whole = regions::area(&opening);
-    let body = opening.iter().map(|piece| regions::piece_area(piece)).fold(0.0, f64::max);
-    // Necks hold a body together, or are hairs that cross.
-    let kept = if body > BODY * whole { opening } else { regions::union([opening, necks].concat())? };
-    let closed = regions::grown(&regions::grown(&kept, r), -(1.0 + SLIVER) * r);
-    let mut shaved = regions::union([kept, closed].concat())?;
-    // Tufts that hung together by hairs alone.
-    shaved.sort_by(|a, b| regions::piece_area(b).total_cmp(&regions::piece_area(a)));
-    shaved.truncate(1);
-    Ok(Some((shaved, hairs)))
+
+    pub fn shapes(&self) -> &Shapes {
+        &self.shapes
+    }
+
+    /// The silhouette without hair, and how many hairs there were: the opening, with necks kept and gaps between tufts closed. `None` where few
+    /// parts are that thin: whiskers and the like are there to be seen.
+    pub fn shaved(&self) -> Result<Option<(Shapes, usize)>, OutlineError> {
+        let r = self.r;
+        let is_end = |piece: &&Vec<Vec<Point>>| cuts(piece, &self.grid, r).1 == 1;
+        let ends = self.rest.iter().filter(is_end).take(MAX_PIECES);
+        let hairs = ends.filter(|piece| is_thin(piece, &self.grid, r)).count();
+        if hairs < HAIRS {
+            return Ok(None);
+        }
+        let whole = regions::area(&self.opening);
+        let body = self.opening.iter().map(|piece| regions::piece_area(piece)).fold(0.0, f64::max);
+        // Necks hold a body together, or are hairs that cross.
+        let mut kept = self.opening.clone();
+        if body <= BODY * whole {
+            kept.extend(self.rest.iter().filter(|piece| !is_end(piece)).cloned());
+            kept = regions::union(kept)?;
+        }
+        let closed = regions::grown(&regions::grown(&kept, r), -(1.0 + SLIVER) * r);
+        let mut shaved = regions::union([kept, closed].concat())?;
+        // Tufts that hung together by hairs alone.
+        shaved.sort_by(|a, b| regions::piece_area(b).total_cmp(&regions::piece_area(a)));
+        shaved.truncate(1);
+        Ok(Some((shaved, hairs)))
+    }
+
+    /// Widens what is thinner, the smallest parts first, as long as no more than `budget` of area is added.
+    pub fn widened(self, budget: f64) -> Result<Widened, OutlineError> {
+        let Self { shapes, r, shrunk, mut rest, grid, .. } = self;
+        rest.sort_by(|a, b| regions::piece_area(a).total_cmp(&regions::piece_area(b)));
+        let thin: Vec<Vec<Vec<Point>>> =
+            rest.into_iter().take(MAX_PIECES).filter(|piece| is_thin(piece, &grid, r)).collect();
+        let joints: Vec<Shapes> = joints(&shapes, &shrunk, r).into_iter().map(|p| vec![vec![disc(p, r)]]).collect();
+        let total = thin.len() + joints.len();
+        let mut added = Shapes::new();
+        let (mut parts, mut spent) = (0, 0.0);
+        let widened = thin.into_iter().map(|piece| {
+            let grow = vec![piece];
+            let area = regions::area(&grow);
+            let length: f64 = grow.iter().flatten().map(|ring| polygon::perimeter(ring)).sum();
+            // A strip of length l and width w has area l w and perimeter 2 l: its width is 2 A / P.
+            let wide = 2.0 * area / length;
+            regions::grown(&grow, (r - 0.5 * wide).max(0.1 * r))
+        });
+        for grow in joints.into_iter().chain(widened) {
+            let more = regions::area(&regions::difference(&grow, &shapes));
+            if spent + more > budget {
+                break;
+            }
+            spent += more;
+            added.extend(grow);
+            parts += 1;
+        }
+        let shapes = if parts > 0 { regions::union([shapes, added].concat())? } else { shapes };
+        Ok(Widened { shapes, parts, kept: total.saturating_sub(parts) })
+    }
 }
 
 /// Where the pieces that shrinking parted meet when they are grown again, unless across a gap.
@@ -213,7 +235,7 @@ mod tests {
         let dumbbell =
             vec![rectangle(0.0, 0.0, 40.0, 40.0), rectangle(39.0, 19.9, 22.0, 0.2), rectangle(60.0, 0.0, 40.0, 40.0)];
         let before = regions::union(dumbbell).unwrap();
-        let Widened { shapes, parts, kept } = widen(before.clone(), 4.0, f64::INFINITY).unwrap();
+        let Widened { shapes, parts, kept } = Opened::of(before.clone(), 4.0).widened(f64::INFINITY).unwrap();
         assert_eq!((shapes.len(), parts, kept), (1, 1, 0));
         let more = regions::area(&shapes) - regions::area(&before);
         assert!((more / (20.0 * 3.8) - 1.0).abs() < 0.1, "{more}");
@@ -223,7 +245,7 @@ mod tests {
             assert!(near, "{corner:?}");
         }
         // Without a budget it stays, and is counted.
-        let Widened { shapes, parts, kept } = widen(before.clone(), 4.0, 10.0).unwrap();
+        let Widened { shapes, parts, kept } = Opened::of(before.clone(), 4.0).widened(10.0).unwrap();
         assert_eq!((parts, kept), (0, 1));
         assert_eq!(regions::area(&shapes), regions::area(&before));
     }
@@ -231,9 +253,9 @@ mod tests {
     #[test]
     fn a_whisker_is_thin_and_a_corner_is_not() {
         let star = vec![vec![vec![[0.0, 0.0], [100.0, 0.0], [50.0, 90.0]]]];
-        assert_eq!(widen(star, 4.0, f64::INFINITY).unwrap().parts, 0);
+        assert_eq!(Opened::of(star, 4.0).widened(f64::INFINITY).unwrap().parts, 0);
         let whisker = regions::union(vec![rectangle(0.0, 0.0, 40.0, 40.0), rectangle(39.0, 20.0, 30.0, 0.5)]).unwrap();
-        assert_eq!(widen(whisker, 4.0, f64::INFINITY).unwrap().parts, 1);
+        assert_eq!(Opened::of(whisker, 4.0).widened(f64::INFINITY).unwrap().parts, 1);
         // A hair between two large discs that barely overlap is a neck, however short.
         let lens: Vec<Vec<Vec<Point>>> = [0.0, 99.99]
             .map(|x| {
@@ -249,7 +271,7 @@ mod tests {
             .to_vec();
         let discs = regions::union(lens).unwrap();
         assert_eq!(discs.len(), 1);
-        assert_eq!(widen(discs, 4.0, f64::INFINITY).unwrap().parts, 1);
+        assert_eq!(Opened::of(discs, 4.0).widened(f64::INFINITY).unwrap().parts, 1);
     }
 
     #[test]
@@ -279,12 +301,12 @@ mod tests {
     #[test]
     fn much_hair_is_shaved_off_and_whiskers_stay() {
         let disc = std::f64::consts::PI * 2500.0;
-        let (shaved, hairs) = shaved(&hairy(80), 1.4).unwrap().expect("hair");
+        let (shaved, hairs) = Opened::of(hairy(80), 1.4).shaved().unwrap().expect("hair");
         assert_eq!((hairs, shaved.len()), (80, 1));
         assert!((regions::area(&shaved) / disc - 1.0).abs() < 0.01, "{}", regions::area(&shaved));
         let (low, high) = regions::bounding_box(&shaved);
         assert!(high[0] - low[0] < 103.0 && high[1] - low[1] < 103.0, "{low:?} {high:?}");
-        assert!(super::shaved(&hairy(12), 1.4).unwrap().is_none());
-        assert!(super::shaved(&hairy(0), 1.4).unwrap().is_none());
+        assert!(Opened::of(hairy(12), 1.4).shaved().unwrap().is_none());
+        assert!(Opened::of(hairy(0), 1.4).shaved().unwrap().is_none());
     }
 }

@@ -1,4 +1,4 @@
-//! The look of stuffed felt: light on a puffed surface, and its grain. The shader `plush` in `shaders/plushie.wgsl` says the same.
+//! The look of stuffed felt: light on a puffed surface, and its grain. `shaders/plushie.wgsl` says the same, with [`constants`] from here.
 
 use super::color::Color;
 use super::silhouette::Silhouette;
@@ -68,6 +68,22 @@ fn slopes(silhouette: &Silhouette, points: &[Point]) -> Vec<[f32; 2]> {
         }
     }
     sums.iter().map(|s| if s[2] > 0.0 { [(s[0] / s[2]) as f32, (s[1] / s[2]) as f32] } else { [0.0; 2] }).collect()
+}
+
+/// The constants of the look, as WGSL.
+pub fn constants() -> String {
+    let one = |name: &str, value: f32| format!("const {name}: f32 = {value:?};\n");
+    let named = [
+        ("PUFF", PUFF),
+        ("WRAP", WRAP),
+        ("AMBIENT", AMBIENT),
+        ("DIRECT", DIRECT),
+        ("SHEEN", SHEEN),
+        ("GRAIN", GRAIN),
+        ("BUNDLE_MM", BUNDLE_MM),
+    ];
+    let [x, y, z] = LIGHT;
+    named.map(|(name, value)| one(name, value)).concat() + &format!("const LIGHT = vec3f({x:?}, {y:?}, {z:?});\n")
 }
 
 /// The colour of a piece of felt (red, green, blue, 0 to 1): `base` where it lies flat, its `slope` and `height`, its place at rest in mm

@@ -98,17 +98,14 @@ fn chosen(mut verified: Vec<(Design, Vec<Verified>)>, sewn: bool) -> Option<(Des
     let worst = |poses: &[Verified], error: fn(&Verified) -> f64| poses.iter().map(error).fold(0.0, f64::max);
     let order = |poses: &[Verified]| (worst(poses, |p| p.real() / p.rest), worst(poses, |p| p.error / p.rest));
     verified.sort_by(|a, b| order(&a.1).partial_cmp(&order(&b.1)).unwrap_or(Ordering::Equal));
-    let best: Vec<[f64; 2]> = verified.first()?.1.iter().map(|p| [p.real(), p.real]).collect();
-    let alike = |poses: &[Verified]| {
-        let worse = |(p, best): (&Verified, &[f64; 2])| p.real() > best[0] + SEEN || p.real > best[1] + SEEN;
-        !poses.iter().zip(&best).any(worse)
-    };
-    if sewn {
-        verified.retain(|(_, poses)| alike(poses));
+    if !sewn {
+        return verified.into_iter().next();
     }
-    let pulls = |poses: &[Verified]| if sewn { worst(poses, |p| p.pull_n) } else { 0.0 };
-    // The first of several alike.
-    verified.into_iter().min_by(|a, b| pulls(&a.1).total_cmp(&pulls(&b.1)))
+    let best: Vec<[f64; 2]> = verified.first()?.1.iter().map(|p| [p.real(), p.real]).collect();
+    let worse = |(p, best): (&Verified, &[f64; 2])| p.real() > best[0] + SEEN || p.real > best[1] + SEEN;
+    verified.retain(|(_, poses)| !poses.iter().zip(&best).any(worse));
+    let pull = |poses: &[Verified]| worst(poses, |p| p.pull_n);
+    verified.into_iter().min_by(|a, b| pull(&a.1).total_cmp(&pull(&b.1)))
 }
 
 /// What a check says of the layouts that were found, on the design's own mesh. Where that is interrupted, and results are kept, the best

@@ -13,6 +13,7 @@ use crate::design::Design;
 use crate::outline::Point;
 use crate::picture::palette::{Palette, Theme};
 use eframe::egui::{self, CentralPanel, Frame, Margin, Panel, ViewportCommand};
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
@@ -43,6 +44,8 @@ impl Studio {
     /// `ctx` is woken up by the threads.
     pub fn new(ctx: &egui::Context, design: Design, path: Option<PathBuf>, services: Services) -> Self {
         style::install(ctx);
+        // A pass that is thrown away and run again would act on its clicks and keys twice.
+        ctx.options_mut(|options| options.max_passes = NonZeroUsize::MIN);
         let wake = ctx.clone();
         let session = Session::new(design, path, Arc::new(move || wake.request_repaint()), services);
         style::set_theme(ctx, session.look.theme);
@@ -188,8 +191,9 @@ impl Studio {
         if session.sketching().open {
             let outline = Panel::right("outline").frame(panels::frame()).default_size(288.0).size_range(288.0..=420.0);
             outline.show(ui, |ui| {
-                panels::messages::show(ui, session, actions);
-                panels::outline::show(ui, session, &mut self.sheet, actions);
+                panels::messages::below(ui, session, actions, |ui, actions| {
+                    panels::outline::show(ui, session, &mut self.sheet, actions);
+                });
             });
             let (tool, entry) = self.tools.tool(session);
             CentralPanel::no_frame()
@@ -204,8 +208,7 @@ impl Studio {
         });
         let poses = Panel::left("poses").frame(panels::frame()).default_size(204.0).size_range(160.0..=360.0);
         poses.show(ui, |ui| {
-            panels::messages::show(ui, session, actions);
-            panels::poses::show(ui, session, actions);
+            panels::messages::below(ui, session, actions, |ui, actions| panels::poses::show(ui, session, actions));
         });
         let inspector = Panel::right("inspector").frame(panels::frame()).default_size(288.0).size_range(288.0..=420.0);
         inspector.show(ui, |ui| panels::inspector::show(ui, session, &mut self.inspector, actions));

@@ -6,18 +6,24 @@ use crate::studio::commands::files::LOG;
 use crate::studio::icons::{self, Icon};
 use crate::studio::messages::{Level, Message};
 use crate::studio::session::Session;
-use eframe::egui::{Color32, Frame, Label, Panel, RichText, ScrollArea, Sense, Ui, Visuals, vec2};
+use eframe::egui::{Color32, Frame, Label, Panel, RichText, ScrollArea, Sense, Ui, UiBuilder, Visuals, vec2};
 
 /// Part of the side panel's height that messages take at most.
 const MOST: f32 = 0.22;
 /// What the button takes on the right, logical pixels.
 const CLOSE: f32 = 28.0;
 
-/// Takes room from the bottom of a side panel, as long as there is something to say. Before the rest of the panel.
-pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
-    if session.messages.list().is_empty() {
-        return;
+/// A side panel with messages at its foot, as long as there is something to say. However they come and go, the widgets above keep their ids: a click
+/// or a drag that is under way finds them again, and so does the keyboard.
+pub fn below(ui: &mut Ui, session: &Session, actions: &mut Actions, panel: impl FnOnce(&mut Ui, &mut Actions)) {
+    let own = UiBuilder::new().scope_id(ui.unique_id().with("above messages"));
+    if !session.messages.list().is_empty() {
+        foot(ui, session, actions);
     }
+    ui.scope_builder(own, |ui| panel(ui, actions));
+}
+
+fn foot(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     let most = MOST * ui.available_height();
     Panel::bottom("messages").frame(Frame::new()).resizable(false).show_separator_line(false).show(ui, |ui| {
         ScrollArea::vertical()

@@ -2,6 +2,7 @@
 
 use super::geometry::{Batch, Capsule, Corner, Geometry, Textured, Woolly};
 use super::skin::Skin;
+use crate::picture::plush;
 use crate::studio::canvas::Camera;
 use bytemuck::{Pod, Zeroable};
 use egui_wgpu::wgpu;
@@ -117,7 +118,9 @@ impl Renderer {
     fn new(device: &wgpu::Device, format: wgpu::TextureFormat, samples: u32) -> Self {
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("plushie"),
-            source: wgpu::ShaderSource::Wgsl(include_str!("../../../shaders/plushie.wgsl").into()),
+            source: wgpu::ShaderSource::Wgsl(
+                (plush::constants() + include_str!("../../../shaders/plushie.wgsl")).into(),
+            ),
         });
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("plushie view"),
@@ -134,45 +137,46 @@ impl Renderer {
         });
         let skin = Skin::new(device);
         let plain = &[Some(&layout)][..];
-        let pipeline = |name: &str, bind_group_layouts, buffer: wgpu::VertexBufferLayout<'_>, topology| {
-            let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: Some(name),
-                bind_group_layouts,
-                immediate_size: 0,
-            });
-            device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-                label: Some(name),
-                layout: Some(&pipeline_layout),
-                vertex: wgpu::VertexState {
-                    module: &module,
-                    entry_point: Some(&format!("{name}_vertex")),
-                    buffers: &[Some(buffer)],
-                    compilation_options: Default::default(),
-                },
-                primitive: wgpu::PrimitiveState { topology, ..Default::default() },
-                depth_stencil: None,
-                multisample: wgpu::MultisampleState { count: samples.max(1), ..Default::default() },
-                fragment: Some(wgpu::FragmentState {
-                    module: &module,
-                    entry_point: Some(&format!("{name}_fragment")),
-                    targets: &[Some(wgpu::ColorTargetState {
-                        format,
-                        blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
-                        write_mask: wgpu::ColorWrites::ALL,
-                    })],
-                    compilation_options: Default::default(),
-                }),
-                multiview_mask: None,
-                cache: None,
-            })
-        };
+        let pipeline =
+            |[corners, name]: [&str; 2], bind_group_layouts, buffer: wgpu::VertexBufferLayout<'_>, topology| {
+                let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                    label: Some(name),
+                    bind_group_layouts,
+                    immediate_size: 0,
+                });
+                device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+                    label: Some(name),
+                    layout: Some(&pipeline_layout),
+                    vertex: wgpu::VertexState {
+                        module: &module,
+                        entry_point: Some(&format!("{corners}_vertex")),
+                        buffers: &[Some(buffer)],
+                        compilation_options: Default::default(),
+                    },
+                    primitive: wgpu::PrimitiveState { topology, ..Default::default() },
+                    depth_stencil: None,
+                    multisample: wgpu::MultisampleState { count: samples.max(1), ..Default::default() },
+                    fragment: Some(wgpu::FragmentState {
+                        module: &module,
+                        entry_point: Some(&format!("{name}_fragment")),
+                        targets: &[Some(wgpu::ColorTargetState {
+                            format,
+                            blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+                            write_mask: wgpu::ColorWrites::ALL,
+                        })],
+                        compilation_options: Default::default(),
+                    }),
+                    multiview_mask: None,
+                    cache: None,
+                })
+            };
         let (list, strip) = (wgpu::PrimitiveTopology::TriangleList, wgpu::PrimitiveTopology::TriangleStrip);
         Self {
-            fill: pipeline("fill", plain, CORNER, list),
-            picture: pipeline("picture", &[Some(&layout), Some(&skin.layout)], TEXTURED, list),
-            felt: pipeline("felt", plain, WOOLLY, list),
-            felt_picture: pipeline("felt_picture", &[Some(&layout), Some(&skin.layout)], WOOLLY, list),
-            capsule: pipeline("capsule", plain, CAPSULE, strip),
+            fill: pipeline(["fill"; 2], plain, CORNER, list),
+            picture: pipeline(["picture"; 2], &[Some(&layout), Some(&skin.layout)], TEXTURED, list),
+            felt: pipeline(["felt"; 2], plain, WOOLLY, list),
+            felt_picture: pipeline(["felt", "felt_picture"], &[Some(&layout), Some(&skin.layout)], WOOLLY, list),
+            capsule: pipeline(["capsule"; 2], plain, CAPSULE, strip),
             layout,
             skin,
             linear_target: if format.is_srgb() { 1.0 } else { 0.0 },

@@ -1,6 +1,6 @@
 //! The craft of the window: where it speaks, what has the focus, how large its questions are.
 
-use crate::support::window::{bar, click, network, press, session, settle, window};
+use crate::support::window::{bar, click, network, press, session, settle, wait, window};
 use eframe::egui::{self, Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 use plushwright::studio::session::Overlay;
@@ -43,6 +43,30 @@ fn messages_stand_beside_the_views_and_all_of_them_in_the_log() {
     window.get_by_label("Close").click();
     settle(&mut window);
     assert_eq!(session(&window).overlay(), None);
+}
+
+#[test]
+fn what_is_in_hand_stays_in_hand_when_messages_come_and_go() {
+    let mut window = window(bar());
+    press(&mut window, Modifiers::SHIFT, Key::N);
+    window.get_by_label("Rest").focus();
+    window.run();
+    assert!(window.get_by_label("Rest").is_focused());
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    assert!(!session(&window).messages().list().is_empty() && window.get_by_label("Rest").is_focused());
+    // What was done goes away by itself.
+    wait(&mut window, |s| s.messages().list().is_empty());
+    assert!(window.get_by_label("Rest").is_focused());
+    // A press before, the release after.
+    let at = window.get_by_label("Add pose").rect().center();
+    window.hover_at(at);
+    window.drag_at(at);
+    window.key_press(Key::K);
+    window.step();
+    window.drop_at(at);
+    settle(&mut window);
+    assert!(!session(&window).messages().list().is_empty());
+    assert_eq!(session(&window).design().poses.len(), 1);
 }
 
 #[test]

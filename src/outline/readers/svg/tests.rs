@@ -2,6 +2,8 @@
 
 use super::*;
 use crate::outline::Background;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 
 fn svg(attributes: &str, body: &str) -> Vec<u8> {
     format!("<svg xmlns='http://www.w3.org/2000/svg' {attributes}>{body}</svg>").into_bytes()
@@ -141,18 +143,6 @@ fn what_is_left_out_is_noted() {
     assert!(full(shadow, &Import::default()).unwrap().changes.notes[0].to_string().contains("filter"));
 }
 
-/// The alphabet of base64 (RFC 4648), without padding.
-fn base64(bytes: &[u8]) -> String {
-    const ALPHABET: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let letters = |part: &[u8]| {
-        let bits = part.iter().fold(0_u32, |bits, &byte| bits << 8 | u32::from(byte)) << (8 * (3 - part.len()));
-        let letter =
-            move |k: usize| if k <= part.len() { ALPHABET[(bits >> (18 - 6 * k)) as usize & 63] as char } else { '=' };
-        [0, 1, 2, 3].map(letter)
-    };
-    bytes.chunks(3).flat_map(letters).collect()
-}
-
 #[test]
 fn a_drawing_of_a_picture_alone_is_read_as_what_that_shows_where_it_lies() {
     let mut disc = image::RgbImage::from_pixel(200, 100, image::Rgb([250, 248, 240]));
@@ -165,7 +155,7 @@ fn a_drawing_of_a_picture_alone_is_read_as_what_that_shows_where_it_lies() {
     disc.write_to(&mut png, image::ImageFormat::Png).unwrap();
     let picture = format!(
         "<image x='20' y='30' width='100' height='50' href='data:image/png;base64,{}'/>",
-        base64(png.get_ref())
+        STANDARD.encode(png.get_ref())
     );
     for below in ["", "<rect width='200' height='120' fill='#fff'/>"] {
         let drawing = svg("width='200mm' height='120mm' viewBox='0 0 200 120'", &format!("{below}{picture}"));
