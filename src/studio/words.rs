@@ -123,6 +123,7 @@ pub fn progress(step: &Progress) -> String {
         }
         Progress::Proposals(list) => format!("{} networks so far", list.len()),
         Progress::Picture { done, of } => format!("Picture {} of {of}", done + 1),
+        Progress::Part { done, of } => format!("Part {} of {of}", done + 1),
     }
 }
 

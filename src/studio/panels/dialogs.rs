@@ -8,6 +8,7 @@ use crate::files::shown;
 use crate::motion::{TooFast, families};
 use crate::operations::export;
 use crate::studio::action::{Action, Actions, FileAction};
+use crate::studio::keeper::Abandoned;
 use crate::studio::session::Session;
 use crate::studio::session::{Dialog, PathDialog, Purpose, Why};
 use crate::studio::words;
@@ -101,15 +102,7 @@ fn replace(ui: &mut Ui, path: &Path, why: Why, actions: &mut Actions) {
 fn recover(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     let Some(work) = session.offered() else { return };
     ui.heading(format!("Recover “{}”?", work.design.name));
-    let ago = work
-        .at
-        .elapsed()
-        .map_or_else(|_| String::new(), |ago| format!(" It was changed {} ago.", spoken(ago.as_secs())));
-    let from = work.facts.path.as_deref().map_or_else(
-        || "It has no file yet.".to_owned(),
-        |path| format!("It belongs to {}, which is as it was.", shown(path)),
-    );
-    ui.label(format!("Plushwright ended before this plushie was saved.{ago} {from}"));
+    ui.label(left_behind(work));
     ui.add_space(10.0);
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         if primary(ui, true, "Recover", 100.0).clicked() {
@@ -122,6 +115,19 @@ fn recover(ui: &mut Ui, session: &Session, actions: &mut Actions) {
             actions.push(Action::File(FileAction::RecoverLater));
         }
     });
+}
+
+/// How work was left behind, when, and whose it is.
+pub(super) fn left_behind(work: &Abandoned) -> String {
+    let ago = work
+        .at
+        .elapsed()
+        .map_or_else(|_| String::new(), |ago| format!(" It was changed {} ago.", spoken(ago.as_secs())));
+    let from = work.facts.path.as_deref().map_or_else(
+        || "It has no file yet.".to_owned(),
+        |path| format!("It belongs to {}, which is as it was.", shown(path)),
+    );
+    format!("Plushwright ended before this plushie was saved.{ago} {from}")
 }
 
 /// How long something took, in the largest unit that fits.

@@ -28,7 +28,7 @@ use crate::design::history::History;
 use crate::design::{Design, Target};
 use crate::engine::{Quality, Request};
 use crate::files::Stamp;
-use crate::operations::export;
+use crate::operations::{Context, export};
 use crate::outline::Drawing;
 use crate::picture::Texture;
 use crate::picture::layers::{Layer, Textured};
@@ -47,7 +47,8 @@ pub type Propose =
 /// Hears of the list of proposals as it grows.
 pub type Found<'f> = &'f mut dyn FnMut(&[Arc<Proposal>]);
 /// Writes the blueprint of a design into a folder, and returns its remarks.
-pub type Export = Arc<dyn Fn(&Design, &Path, &export::Options) -> Result<Vec<String>, String> + Send + Sync>;
+pub type Export =
+    Arc<dyn Fn(&Design, &Path, &export::Options, &mut Context<'_>) -> Result<Vec<String>, String> + Send + Sync>;
 
 /// The long work that is done elsewhere; tests put their own in.
 #[derive(Clone)]
@@ -281,6 +282,23 @@ impl Session {
         let filming = self.filming.running.is_some().then_some("Drawing the animation");
         let following = self.following.is_running().then_some("Working out keyframes again");
         self.files.working.or(rigging).or(keying).or(filming).or(following)
+    }
+
+    /// Whether that work can be stopped: keyframes that follow their poses begin anew by themselves.
+    pub fn can_stop(&self) -> bool {
+        self.files.running.is_some()
+            || self.rigging.running.is_some()
+            || self.rigging.curve.running.is_some()
+            || self.keying.is_some()
+            || self.filming.running.is_some()
+    }
+
+    /// How far that work is, where it tells: steps, of how many.
+    pub fn working_at(&self) -> Option<[usize; 2]> {
+        match self.files.working {
+            Some(_) => self.files.done.get(),
+            None => self.filming.running.as_ref().and_then(|_| self.filming.done.get()),
+        }
     }
 
     /// Whether the window is about to close.

@@ -47,6 +47,22 @@ fn menu(ui: &mut Ui, session: &Session, hits: [Hit; 2], actions: &mut Actions) {
     }
 }
 
+/// Rings around places that were asked for, with a light around each that is seen from afar.
+pub fn marked(ui: &Ui, canvas: &Canvas<'_>) {
+    let (Some((design, places)), Ground::Plushie(_, Some(shape))) = (&canvas.session.look.marked, canvas.ground) else {
+        return;
+    };
+    if shape.nodes.len() != design.mesh.nodes.len() {
+        return;
+    }
+    let (painter, warn) = (ui.painter_at(canvas.rect), ui.visuals().warn_fg_color);
+    for at in places {
+        let middle = canvas.to_screen(design.mesh.position(at, &shape.nodes));
+        painter.circle_stroke(middle, 16.0, Stroke::new(6.0, warn.gamma_multiply(0.25)));
+        painter.circle_stroke(middle, 16.0, Stroke::new(2.0, warn));
+    }
+}
+
 /// A ring around what the pointer is on, in both views.
 pub fn highlight(ui: &Ui, canvas: &Canvas<'_>, hovered: Option<Hit>) {
     let Canvas { session, rect, .. } = *canvas;
