@@ -32,6 +32,7 @@ pub fn tick(session: &mut Session, now_s: f64, passed_s: f64, hands_off: bool) {
     edit::clamp(session);
     let design = session.document.design().clone();
     session.look.marked.take_if(|(of, _)| !Arc::ptr_eq(of, &design));
+    session.playback.follow(animation::duration_s(&design));
     session.posing.follow(&design);
     session.timing.follow(&design);
     discover::follow(session);

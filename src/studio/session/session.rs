@@ -25,6 +25,7 @@ use super::timing::Timing;
 use super::winding::Winding;
 use crate::design::file::MAX_BYTES;
 use crate::design::history::History;
+use crate::design::texture::Origin;
 use crate::design::{Design, Target};
 use crate::engine::{Quality, Request};
 use crate::files::Stamp;
@@ -142,6 +143,13 @@ impl Session {
             tasks: Tasks::default(),
             services,
         }
+    }
+
+    /// Where the document was read from; what waits in a folder of the window's own does not stay there.
+    pub(crate) fn origin(&self) -> Option<Origin<'_>> {
+        let file = self.document.origin.as_deref()?;
+        let own = self.safety.store.as_ref().is_some_and(|store| store.holds(file));
+        Some(Origin { file, stays: !own && self.document.kept.is_none() })
     }
 
     /// The document as it is now.

@@ -5,7 +5,7 @@ use crate::operations::network::Part;
 use crate::outline::Point;
 use crate::studio::action::Actions;
 use crate::studio::canvas::{Canvas, Ground, Hit, act, navigate};
-use crate::studio::commands::{self, Place};
+use crate::studio::commands::{self, Command, Place};
 use crate::studio::panels::{buttons, tendons};
 use crate::studio::session::Session;
 use crate::studio::style;
@@ -34,11 +34,22 @@ pub fn interact(
     pointer.map(|p| tool.under(canvas, p))
 }
 
-/// All that can be done to what lies under the pointer: to a winch or a cable, and to the body below.
+/// All that can be done to what lies under the pointer: first to a winch or a cable, then to the body below, then what can always be done.
 fn menu(ui: &mut Ui, session: &Session, hits: [Hit; 2], actions: &mut Actions) {
     ui.set_min_width(170.0);
+    let allowed = |command: &Command, hit: Hit| command.refused(session, hit).is_none();
+    let mut groups: [Vec<(&'static Command, Hit)>; 3] = Default::default();
     for command in commands::at(Place::ContextMenu) {
-        if let Some(hit) = hits.into_iter().find(|&hit| command.refused(session, hit).is_none()) {
+        let Some(hit) = hits.into_iter().find(|&hit| allowed(command, hit)) else { continue };
+        let group = if allowed(command, Hit::Nothing) { 2 } else { usize::from(allowed(command, hits[1])) };
+        groups[group].push((command, hit));
+    }
+    let mut parted = false;
+    for group in groups.iter().filter(|group| !group.is_empty()) {
+        if std::mem::replace(&mut parted, true) {
+            ui.separator();
+        }
+        for &(command, hit) in group {
             buttons::entry(ui, session, command, hit, actions);
         }
     }
