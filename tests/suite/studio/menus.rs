@@ -182,7 +182,7 @@ fn fields_have_no_sign_before_zero() {
         assert_eq!(field(&window), "0.0 mm", "{typed}");
     }
     let minus = window.get_all_by_label_contains("-0").filter(|node| {
-        let text = node.value().or(node.accesskit_node().label()).unwrap_or_default();
+        let text = node.value().unwrap_or_default();
         text.split_whitespace()
             .any(|word| word.parse::<f64>().is_ok_and(|figure| figure == 0.0 && word.starts_with('-')))
     });
