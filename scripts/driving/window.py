@@ -197,6 +197,12 @@ class Window:
                 return
         raise Lost(f"“{name}” does not take “{text}”: {self.find(name).value}")
 
+    def command(self, words):
+        """Runs a command from the palette."""
+        self.key("ctrl+shift+p")
+        self.fill("Look for a command", words)
+        self.key("Return")
+
     def kill(self):
         self.process.send_signal(signal.SIGKILL)
         self.process.wait()
