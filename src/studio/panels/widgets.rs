@@ -76,7 +76,7 @@ mod tests {
         let ctx = Context::default();
         let mut ids: Vec<Id> = Vec::new();
         for shown in [false, true, false] {
-            let _ = ctx.run_ui(RawInput::default(), |ui| {
+            let mut output = ctx.run_ui(RawInput::default(), |ui| {
                 ui.horizontal(|ui| {
                     passing(ui, shown, |ui| {
                         let _ = (ui.button("Now"), ui.label("and then"));
@@ -84,6 +84,7 @@ mod tests {
                     ids.push(ui.button("Always").id);
                 });
             });
+            output.textures_delta.clear();
         }
         assert!(ids.windows(2).all(|pair| pair[0] == pair[1]), "{ids:?}");
     }
