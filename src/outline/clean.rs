@@ -10,7 +10,7 @@ use super::readers::Painting;
 use super::regions::{self, Shapes};
 use super::simplify::simplify;
 use super::thin::{self, Opened};
-use super::{Outline, OutlineError, Point, even, gaps, polygon, smooth};
+use super::{Outline, OutlineError, Point, even, gaps, islands, polygon, smooth};
 
 /// Farthest that simplification may move the boundary, as a fraction of the longer side of the box: 0.03 mm on a
 /// 300 mm plushie, a tenth of what scissors can follow. Larger values drop detail, smaller ones keep needless points.
@@ -219,19 +219,25 @@ fn filled(
     let before = shapes.clone();
     let widest = import.join_mm.map_or(lines::OPENING_FRACTION * units.longer, |mm| mm / units.mm);
     let shapes = match lines::filled(shapes, widest)? {
-        Lines::Body(shapes) => shapes,
+        Lines::Body(shapes) => without_gaps_around(shapes, changes, aside)?,
         Lines::Open { shapes, opening } => {
             let (gap_mm, at) = (opening.opening * units.mm, units.place(opening.at));
             changes.notes.push(Note::NotClosed { gap_mm, at });
             shapes
         }
-        Lines::Filled { shapes, opening } => {
+        Lines::Filled { shapes, opening, beside } => {
+            if !beside.is_empty() {
+                changes.notes.push(Note::OpenLines(beside.len()));
+                aside.add(Why::Specks, beside);
+            }
             changes.notes.push(match opening {
                 Some(opening) => Note::Closed { gap_mm: opening.opening * units.mm, at: units.place(opening.at) },
                 None => Note::LinesFilled,
             });
             aside.add(Why::Filled, regions::difference(&shapes, &before));
-            return Ok(shapes);
+            // What is small beside the lines may be large beside what they enclose, and the other way round.
+            let all = regions::area(&shapes);
+            return Ok(without_specks(shapes, all, changes, aside));
         }
     };
     let count = shapes.iter().map(|rings| rings.len().saturating_sub(1)).sum();
@@ -243,6 +249,16 @@ fn filled(
     changes.add(What::Holes, count, (regions::area(&shapes) - area) / area, true);
     aside.add(Why::Filled, regions::difference(&shapes, &before));
     Ok(shapes)
+}
+
+/// Holes filled that other pieces take up.
+fn without_gaps_around(shapes: Shapes, changes: &mut Changes, aside: &mut Asides) -> Result<Shapes, OutlineError> {
+    let (joined, count) = islands::joined(shapes.clone())?;
+    if count > 0 {
+        changes.notes.push(Note::GapsAround(count));
+        aside.add(Why::Filled, regions::difference(&joined, &shapes));
+    }
+    Ok(joined)
 }
 
 fn holes_area(shapes: &Shapes) -> f64 {

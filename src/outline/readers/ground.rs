@@ -24,6 +24,8 @@ const FRAME: f64 = 0.25;
 const COVERS: std::ops::RangeInclusive<f64> = 0.03..=0.92;
 /// Part of what lies on a sheet that must be in one piece, as a figure is and the letters on a button are not.
 const FIGURE: f64 = 0.6;
+/// Part of the room that paper leaves for a figure which that fills.
+const FILLS: f64 = 0.8;
 /// How far a figure may reach beyond the sheet that it lies on, as a part of the sheet's side, and how much of it.
 const BEYOND: f64 = 0.05;
 const BEYOND_AREA: f64 = 0.02;
@@ -58,6 +60,11 @@ pub(super) fn part(
     let mut drop = |figure: &mut Vec<Mark>, range: std::ops::Range<usize>| {
         below.extend(figure.drain(range).flat_map(|mark| mark.area));
     };
+    if let Some(k) = page.map(|page| surrounding(&figure, page)).transpose()?.flatten() {
+        notes.push(Note::Background(Ground::Page));
+        drop(&mut figure, k..k + 1);
+        return Ok((figure, below, notes));
+    }
     let mut pages = 0;
     while let Some(count) = page.and_then(|page| covering(&figure, page)) {
         pages += count;
@@ -78,6 +85,42 @@ pub(super) fn part(
         drop(&mut figure, at..at + 1);
     }
     Ok((figure, below, notes))
+}
+
+/// The mark that covers the page but for the figure, which the others are: so do programs that trace pictures draw paper.
+fn surrounding(marks: &[Mark], page: [Point; 2]) -> Result<Option<usize>, OutlineError> {
+    let [low, high] = page;
+    let slack = [0, 1].map(|axis| PAGE_FRACTION * (high[axis] - low[axis]));
+    for (k, mark) in marks.iter().enumerate().filter(|_| marks.len() > 1) {
+        let (from, to) = regions::bounding_box(&mark.area);
+        let reaches = (0..2).all(|axis| from[axis] <= low[axis] + slack[axis] && to[axis] >= high[axis] - slack[axis]);
+        if !reaches {
+            continue;
+        }
+        let whole = filled(&mark.area);
+        let room = regions::difference(&whole, &mark.area);
+        let covers = regions::area(&whole);
+        let like_page = covers >= SHARP * (to[0] - from[0]) * (to[1] - from[1]);
+        if !like_page || !COVERS.contains(&(regions::area(&room) / covers)) {
+            continue;
+        }
+        let rest = marks.iter().enumerate().filter(|(i, _)| *i != k).flat_map(|(_, mark)| mark.area.iter().cloned());
+        let rest = filled(&regions::union(rest.collect())?);
+        let covered = regions::area(&rest);
+        let fills = regions::area(&regions::intersection(&rest, &room)) >= FILLS * regions::area(&room);
+        let hidden = k > 0 && regions::area(&regions::intersection(&rest, &mark.area)) > BEYOND_AREA * covered;
+        let largest = rest.iter().max_by(|a, b| regions::piece_area(a).total_cmp(&regions::piece_area(b)));
+        let is_figure = largest.is_some_and(|rings| {
+            let (from, to) = polygon::bounding_box(&rings[0]);
+            let area = regions::piece_area(rings);
+            // What fills a rectangle in a frame may be a picture on a wall.
+            area >= FIGURE * covered && (mark.white || area < ROUND * (to[0] - from[0]) * (to[1] - from[1]))
+        });
+        if fills && !hidden && is_figure {
+            return Ok(Some(k));
+        }
+    }
+    Ok(None)
 }
 
 /// How many marks from the lowest on cover the page together, as long as others lie on them.
@@ -207,6 +250,25 @@ mod tests {
         assert_eq!(parted(vec![page.clone(), figure], Background::Keep), (2, vec![]));
         // Alone, it is the figure.
         assert_eq!(parted(vec![page.clone(), page], found).0, 1);
+    }
+
+    #[test]
+    fn paper_that_a_figure_is_cut_out_of_is_background_wherever_it_is_painted() {
+        let paper = |white| mark(vec![square(0.0, 100.0), diamond(30.0).into_iter().rev().collect()], white);
+        let halves = [[50.0, 80.0], [50.0, 20.0]].map(|tip| mark(vec![vec![[20.0, 50.0], tip, [80.0, 50.0]]], false));
+        let halves = halves.map(|mut half| {
+            half.area = regions::union(half.area).unwrap();
+            half
+        });
+        let found = (2, vec![Note::Background(Ground::Page)]);
+        for white in [true, false] {
+            assert_eq!(parted([vec![paper(white)], halves.to_vec()].concat(), Background::Found), found);
+            assert_eq!(parted([halves.to_vec(), vec![paper(white)]].concat(), Background::Found), found);
+        }
+        // A picture in its frame, and a page with a hole.
+        let frame = mark(vec![square(0.0, 100.0), square(20.0, 80.0).into_iter().rev().collect()], false);
+        assert_eq!(parted(vec![frame, mark(vec![square(20.0, 80.0)], false)], Background::Found).0, 2);
+        assert_eq!(parted(vec![paper(true)], Background::Found), (1, vec![]));
     }
 
     #[test]
