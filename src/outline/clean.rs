@@ -2,7 +2,7 @@
 //! simplification, placement.
 
 use super::changes::{Changes, What};
-use super::imported::{Aside, Imported, Why};
+use super::imported::{Asides, Imported, Why, placed};
 use super::lines::{self, Lines};
 use super::notes::Note;
 use super::options::{Holes, Import, Pieces};
@@ -136,27 +136,6 @@ impl Units {
     }
 }
 
-/// What does not count, in the drawing's coordinates.
-struct Asides(Vec<Aside>);
-
-impl Asides {
-    fn add(&mut self, why: Why, areas: Shapes) {
-        if !areas.is_empty() {
-            self.0.push(Aside { why, areas });
-        }
-    }
-
-    /// In the coordinates of the outline, whose box was `drawn_box` in the drawing.
-    fn placed(self, outline: &Outline, drawn_box: [Point; 2]) -> Vec<Aside> {
-        let (_, high) = outline.bounding_box();
-        let scale = high[1] / (drawn_box[1][1] - drawn_box[0][1]);
-        self.0
-            .into_iter()
-            .map(|Aside { why, areas }| Aside { why, areas: placed(areas, drawn_box[0], scale) })
-            .collect()
-    }
-}
-
 /// Parts that all but touch joined.
 fn without_gaps(
     shapes: Shapes,
@@ -285,14 +264,6 @@ fn one_piece(
     aside.add(Why::Pieces, shapes.split_off(1));
     changes.add(What::Pieces, pieces - 1, 1.0 - largest, true);
     Ok(shapes)
-}
-
-/// Scaled to mm, `low` at the origin.
-fn placed(mut shapes: Shapes, low: Point, scale: f64) -> Shapes {
-    for p in shapes.iter_mut().flatten().flatten() {
-        *p = [(p[0] - low[0]) * scale, (p[1] - low[1]) * scale];
-    }
-    shapes
 }
 
 /// What is thin of a silhouette, hair shaved off where there is much of it and a width is not asked for; whether it was.

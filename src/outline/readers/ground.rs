@@ -22,8 +22,12 @@ const MAX_SPLIT: usize = 8;
 const FRAME: f64 = 0.25;
 /// What lies on a sheet covers this part of it: less is a detail of a body, more is the outline of the body itself.
 const COVERS: std::ops::RangeInclusive<f64> = 0.03..=0.92;
+/// The middle of a line around a sheet runs along the sheet's rim: it surrounds as much as that, within this part of it.
+const BORDER: f64 = 0.06;
 /// Part of what lies on a sheet that must be in one piece, as a figure is and the letters on a button are not.
 const FIGURE: f64 = 0.6;
+/// Of the room within a frame: frames lie within frames.
+const FILLED: f64 = 0.97;
 /// Part of the room that paper leaves for a figure which that fills.
 const FILLS: f64 = 0.8;
 /// How far a figure may reach beyond the sheet that it lies on, as a part of the sheet's side, and how much of it.
@@ -76,13 +80,13 @@ pub(super) fn part(
         _ => notes.push(Note::Background(Ground::Shapes(pages))),
     }
     for _ in 0..MAX_GROUNDS {
-        let Some((at, ground, sure)) = ground(&figure, page)? else { break };
+        let Some(Found { marks, ground, sure }) = ground(&figure, page)? else { break };
         if !sure && choice == Background::Found {
             notes.push(Note::GroundCounts(ground));
             break;
         }
         notes.push(Note::Background(ground));
-        drop(&mut figure, at..at + 1);
+        marks.into_iter().rev().for_each(|at| drop(&mut figure, at..at + 1));
     }
     Ok((figure, below, notes))
 }
@@ -152,8 +156,17 @@ fn covering(marks: &[Mark], page: [Point; 2]) -> Option<usize> {
     None
 }
 
-/// The mark that all others lie on or within, what it is, and whether it is surely no part of the figure.
-fn ground(marks: &[Mark], page: Option<[Point; 2]>) -> Result<Option<(usize, Ground, bool)>, OutlineError> {
+/// What all other marks lie on or within.
+struct Found {
+    /// It and the line around it, in order.
+    marks: Vec<usize>,
+    ground: Ground,
+    /// Whether it is surely no part of the figure.
+    sure: bool,
+}
+
+/// The mark that all others lie on or within.
+fn ground(marks: &[Mark], page: Option<[Point; 2]>) -> Result<Option<Found>, OutlineError> {
     if marks.len() < 2 {
         return Ok(None);
     }
@@ -171,11 +184,15 @@ fn ground(marks: &[Mark], page: Option<[Point; 2]>) -> Result<Option<(usize, Gro
         if !holds || outer.len() != 1 || fills.is_nan() || fills < ROUND || (k > 0 && !frame) {
             continue;
         }
-        let rest = marks.iter().enumerate().filter(|(i, _)| *i != k).flat_map(|(_, mark)| mark.area.iter().cloned());
+        let border = if frame { Vec::new() } else { borders(marks, k, whole) };
+        let is_rest = |i: &usize| *i != k && !border.contains(i);
+        let rest = (0..marks.len()).filter(is_rest).flat_map(|i| marks[i].area.iter().cloned());
         let rest = filled(&regions::union(rest.collect())?);
         let covered: f64 = regions::area(&rest);
         let largest = rest.iter().map(|rings| regions::piece_area(rings)).fold(0.0, f64::max);
-        if !COVERS.contains(&(covered / whole)) || largest < FIGURE * covered {
+        // What fills a line up to its inner edge has it for its own outline.
+        let (room, most) = if frame { (whole - regions::area(&mark.area), FILLED) } else { (whole, *COVERS.end()) };
+        if !(*COVERS.start()..=most).contains(&(covered / room)) || largest < FIGURE * covered {
             continue;
         }
         if regions::area(&regions::difference(&rest, &outer)) > BEYOND_AREA * covered {
@@ -190,9 +207,23 @@ fn ground(marks: &[Mark], page: Option<[Point; 2]>) -> Result<Option<(usize, Gro
             (false, false) => Ground::Card,
         };
         let signs = [mark.white, sharp, like_page].into_iter().filter(|sign| *sign).count();
-        return Ok(Some((k, ground, frame || signs >= SIGNS)));
+        // With a line around it, it may be drawn as a thing: a letter, a tile.
+        let sure = frame || (signs >= SIGNS && (border.is_empty() || like_page));
+        let mut marks = [vec![k], border].concat();
+        marks.sort_unstable();
+        return Ok(Some(Found { marks, ground, sure }));
     }
     Ok(None)
+}
+
+/// The lines along the rim of a mark that covers so much.
+fn borders(marks: &[Mark], k: usize, whole: f64) -> Vec<usize> {
+    let is_border = |i: &usize| {
+        let around = regions::area(&filled(&marks[*i].area));
+        let line = regions::area(&marks[*i].area);
+        *i != k && line < FRAME * around && ((around - 0.5 * line) / whole - 1.0).abs() < BORDER
+    };
+    (0..marks.len()).filter(is_border).collect()
 }
 
 /// Without holes; what lay in one is part of it.
@@ -267,7 +298,7 @@ mod tests {
         }
         // A picture in its frame, and a page with a hole.
         let frame = mark(vec![square(0.0, 100.0), square(20.0, 80.0).into_iter().rev().collect()], false);
-        assert_eq!(parted(vec![frame, mark(vec![square(20.0, 80.0)], false)], Background::Found).0, 2);
+        assert_eq!(parted(vec![mark(vec![square(20.0, 80.0)], false), frame], Background::Found).0, 2);
         assert_eq!(parted(vec![paper(true)], Background::Found), (1, vec![]));
     }
 
@@ -282,6 +313,13 @@ mod tests {
         assert_eq!(parted(vec![sheet(false), figure.clone()], Background::Drop).0, 1);
         let line = mark(vec![square(20.0, 80.0), square(21.0, 79.0).into_iter().rev().collect()], false);
         assert_eq!(parted(vec![figure.clone(), line], found), (1, vec![Note::Background(Ground::Frame)]));
+        // A tile with a line around it is a thing, unless it is as large as the page; a line is no frame of what fills it.
+        let tile = |low: f64, high: f64| {
+            let line = vec![square(low - 1.0, high + 1.0), square(low + 1.0, high - 1.0).into_iter().rev().collect()];
+            vec![mark(vec![square(low, high)], true), figure.clone(), mark(line, false)]
+        };
+        assert_eq!(parted(tile(20.0, 80.0), found), (3, vec![Note::GroundCounts(Ground::Sheet)]));
+        assert_eq!(parted(tile(3.0, 97.0), found), (1, vec![Note::Background(Ground::Sheet)]));
         // Letters on a button are no figure, and the line around a body is no figure on it.
         let dot = |x: f64| mark(vec![rectangle([x, 40.0], [x + 5.0, 60.0])], false);
         assert_eq!(parted(vec![sheet(true), dot(30.0), dot(50.0)], found), (3, vec![]));

@@ -15,7 +15,7 @@ type Surface = [f64; 6];
 /// A background, and the distance of every pixel's colour from it, 0 for none, about 1 for black on white.
 pub(super) struct Found {
     pub difference: Vec<f32>,
-    /// Its colour, half of it being brighter and half darker, red, green and blue from 0 to 1.
+    /// Its colour at the rim, half of that being brighter and half darker, red, green and blue from 0 to 1.
     pub colour: [f64; 3],
 }
 
@@ -46,7 +46,7 @@ pub(super) fn find(pixels: &[[f32; 4]], width: usize, height: usize, within: Opt
     // The rim's median first: a figure that runs over the rim must not bend the surface.
     let mut surfaces = [0, 1, 2].map(|c| [median(pixels, &chosen, c), 0.0, 0.0, 0.0, 0.0, 0.0]);
     let mut near = 4.0 * NEAR;
-    let mut colour = surfaces.map(|surface| surface[0]);
+    let colour = surfaces.map(|surface| surface[0]);
     for _ in 0..ROUNDS {
         let close: Vec<usize> =
             samples.iter().copied().filter(|&k| distance(&pixels[k], &surfaces, &basis(k)) < near).collect();
@@ -56,7 +56,6 @@ pub(super) fn find(pixels: &[[f32; 4]], width: usize, height: usize, within: Opt
         let fitted = [0, 1, 2].map(|c| fit(&close, &basis, |k| f64::from(pixels[k][c])));
         let [Some(r), Some(g), Some(b)] = fitted else { break };
         surfaces = [r, g, b];
-        colour = [0, 1, 2].map(|c| median(pixels, &close, c));
         near = (0.7 * near).max(NEAR);
     }
     let away = |k: usize| if counts(k) { distance(&pixels[k], &surfaces, &basis(k)) as f32 } else { 0.0 };
