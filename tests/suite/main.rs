@@ -19,6 +19,7 @@ mod hostile;
 mod import;
 mod layers;
 mod live;
+mod makers;
 mod mesh;
 mod minimum;
 mod mistakes;
