@@ -5,6 +5,7 @@ use crate::design::animation;
 use crate::engine::Setpoint;
 use crate::studio::canvas::Plushie;
 use crate::studio::jobs::{Finished, Outcome, Running};
+use crate::studio::language::{t, tf};
 use crate::studio::session::{Mode, ONION, Session};
 
 /// Takes what the threads have to report, moves the playhead, asks for what should be seen next.
@@ -85,7 +86,7 @@ fn take(session: &mut Session, Finished { serial, outcome }: Finished) {
         Outcome::Told { owner, told } => session.tasks.finish(owner, serial, told),
         Outcome::Broken { job, why } => {
             break_off(session, serial);
-            session.messages.error(format!("{job} failed: {why}"));
+            session.messages.error(tf!("{job} failed: {why}", job = t(job), why));
         }
     }
 }

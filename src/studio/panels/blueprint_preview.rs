@@ -9,6 +9,7 @@ use crate::picture::preview::Preview;
 use crate::picture::sheet;
 use crate::studio::action::{Action, Actions, FileAction};
 use crate::studio::jobs::Told;
+use crate::studio::language::{mark, t, tf};
 use crate::studio::pictures::Pictures;
 use crate::studio::session::{Selection, Session, Task};
 use crate::studio::words;
@@ -67,14 +68,15 @@ pub fn show(ui: &mut Ui, session: &Session, options: &export::Options, state: &m
     if running && state.asked.as_ref().is_some_and(|(of, asked)| is(of, asked)) {
         ui.horizontal(|ui| {
             ui.add(Spinner::new());
-            ui.label("Making the preview");
+            ui.label(t("Making the preview"));
         });
-    } else if ui.button("Preview").on_hover_text("Sheets as they will be cut, motor files and remarks").clicked() {
+    } else if ui.button(t("Preview")).on_hover_text(t("Sheets as they will be cut, motor files and remarks")).clicked()
+    {
         state.page = 0;
         state.asked = Some((design.clone(), options.clone()));
         let (of, options) = (design.clone(), options.clone());
         let work = Arc::new(move |cancel: &AtomicBool| -> Told { Arc::new(made_of(&of, &options, cancel)) });
-        actions.push(Action::Start(Task { owner: OWNER, name: "The preview of the blueprint", work }));
+        actions.push(Action::Start(Task { owner: OWNER, name: mark("The preview of the blueprint"), work }));
     }
 }
 
@@ -89,20 +91,20 @@ fn pages(ui: &mut Ui, session: &Session, made: &Made, state: &mut State, actions
     let last = pages.len().saturating_sub(1);
     state.page = state.page.min(last);
     ui.horizontal(|ui| {
-        if ui.add_enabled(state.page > 0, eframe::egui::Button::new("Back")).clicked() {
+        if ui.add_enabled(state.page > 0, eframe::egui::Button::new(t("Back"))).clicked() {
             state.page -= 1;
         }
-        if ui.add_enabled(state.page < last, eframe::egui::Button::new("Next page")).clicked() {
+        if ui.add_enabled(state.page < last, eframe::egui::Button::new(t("Next page"))).clicked() {
             state.page += 1;
         }
         let name = pages.get(state.page).map_or("", |page| &page.name);
-        ui.label(format!("{} of {}: {name}", state.page + 1, pages.len()));
+        ui.label(tf!("{page} of {pages}: {name}", page = state.page + 1, pages = pages.len(), name));
     });
     let size = vec2(ui.available_width(), HEIGHT);
     match pages.get(state.page).map(|page| &page.content) {
         Some(Content::Sheet(picture)) => {
             let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
-            response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Sheet"));
+            response.widget_info(|| WidgetInfo::labeled(Role::Image, true, t("Sheet")));
             state.pictures.paint(ui, picture, rect);
         }
         Some(Content::Text(text)) => {
@@ -128,7 +130,7 @@ fn remark_lines(ui: &mut Ui, session: &Session, made: &Made, actions: &mut Actio
     }
     for breach in session.judging().breaches() {
         ui.horizontal(|ui| {
-            if ui.small_button("Show me").clicked() {
+            if ui.small_button(t("Show me")).clicked() {
                 if let Some(winch) = breach.winches().next() {
                     actions.push(Action::Select(Selection::Part(Part::Winch(winch))));
                 }
