@@ -24,7 +24,7 @@ fn command(language: &'static Language) -> Command {
     Command {
         on: Some(Box::leak(Box::new(move |session: &Session| session.look.language.chosen == Some(language)))),
         run: Box::leak(Box::new(move |session: &mut Session, _| session.look.language.chosen = Some(language))),
-        detail: Box::leak(Box::new(move |_| Some(tf!("Language of the window: {name}", name)))),
+        detail: Box::leak(Box::new(move |_: &Session| Some(tf!("Language of the window: {name}", name)))),
         ..Command::new(
             Box::leak(format!("language.{}", language.code).into_boxed_str()),
             name,
