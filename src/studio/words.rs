@@ -135,7 +135,9 @@ pub fn progress(step: &Progress) -> String {
 /// Why there is no rig.
 pub fn unrigged(error: &rig::Error) -> String {
     match error {
-        rig::Error::Rig(RigError::NoTargets) => "No pose has a target yet: drag a point of the body first.".to_owned(),
+        rig::Error::Rig(RigError::NoTargets) => {
+            t("No pose has a target yet: drag a point of the body first.").to_owned()
+        }
         rig::Error::Rig(RigError::NothingFound) => {
             t("No network brings any pose closer to its targets. Try more winches or tendons.").to_owned()
         }

@@ -183,7 +183,7 @@ fn export(session: &mut Session, folder: PathBuf, options: export::Options) {
     session.files.dialog = None;
     session.files.working = Some(t("Exporting the blueprint"));
     let (design, export) = (session.design().clone(), session.services.export.clone());
-    session.files.running = Some(session.jobs.start(mark("Export"), move |_| {
+    session.files.running = Some(session.jobs.start(mark("job|Export"), move |_| {
         let result = export(&design, &folder, &options);
         Outcome::Exported { folder, result }
     }));

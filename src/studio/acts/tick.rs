@@ -17,9 +17,9 @@ pub fn tick(session: &mut Session, now_s: f64, passed_s: f64, hands_off: bool) {
     }
     motors::follow(session);
     if session.solver.revive() {
-        session.messages.error(
+        session.messages.error(t(
             "The solver broke down and was started again. Your work is as it was; the last good shapes are shown",
-        );
+        ));
     }
     session.solver.take(session.design().mesh.nodes.len());
     if hands_off {

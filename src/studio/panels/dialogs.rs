@@ -219,7 +219,7 @@ fn export_settings(ui: &mut Ui, options: &mut export::Options) {
         for family in families::ALL {
             let at = options.controllers.iter().position(|name| name == family.name);
             let mut chosen = at.is_some();
-            if ui.checkbox(&mut chosen, family.name).on_hover_text(family.title).changed() {
+            if ui.checkbox(&mut chosen, family.name).on_hover_text(t(family.title)).changed() {
                 match at {
                     Some(at) => drop(options.controllers.remove(at)),
                     None => options.controllers.push(family.name.into()),

@@ -83,7 +83,7 @@ impl Motors {
             let list = ComboBox::from_id_salt("family").selected_text(&choice.family).width(120.0).show_ui(ui, |ui| {
                 for family in families::streams() {
                     ui.selectable_value(&mut choice.family, family.name.to_owned(), family.name)
-                        .on_hover_text(family.title);
+                        .on_hover_text(t(family.title));
                 }
             });
             list.response.accessible_name(t("Controllers")).on_hover_text(t("What tells the motors"));

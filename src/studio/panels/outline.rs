@@ -50,7 +50,7 @@ fn parts(ui: &mut Ui, session: &Session, actions: &mut Actions) {
         ui.label(RichText::new(t("Nothing drawn yet")).weak());
     }
     for (k, part) in drawing.parts.iter().enumerate() {
-        let name = format!("{} {}{}", k + 1, part.primitive.name(), if part.cut { t(", cut out") } else { "" });
+        let name = format!("{} {}{}", k + 1, t(part.primitive.name()), if part.cut { t(", cut out") } else { "" });
         row(ui, session, Item::Part(k), &name, &tf!("part {number}", number = k + 1), actions);
     }
     if drawing.tracks.is_empty() {

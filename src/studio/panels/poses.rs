@@ -126,9 +126,9 @@ fn error_text(session: &Session, error: PoseError) -> String {
     let mm = error.error * session.design().body_length_mm();
     let percent = 100.0 * error.error;
     let how = match error {
-        PoseError { fresh: false, .. } => "of the design before; the new one is worked out",
-        PoseError { thorough: false, .. } => "at a first look; the best pose is looked for",
-        _ => "the best pose that winding from rest reaches",
+        PoseError { fresh: false, .. } => t("of the design before; the new one is worked out"),
+        PoseError { thorough: false, .. } => t("at a first look; the best pose is looked for"),
+        _ => t("the best pose that winding from rest reaches"),
     };
     tf!(
         "The realizable plushie misses its targets by {mm:.2} mm, {percent:.2} % of the body length: {how}",

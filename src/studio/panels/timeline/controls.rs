@@ -144,7 +144,7 @@ pub fn follows(keyframe: &Keyframe) -> String {
 fn name(easing: Easing) -> &'static str {
     match easing {
         Easing::Linear => t("Linear"),
-        Easing::Smooth => t("Smooth"),
+        Easing::Smooth => t("easing|Smooth"),
         Easing::Hold => t("Hold"),
         Easing::Slow { .. } => t("Handles"),
     }
