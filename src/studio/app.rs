@@ -5,7 +5,7 @@ use super::adapter::Lost;
 use super::focus::Focus;
 use super::pacing::Pacing;
 use super::panels;
-use super::session::{Overlay, Services, Session, desktop_has_dialogs};
+use super::session::{Dialog, Overlay, Services, Session, desktop_has_dialogs};
 use super::store::Store;
 use super::tools::Toolbox;
 use super::{acts, canvas, keys, style, viewport};
@@ -111,11 +111,10 @@ impl Studio {
         self
     }
 
-    /// Shows the start page over what is open, where nothing that was left behind is offered.
+    /// Shows the start page over what is open; what was left behind is offered there.
     pub fn with_start_page(mut self) -> Self {
-        if self.session.files.dialog.is_none() {
-            self.session.overlay = Some(Overlay::Start);
-        }
+        self.session.files.dialog.take_if(|dialog| *dialog == Dialog::Recover);
+        self.session.overlay = Some(Overlay::Start);
         self
     }
 
@@ -193,7 +192,7 @@ impl Studio {
         Panel::bottom("status").frame(Frame::new()).exact_size(panels::status::HEIGHT).resizable(false).show(
             ui,
             |ui| {
-                panels::status::show(ui, session);
+                panels::status::show(ui, session, actions);
             },
         );
         if session.sketching().open {
@@ -309,7 +308,6 @@ mod tests {
     use super::*;
     use crate::outline::Changes;
     use crate::studio::jobs::{New, Outcome};
-    use crate::studio::session::Dialog;
     use crate::studio::{blank, services};
     use egui_kittest::Harness;
     use egui_kittest::kittest::Queryable;

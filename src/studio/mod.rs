@@ -17,6 +17,7 @@ mod blank;
 pub mod canvas;
 pub mod change;
 pub mod commands;
+mod controls;
 mod focus;
 pub mod icons;
 pub mod jobs;
@@ -46,7 +47,7 @@ use session::Services;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 use std::time::Duration;
 use store::Store;
 use thiserror::Error;
@@ -81,11 +82,12 @@ pub enum StudioError {
     Failed(String),
 }
 
-/// Opens the window and returns when it is closed. Without a design the first example is shown.
+/// Opens the window and returns when it is closed. Without a design the first example is shown. `told`: controls and where they are go
+/// to standard output, for a program that drives the window.
 ///
 /// # Errors
 /// [`StudioError`] where there is no display or no graphics adapter.
-pub fn run(design: Option<Design>, path: Option<PathBuf>) -> Result<(), StudioError> {
+pub fn run(design: Option<Design>, path: Option<PathBuf>, told: bool) -> Result<(), StudioError> {
     if !has_display() {
         return Err(StudioError::NoDisplay);
     }
@@ -121,6 +123,9 @@ pub fn run(design: Option<Design>, path: Option<PathBuf>) -> Result<(), StudioEr
         }
         if begins {
             studio = studio.with_start_page();
+        }
+        if told {
+            context.egui_ctx.add_plugin(controls::Controls::new(std::io::stdout()));
         }
         end_when_asked(context.egui_ctx.clone());
         Ok(Box::new(studio))
@@ -170,9 +175,9 @@ pub fn services() -> Services {
             // That nothing was found is told where the proposals would be.
             propose::for_targets(design, targets, options, &mut context).unwrap_or_default()
         }),
-        export: Arc::new(|design, folder, options| {
-            export::run(design, folder, options, &Context::new(&AtomicBool::new(false)))
-                .map(|manifest| manifest.remarks)
+        export: Arc::new(|design, folder, options, context| {
+            export::run(design, folder, options, context)
+                .map(|manifest| manifest.remarks.into_iter().map(|remark| remark.text).collect())
                 .map_err(|error| match error {
                     export::Error::Export(error) => words::unexported(&error),
                     export::Error::Cancelled(_) => error.to_string(),

@@ -113,6 +113,11 @@ impl Store {
         Self { root: root.into() }
     }
 
+    /// Whether a file is in it.
+    pub(super) fn holds(&self, file: &Path) -> bool {
+        file.starts_with(&self.root)
+    }
+
     /// A folder below, made where it is missing, for this user alone.
     pub(super) fn folder(&self, name: &str) -> io::Result<PathBuf> {
         let folder = self.root.join(name);

@@ -7,11 +7,11 @@ use super::{film, import, keep, open, paths, replace, save, sheet};
 use crate::defaults;
 use crate::design::file::is_design;
 use crate::files;
-use crate::operations::export;
+use crate::operations::{Context, Progress, export};
 use crate::studio::action::Sketch;
-use crate::studio::jobs::{New, Outcome, Refused};
+use crate::studio::jobs::{self, New, Outcome, Refused};
 use crate::studio::language::{mark, t, tf};
-use crate::studio::session::{Dialog, FREEHAND, FileAction, PathDialog, Picking, Purpose, Resolution, Session};
+use crate::studio::session::{Dialog, Done, FREEHAND, FileAction, PathDialog, Picking, Purpose, Resolution, Session};
 use crate::studio::words;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -27,6 +27,7 @@ pub fn ask(session: &mut Session, action: FileAction) {
             | FileAction::OpenExample(_)
             | FileAction::ImportPath { .. }
             | FileAction::OpenImported
+            | FileAction::Recover
             | FileAction::Quit
     );
     // An answer is about the document as it was then. Whatever dialog is open, the end of all work is asked about.
@@ -175,7 +176,7 @@ pub fn take_export(session: &mut Session, folder: &Path, result: Result<Vec<Stri
                 session.messages.warning(text);
             }
         }
-        Err(why) => session.messages.error(tf!("The export failed: {why}", why)),
+        Err(why) => session.messages.error(tf!("No blueprint was written: {why}", why)),
     }
 }
 
@@ -183,10 +184,32 @@ fn export(session: &mut Session, folder: PathBuf, options: export::Options) {
     session.files.dialog = None;
     session.files.working = Some(t("Exporting the blueprint"));
     let (design, export) = (session.design().clone(), session.services.export.clone());
-    session.files.running = Some(session.jobs.start(mark("job|Export"), move |_| {
-        let result = export(&design, &folder, &options);
+    let (done, wake) = (Done::default(), session.jobs.wake());
+    session.files.done = done.clone();
+    session.files.running = Some(session.jobs.start(mark("job|Export"), move |cancel| {
+        let mut progress = |step: &Progress| {
+            if let Progress::Part { done: now, of } = step {
+                done.say(*now, *of);
+                wake();
+            }
+        };
+        let result = export(&design, &folder, &options, &mut Context::telling(cancel, &mut progress));
         Outcome::Exported { folder, result }
     }));
+}
+
+/// Stops what [`Session::working`] tells of; nothing of it is kept. What reads or writes a file tells itself that it has stopped.
+pub fn stop(session: &mut Session) {
+    if let Some(running) = &session.files.running {
+        running.cancel();
+        session.files.working = Some(t("Stopping"));
+    } else if session.rigging.running.is_some() || session.rigging.curve.running.is_some() {
+        session.rigging.cancel();
+    } else if session.keying.is_some() {
+        jobs::cancel(&mut session.keying);
+    } else {
+        jobs::cancel(&mut session.filming.running);
+    }
 }
 
 /// Saves, and does what waited for that.

@@ -6,9 +6,8 @@ use crate::operations::render::Error;
 use crate::operations::{Context, Progress};
 use crate::studio::jobs::{Outcome, Running};
 use crate::studio::language::{mark, t, tf};
-use crate::studio::session::{Dialog, Session};
+use crate::studio::session::{Dialog, Done, Session};
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex};
 
 /// Begins to draw the animation.
 pub fn start(session: &mut Session, path: PathBuf, options: Options) {
@@ -31,12 +30,12 @@ pub fn start(session: &mut Session, path: PathBuf, options: Options) {
     }
     let design = session.acting().clone();
     let from = session.document.origin.clone().unwrap_or_default();
-    let (done, wake) = (Arc::new(Mutex::new([0; 2])), session.jobs.wake());
+    let (done, wake) = (Done::default(), session.jobs.wake());
     session.filming.done = done.clone();
     session.filming.running = Some(session.jobs.start(mark("The film"), move |cancel| {
         let mut progress = |step: &Progress| {
-            if let (Progress::Picture { done: now, of }, Ok(mut done)) = (step, done.lock()) {
-                *done = [*now, *of];
+            if let Progress::Picture { done: now, of } = step {
+                done.say(*now, *of);
             }
             wake();
         };

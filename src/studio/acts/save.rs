@@ -33,8 +33,8 @@ pub fn save(session: &mut Session, path: PathBuf, replace: bool) -> bool {
     }
     let seen = session.safety.seen.filter(|_| own && !replace);
     let saved = hold(&path).map_err(|source| FileError::Write { path: path.clone(), source });
-    let saved =
-        saved.and_then(|_held| file::save(session.design(), session.document.origin.as_deref(), &path, seen.as_ref()));
+    let origin = session.origin();
+    let saved = saved.and_then(|_held| file::save(session.design(), origin, &path, seen.as_ref()));
     match saved {
         Ok(seen) => {
             session.document.mark_saved();

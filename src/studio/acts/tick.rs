@@ -6,7 +6,8 @@ use crate::engine::Setpoint;
 use crate::studio::canvas::Plushie;
 use crate::studio::jobs::{Finished, Outcome, Running};
 use crate::studio::language::{t, tf};
-use crate::studio::session::{Mode, ONION, Session};
+use crate::studio::session::{Done, Mode, ONION, Session};
+use std::sync::Arc;
 
 /// Takes what the threads have to report, moves the playhead, asks for what should be seen next.
 /// `hands_off`: nobody holds a button or types, so gestures are over.
@@ -31,6 +32,8 @@ pub fn tick(session: &mut Session, now_s: f64, passed_s: f64, hands_off: bool) {
     }
     edit::clamp(session);
     let design = session.document.design().clone();
+    session.look.marked.take_if(|(of, _)| !Arc::ptr_eq(of, &design));
+    session.playback.follow(animation::duration_s(&design));
     session.posing.follow(&design);
     session.timing.follow(&design);
     discover::follow(session);
@@ -66,6 +69,7 @@ fn take(session: &mut Session, Finished { serial, outcome }: Finished) {
     if Running::is(session.files.running.as_ref(), serial) {
         session.files.running = None;
         session.files.working = None;
+        session.files.done = Done::default();
     }
     match outcome {
         Outcome::Proposed(proposals) => discover::take_proposals(session, serial, proposals),

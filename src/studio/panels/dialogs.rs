@@ -8,6 +8,7 @@ use crate::files::shown;
 use crate::motion::{TooFast, families};
 use crate::operations::export;
 use crate::studio::action::{Action, Actions, FileAction};
+use crate::studio::keeper::Abandoned;
 use crate::studio::language::{t, tf, tn};
 use crate::studio::session::Session;
 use crate::studio::session::{Dialog, PathDialog, Purpose, Why};
@@ -104,15 +105,7 @@ fn replace(ui: &mut Ui, path: &Path, why: Why, actions: &mut Actions) {
 fn recover(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     let Some(work) = session.offered() else { return };
     ui.heading(tf!("Recover “{name}”?", name = work.design.name));
-    let ago = work
-        .at
-        .elapsed()
-        .map_or_else(|_| String::new(), |ago| tf!(" It was changed {ago} ago.", ago = spoken(ago.as_secs())));
-    let from = work.facts.path.as_deref().map_or_else(
-        || t("It has no file yet.").to_owned(),
-        |path| tf!("It belongs to {path}, which is as it was.", path = shown(path)),
-    );
-    ui.label(tf!("Plushwright ended before this plushie was saved.{ago} {from}", ago, from));
+    ui.label(left_behind(work));
     ui.add_space(10.0);
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         if primary(ui, true, t("Recover"), 100.0).clicked() {
@@ -125,6 +118,19 @@ fn recover(ui: &mut Ui, session: &Session, actions: &mut Actions) {
             actions.push(Action::File(FileAction::RecoverLater));
         }
     });
+}
+
+/// How work was left behind, when, and whose it is.
+pub(super) fn left_behind(work: &Abandoned) -> String {
+    let ago = work
+        .at
+        .elapsed()
+        .map_or_else(|_| String::new(), |ago| tf!(" It was changed {ago} ago.", ago = spoken(ago.as_secs())));
+    let from = work.facts.path.as_deref().map_or_else(
+        || t("It has no file yet.").to_owned(),
+        |path| tf!("It belongs to {path}, which is as it was.", path = shown(path)),
+    );
+    tf!("Plushwright ended before this plushie was saved.{ago} {from}", ago, from)
 }
 
 /// How long something took, in the largest unit that fits.

@@ -2,8 +2,10 @@
 
 use super::accuracy;
 use crate::engine::{EQUILIBRIUM, NEAR_EQUILIBRIUM, Shape, Warning};
-use crate::studio::canvas::Plushie;
+use crate::studio::action::{Action, Actions};
+use crate::studio::canvas::{Hit, Plushie};
 use crate::studio::commands::command::Scope;
+use crate::studio::commands::files::STOP;
 use crate::studio::language::{t, tf};
 use crate::studio::session::{Mode, Session};
 use crate::studio::tools::{PULL, taken};
@@ -12,24 +14,32 @@ use eframe::egui::{Align, Color32, FontId, Label, Layout, RichText, Ui, vec2};
 /// Height of both lines, logical pixels.
 pub const HEIGHT: f32 = 40.0;
 
-pub fn show(ui: &mut Ui, session: &Session) {
+pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
     ui.add_space(2.0);
     let weak = ui.visuals().weak_text_color();
     let warn = ui.visuals().warn_fg_color;
     let (text, color) = if let Some(working) = session.working() {
-        (format!("{working}…"), ui.visuals().strong_text_color())
+        let at = session.working_at().map_or_else(String::new, |[done, of]| tf!(", {done} of {of}", done, of));
+        (format!("{working}{at}…"), ui.visuals().strong_text_color())
     } else if let Some(warning) = session.solver_warning() {
         (warning.to_owned(), warn)
     } else {
         (hint(session).to_owned(), weak)
     };
-    line(ui, session, Plushie::Idealized, text, color);
-    line(ui, session, Plushie::Realizable, state(session), weak);
+    let stops = session.can_stop().then_some(&mut *actions);
+    line(ui, session, Plushie::Idealized, (text, color), stops);
+    line(ui, session, Plushie::Realizable, (state(session), weak), None);
 }
 
-/// A line: words on the left as far as they fit, the figures of a view on the right, each in a place of its own.
-fn line(ui: &mut Ui, session: &Session, plushie: Plushie, words: String, color: Color32) {
+/// A line: words on the left as far as they fit, and what stops the work; the figures of a view on the right, each in a place of its own.
+fn line(
+    ui: &mut Ui,
+    session: &Session,
+    plushie: Plushie,
+    (words, color): (String, Color32),
+    stops: Option<&mut Actions>,
+) {
     let size = vec2(ui.available_width(), (HEIGHT - 4.0) / 2.0);
     let font = FontId::monospace(11.0);
     // A place as wide as the longest figures: nothing jumps when they change.
@@ -50,6 +60,14 @@ fn line(ui: &mut Ui, session: &Session, plushie: Plushie, words: String, color: 
         ui.add_space(12.0);
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
             ui.add_space(12.0);
+            if let Some(actions) = stops
+                && ui.link(RichText::new(STOP.label).small()).on_hover_text(STOP.tip).clicked()
+            {
+                actions.push(Action::Run(&STOP, Hit::Nothing));
+            }
+            if session.can_stop() && plushie == Plushie::Idealized {
+                ui.add_space(8.0);
+            }
             ui.add(Label::new(RichText::new(words).small().color(color)).truncate());
         });
     });
@@ -140,7 +158,7 @@ mod tests {
     #[test]
     fn figures_keep_their_width() {
         let services =
-            Services { propose: Arc::new(|_, _, _, _, _| Vec::new()), export: Arc::new(|_, _, _| Ok(Vec::new())) };
+            Services { propose: Arc::new(|_, _, _, _, _| Vec::new()), export: Arc::new(|_, _, _, _| Ok(Vec::new())) };
         let session = Session::new(crate::studio::blank::design(), None, Arc::new(|| ()), services);
         for (milliseconds, residual, converged) in [(0.04, 0.0, true), (12.3, 3e-12, true), (4321.0, 0.5, false)] {
             let shape = Shape { milliseconds, residual, converged, force_scale: 1.0, ..Shape::default() };

@@ -84,7 +84,7 @@ fn row(ui: &mut Ui, session: &Session, pose: usize, index: usize, target: &Targe
         let selected = session.picked.selection == Selection::Target(index) || session.group().has(handle);
         let name = tf!("Target {number}", number = index + 1);
         // Text on the right, even none, moves the name to the left, in line with the poses above.
-        let button = Button::selectable(selected, &name).right_text("").min_size(vec2(70.0, 24.0));
+        let button = Button::selectable(selected, &name).right_text("").min_size(vec2(62.0, 24.0));
         let response =
             ui.add(button).accessible_name(&name).on_hover_text(t("Click to select, with Ctrl or Shift beside others"));
         if response.clicked() {

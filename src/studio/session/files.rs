@@ -1,5 +1,6 @@
 //! Dialogs about files, and what is asked for by them.
 
+use super::done::Done;
 use super::import_choice::ImportChoice;
 use super::import_preview::ImportPreview;
 use crate::design::Design;
@@ -111,6 +112,8 @@ pub struct Files {
     pub(crate) after_save: Option<FileAction>,
     /// The document whose changes may be dropped, as was answered.
     pub(crate) granted: Option<Arc<Design>>,
+    /// How far it is, where it tells.
+    pub(crate) done: Done,
     /// The job of that thread.
     pub(crate) running: Option<Running>,
     /// Waits for an answer about the document that it would replace.

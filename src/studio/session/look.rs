@@ -1,12 +1,15 @@
 //! How things are shown.
 
 use super::onion::Onion;
+use crate::design::Design;
+use crate::mesh::BodyPoint;
 use crate::outline::Point;
 use crate::picture::layers::looks;
 use crate::picture::layers::{Layer, Shown};
 use crate::picture::palette::Theme;
 use crate::studio::canvas::{Camera, Plushie};
 use crate::studio::language::Choice;
+use std::sync::Arc;
 
 pub struct Look {
     pub language: Choice,
@@ -28,6 +31,8 @@ pub struct Look {
     pub zoom: Option<f32>,
     /// A box that shall fill the views, as soon as they know their sizes, mm.
     pub frame: Option<[Point; 2]>,
+    /// Places of a body that were asked for, ringed until something else is done.
+    pub marked: Option<(Arc<Design>, Vec<BodyPoint>)>,
     /// Whether rulers and a grid are shown.
     pub rulers: bool,
     /// Outlines of neighbouring keyframes.
@@ -89,7 +94,7 @@ impl Look {
 
     /// Fits the body into the views.
     pub(crate) fn fit(&mut self) {
-        (self.camera, self.apart, self.frame, self.zoom) = (None, None, None, None);
+        (self.camera, self.apart, self.frame, self.zoom, self.marked) = (None, None, None, None, None);
     }
 
     /// Lets each view have its own camera, or both that of the idealized one.
@@ -117,6 +122,7 @@ impl Default for Look {
             apart: None,
             zoom: None,
             frame: None,
+            marked: None,
             rulers: false,
             onion: Onion::default(),
             still: false,

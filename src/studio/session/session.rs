@@ -25,10 +25,11 @@ use super::timing::Timing;
 use super::winding::Winding;
 use crate::design::file::MAX_BYTES;
 use crate::design::history::History;
+use crate::design::texture::Origin;
 use crate::design::{Design, Target};
 use crate::engine::{Quality, Request};
 use crate::files::Stamp;
-use crate::operations::export;
+use crate::operations::{Context, export};
 use crate::outline::Drawing;
 use crate::picture::Texture;
 use crate::picture::layers::{Layer, Textured};
@@ -48,7 +49,8 @@ pub type Propose =
 /// Hears of the list of proposals as it grows.
 pub type Found<'f> = &'f mut dyn FnMut(&[Arc<Proposal>]);
 /// Writes the blueprint of a design into a folder, and returns its remarks.
-pub type Export = Arc<dyn Fn(&Design, &Path, &export::Options) -> Result<Vec<String>, String> + Send + Sync>;
+pub type Export =
+    Arc<dyn Fn(&Design, &Path, &export::Options, &mut Context<'_>) -> Result<Vec<String>, String> + Send + Sync>;
 
 /// The long work that is done elsewhere; tests put their own in.
 #[derive(Clone)]
@@ -142,6 +144,13 @@ impl Session {
             tasks: Tasks::default(),
             services,
         }
+    }
+
+    /// Where the document was read from; what waits in a folder of the window's own does not stay there.
+    pub(crate) fn origin(&self) -> Option<Origin<'_>> {
+        let file = self.document.origin.as_deref()?;
+        let own = self.safety.store.as_ref().is_some_and(|store| store.holds(file));
+        Some(Origin { file, stays: !own && self.document.kept.is_none() })
     }
 
     /// The document as it is now.
@@ -282,6 +291,23 @@ impl Session {
         let filming = self.filming.running.is_some().then_some(t("Drawing the animation"));
         let following = self.following.is_running().then_some(t("Working out keyframes again"));
         self.files.working.or(rigging).or(keying).or(filming).or(following)
+    }
+
+    /// Whether that work can be stopped: keyframes that follow their poses begin anew by themselves.
+    pub fn can_stop(&self) -> bool {
+        self.files.running.is_some()
+            || self.rigging.running.is_some()
+            || self.rigging.curve.running.is_some()
+            || self.keying.is_some()
+            || self.filming.running.is_some()
+    }
+
+    /// How far that work is, where it tells: steps, of how many.
+    pub fn working_at(&self) -> Option<[usize; 2]> {
+        match self.files.working {
+            Some(_) => self.files.done.get(),
+            None => self.filming.running.as_ref().and_then(|_| self.filming.done.get()),
+        }
     }
 
     /// Whether the window is about to close.

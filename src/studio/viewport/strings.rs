@@ -4,7 +4,7 @@ use crate::motion::winch_labels;
 use crate::operations::network::Part;
 use crate::outline::Point;
 use crate::picture::palette::Palette;
-use crate::sewing::{Breach, Place};
+use crate::sewing::{Breach, Spot};
 use crate::studio::canvas::{Canvas, Ground, HANDLE};
 use crate::studio::language::tf;
 use crate::studio::session::Selection;
@@ -137,18 +137,12 @@ fn ringed(canvas: &Canvas<'_>, part: Part) -> Option<Point> {
 
 /// The parts that break a rule.
 fn parts(breach: &Breach) -> [Option<Part>; 2] {
-    let hole = |at: Place, hole: usize| Some(Part::Hole(at.winch, at.cable, hole));
-    let piece = |at: Place, piece: usize| Some(Part::Piece(at.winch, at.cable, piece));
-    let tendon = |at: Place| Some(Part::Tendon(at.winch, at.cable));
-    match *breach {
-        Breach::NearSeam { at, hole: h, .. } | Breach::SharpTurn { at, hole: h, .. } => [hole(at, h), None],
-        Breach::Crowded { at, hole: h, other, other_hole, .. } => [hole(at, h), hole(other, other_hole)],
-        Breach::ManyHoles { at, .. } | Breach::Turning { at, .. } => [tendon(at), None],
-        Breach::Along { at, other, .. } => [tendon(at), tendon(other)],
-        Breach::ThroughWinch { at, piece: p, winch, .. } => [piece(at, p), Some(Part::Winch(winch))],
-        Breach::Outside { at, piece: p, .. } => [piece(at, p), None],
-        Breach::ThinBody { .. } => [None, None],
-        Breach::HousingOutside { winch, .. } | Breach::HousingAtGap { winch, .. } => [Some(Part::Winch(winch)), None],
-        Breach::HousingsClose { winch, other, .. } => [Some(Part::Winch(winch)), Some(Part::Winch(other))],
-    }
+    breach.spots().map(|spot| {
+        Some(match spot? {
+            Spot::Winch(winch) => Part::Winch(winch),
+            Spot::Cable(at) => Part::Tendon(at.winch, at.cable),
+            Spot::Hole(at, hole) => Part::Hole(at.winch, at.cable, hole),
+            Spot::Piece(at, piece) => Part::Piece(at.winch, at.cable, piece),
+        })
+    })
 }

@@ -19,7 +19,7 @@ fn pig() -> Design {
 }
 
 fn services() -> Services {
-    Services { propose: Arc::new(|_, _, _, _, _| Vec::new()), export: Arc::new(|_, _, _| Ok(Vec::new())) }
+    Services { propose: Arc::new(|_, _, _, _, _| Vec::new()), export: Arc::new(|_, _, _, _| Ok(Vec::new())) }
 }
 
 /// A window on a design, and on a file where it has one, that keeps its state in `state`.

@@ -47,7 +47,7 @@ pub fn other(design: &Design, error_after: f64) -> Proposal {
 pub fn services() -> Services {
     Services {
         propose: Arc::new(|design, _, _, _, _| vec![Arc::new(proposal(design, 0.05)), Arc::new(other(design, 0.1))]),
-        export: Arc::new(|_, folder, _| {
+        export: Arc::new(|_, folder, _, _| {
             std::fs::create_dir(folder).map_err(|e| e.to_string())?;
             std::fs::write(folder.join("pattern.svg"), "<svg/>").map_err(|e| e.to_string())?;
             Ok(Vec::new())
