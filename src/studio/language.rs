@@ -58,9 +58,10 @@ impl Default for Choice {
 }
 
 impl Language {
-    /// That of a locale (`de`, `de_AT.UTF-8`, `de-CH`); `None` for one that the window does not speak.
+    /// That of a locale (`de`, `de_AT.UTF-8`, `de-CH`; `C` is English); `None` for one that the window does not speak.
     pub fn of(locale: &str) -> Option<&'static Self> {
         let code = locale.split(['_', '-', '.', '@']).next().unwrap_or_default();
+        let code = if ["C", "POSIX"].contains(&code) { "en" } else { code };
         ALL.iter().find(|language| language.code.eq_ignore_ascii_case(code))
     }
 
@@ -84,9 +85,9 @@ impl std::fmt::Debug for Language {
     }
 }
 
-/// The language of the system; English where the window does not speak it.
+/// The first of the languages that the system prefers and the window speaks; English where it speaks none.
 pub fn of_system() -> &'static Language {
-    sys_locale::get_locale().and_then(|locale| Language::of(&locale)).unwrap_or(&ALL[0])
+    sys_locale::get_locales().find_map(|locale| Language::of(&locale)).unwrap_or(&ALL[0])
 }
 
 /// From now on this thread speaks that language.

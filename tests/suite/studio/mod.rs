@@ -3,6 +3,7 @@
 mod arranging;
 mod craft;
 mod files;
+mod language;
 mod looks;
 mod motors;
 mod networks;
