@@ -2,7 +2,7 @@
 
 use crate::fabrication::font;
 use crate::fabrication::sheet::{
-    Anchor, BLACK, Color, Entity, GREY, Group, REFERENCE_MM, Sheet, Style, reference_square,
+    Anchor, BLACK, Color, Entity, GREY, Group, REFERENCE_MM, Sheet, Style, WHITE, reference_square,
 };
 use crate::outline::Point;
 use crate::outline::polygon::{self, bounding_box};
@@ -154,7 +154,14 @@ impl<'a> Cut<'a> {
         }
         let mut frame = Group::new("frame", FRAME);
         let far = [inset + self.step[0], inset + self.step[1]];
-        frame.entities.push(Entity::Polygon(vec![[inset; 2], [far[0], inset], far, [inset, far[1]]]));
+        // Each side from its lower or left end, so that the dashes of neighbours lie on each other.
+        for along in [0, 1] {
+            for across in [inset, far[1 - along]] {
+                let mut ends = [[across; 2]; 2];
+                (ends[0][along], ends[1][along]) = (inset, far[along]);
+                frame.entities.push(Entity::Polyline(ends.to_vec()));
+            }
+        }
         let mut words = Group::new("page", Style::filled(BLACK));
         let number = self.number(column, row).unwrap_or(0);
         let (across, down) = (column + 1, self.rows - row);
@@ -169,7 +176,7 @@ impl<'a> Cut<'a> {
 
     /// A diamond with a letter in the middle of every side where another page meets, the same on both, and crosses at the corners.
     fn marks(&self, column: usize, row: usize, place: impl Fn(Point) -> Point) -> Group {
-        let mut marks = Group::new("marks", Style::line(BLACK, 0.3));
+        let mut marks = Group::new("marks", Style { fill: Some(WHITE), ..Style::line(BLACK, 0.3) });
         let upright = |column: usize, row: usize| row * (self.columns - 1) + column;
         let lying = |column: usize, row: usize| (self.columns - 1) * self.rows + row * self.columns + column;
         let [x, y] = self.corner(column, row);
