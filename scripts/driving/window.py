@@ -60,7 +60,9 @@ class Window:
             "LANGUAGE": "en",
             "WINIT_X11_SCALE_FACTOR": str(scale),
         }
-        self.scale, self.told, self.changed = scale, [], 0.0
+        self.told, self.changed = [], 0.0
+        # More pixels take longer where everything is drawn in software.
+        self.rest_s = REST_S * scale * scale
         self.process = subprocess.Popen(
             [str(program), "--controls", *map(str, arguments)],
             stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, env=self.environment, text=True,
@@ -95,8 +97,8 @@ class Window:
     def rests(self, patience=20.0):
         """Waits until nothing changes any more."""
         until = time.monotonic() + patience
-        time.sleep(0.15)
-        while time.monotonic() - self.changed < REST_S and time.monotonic() < until:
+        time.sleep(0.4 * self.rest_s)
+        while time.monotonic() - self.changed < self.rest_s and time.monotonic() < until:
             time.sleep(0.05)
 
     def all(self, name, role=None):
@@ -189,9 +191,19 @@ class Window:
 
     def fill(self, name, text):
         """Types over what a field holds."""
-        self.click(name)
-        self.key("ctrl+a")
-        self.type(text)
+        for _ in range(3):
+            self.click(name)
+            self.key("ctrl+a")
+            self.type(text)
+            if self.find(name).value == text:
+                return
+        raise Lost(f"“{name}” does not take “{text}”: {self.find(name).value}")
+
+    def command(self, words):
+        """Runs a command from the palette."""
+        self.key("ctrl+shift+p")
+        self.fill("Look for a command", words)
+        self.key("Return")
 
     def kill(self):
         self.process.send_signal(signal.SIGKILL)

@@ -1,6 +1,7 @@
 //! A chart to choose a rig from: the worst pose's error against the number of winches and of tendons.
 
 use super::buttons;
+use super::widgets::passing;
 use crate::operations::explore::Point;
 use crate::picture::palette::Palette;
 use crate::studio::action::{Action, Actions};
@@ -20,7 +21,7 @@ const DOT: f32 = 4.5;
 
 pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     let curve = &session.rigging.curve;
-    match &curve.running {
+    passing(ui, true, |ui| match &curve.running {
         Some(running) => {
             ui.horizontal(|ui| {
                 ui.add(Spinner::new());
@@ -37,7 +38,7 @@ pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
             let width = ui.available_width();
             buttons::wide(ui, session, &CURVE, width, actions);
         }
-    }
+    });
     if curve.points.is_empty() {
         return;
     }

@@ -2,7 +2,7 @@
 
 use super::blueprint_parts::parts_and_sheets;
 use super::blueprint_preview;
-use super::widgets::{primary, sentence};
+use super::widgets::{passing, primary, sentence};
 use super::{film, import};
 use crate::files::shown;
 use crate::motion::{TooFast, families};
@@ -171,7 +171,7 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, state: &mut State, 
     }
     if dialog.purpose == Purpose::Export {
         export_settings(ui, &mut edited.export);
-        blueprint_preview::show(ui, session, &dialog.export, &mut state.preview, actions);
+        passing(ui, true, |ui| blueprint_preview::show(ui, session, &dialog.export, &mut state.preview, actions));
     }
     if dialog.purpose == Purpose::Film {
         film::settings(ui, &mut edited);
@@ -190,9 +190,10 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, state: &mut State, 
         _ => "",
     };
     ui.label(RichText::new(note).small().weak());
-    if let Some(trouble) = &dialog.trouble {
-        ui.label(RichText::new(sentence(trouble)).color(ui.visuals().error_fg_color));
-    }
+    passing(ui, dialog.trouble.is_some(), |ui| {
+        let trouble = dialog.trouble.as_deref().map(sentence).unwrap_or_default();
+        ui.label(RichText::new(trouble).color(ui.visuals().error_fg_color));
+    });
     ui.add_space(10.0);
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         let verb = dialog.purpose.verb();

@@ -1,7 +1,7 @@
 //! Proposing networks: options, progress, and the list as it grows.
 
 use super::gallery::{self, Gallery};
-use super::widgets::heading;
+use super::widgets::{heading, passing};
 use super::{buttons, rig, stages};
 use crate::studio::action::{Action, Actions};
 use crate::studio::canvas::Hit;
@@ -19,11 +19,11 @@ const HALFWAY_S: f32 = 3.0;
 pub fn show(ui: &mut Ui, session: &Session, thumbnails: &mut Thumbnails, gallery: &mut Gallery, actions: &mut Actions) {
     heading(ui, t("Network discovery"));
     let width = ui.available_width();
-    match &session.discovery.running {
+    let running = session.discovery.running.as_ref();
+    passing(ui, running.is_some() || !session.discovery.is_stale(), |ui| match running {
         Some(running) => progress(ui, session, running.started.elapsed(), actions),
-        None if !session.discovery.is_stale() => buttons::primary(ui, session, &PROPOSE, true, width, actions),
-        None => {}
-    }
+        None => buttons::primary(ui, session, &PROPOSE, true, width, actions),
+    });
     options(ui, session, actions);
     rig::show(ui, session, actions);
     let discovery = &session.discovery;
@@ -32,13 +32,13 @@ pub fn show(ui: &mut Ui, session: &Session, thumbnails: &mut Thumbnails, gallery
     }
     ui.add_space(6.0);
     heading(ui, t("Proposals"));
-    if discovery.is_stale() {
+    passing(ui, discovery.is_stale(), |ui| {
         ui.label(
             RichText::new(t("Found for another body or pose: these figures do not hold."))
                 .color(ui.visuals().warn_fg_color),
         );
         buttons::primary(ui, session, &PROPOSE_AGAIN, true, width, actions);
-    }
+    });
     gallery::show(ui, session, gallery, actions);
     if let Some(shown) = session.shown_proposal() {
         verdict(ui, session, actions);

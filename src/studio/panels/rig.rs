@@ -1,5 +1,6 @@
 //! Networks for all poses at once: what may be built, and how far the search is.
 
+use super::widgets::passing;
 use super::{buttons, curve};
 use crate::studio::action::{Action, Actions};
 use crate::studio::canvas::Hit;
@@ -36,13 +37,13 @@ pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
         if choice != session.rigging().choice {
             actions.push(Action::SetRig(choice));
         }
-        match &session.rigging().running {
+        passing(ui, true, |ui| match &session.rigging().running {
             Some(running) => rigging(ui, session, running.started.elapsed(), actions),
             None => {
                 let width = ui.available_width();
                 buttons::primary(ui, session, &RIG, true, width, actions);
             }
-        }
+        });
         curve::show(ui, session, actions);
     });
 }

@@ -39,7 +39,7 @@ struct Shots {
 
 const OWNER: &str = "start.pictures";
 /// Width of the page and size of a card, logical pixels; size of its picture, pixels.
-const WIDTH: f32 = 674.0;
+const WIDTH: f32 = 700.0;
 const MARGIN: f32 = 18.0;
 const CARD: [f32; 2] = [164.0, 138.0];
 const SIZE: (u32, u32) = (300, 216);

@@ -53,8 +53,41 @@ pub fn name_field(ui: &mut Ui, session: &Session, label: &str, actions: &mut Act
     None
 }
 
+/// What comes and goes by itself, as threads report. Whether it is shown or not, the widgets after it keep their ids: a click or a drag that is
+/// under way finds them again, and so does the keyboard.
+pub fn passing(ui: &mut Ui, shown: bool, add: impl FnOnce(&mut Ui)) {
+    if shown {
+        ui.scope(add);
+    } else {
+        ui.skip_ahead_auto_ids(1);
+    }
+}
+
 /// An error as a sentence of its own.
 pub fn sentence(error: &str) -> String {
     let mut letters = error.chars();
     letters.next().map_or_else(String::new, |first| format!("{}{}.", first.to_uppercase(), letters.as_str()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use eframe::egui::{Context, Id, RawInput};
+
+    #[test]
+    fn what_comes_and_goes_moves_no_ids() {
+        let ctx = Context::default();
+        let mut ids: Vec<Id> = Vec::new();
+        for shown in [false, true, false] {
+            let _ = ctx.run_ui(RawInput::default(), |ui| {
+                ui.horizontal(|ui| {
+                    passing(ui, shown, |ui| {
+                        let _ = (ui.button("Now"), ui.label("and then"));
+                    });
+                    ids.push(ui.button("Always").id);
+                });
+            });
+        }
+        assert!(ids.windows(2).all(|pair| pair[0] == pair[1]), "{ids:?}");
+    }
 }

@@ -9,6 +9,7 @@ use crate::studio::commands::document::DELETE;
 use crate::studio::icons::{self, Icon};
 use crate::studio::language::{t, tf};
 use crate::studio::panels::buttons;
+use crate::studio::panels::widgets::passing;
 use crate::studio::session::Session;
 use eframe::egui::{Align, ComboBox, DragValue, Layout, ProgressBar, RichText, Ui};
 
@@ -27,9 +28,9 @@ pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
         buttons::text(ui, session, &ADD_KEYFRAME, actions);
         if session.design().keyframes.len() > 1 {
             buttons::choice(ui, session, &DRIVES, actions);
-            film(ui, session, actions);
+            passing(ui, true, |ui| film(ui, session, actions));
         }
-        doubts(ui, session, actions);
+        passing(ui, !session.timing().doubts().is_empty(), |ui| doubts(ui, session, actions));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| selected(ui, session, actions));
     });
 }
