@@ -112,17 +112,16 @@ fn matches(session: &Session, words: &str) -> Vec<&'static Command> {
     found.into_iter().map(|(_, command)| command).collect()
 }
 
-/// How well a command fits, the best 0; none where a word is nowhere.
+/// How well a command fits, the best 0; none where a word is nowhere. What a page or a colleague calls it in English is found too.
 fn rank(session: &Session, command: &Command, words: &str) -> Option<u8> {
-    let label = command.label(session).to_lowercase();
-    // What a page or a colleague calls it in English is found too.
-    let words_of = [&command.tip(session), t(command.tip), command.label].join(" ").to_lowercase();
-    let all = format!("{label} {words_of} {}", command.keys_text().to_lowercase());
+    let labels = [command.label(session), command.label].map(str::to_lowercase);
+    let tips = [&command.tip(session), t(command.tip), &command.keys_text()].join(" ").to_lowercase();
+    let all = format!("{} {tips}", labels.join(" "));
     if !words.split_whitespace().all(|word| all.contains(word)) {
         return None;
     }
-    let in_label = words.split_whitespace().all(|word| label.contains(word));
-    Some(match (label.starts_with(words.trim()), in_label) {
+    let in_label = |label: &String| words.split_whitespace().all(|word| label.contains(word));
+    Some(match (labels.iter().any(|label| label.starts_with(words.trim())), labels.iter().any(in_label)) {
         (true, _) => 0,
         (false, true) => 1,
         (false, false) => 2,

@@ -200,6 +200,8 @@ fn every_panel_and_menu_speaks_german() {
         click(&mut window, folded);
         is_german(&window, folded);
     }
+    window.get_by_label("Pose 1").click();
+    settle(&mut window);
     click(&mut window, "Propose networks");
     assert!(!session(&window).discovery().proposals.is_empty());
     is_german(&window, "proposals");
