@@ -1,6 +1,7 @@
 """Patterns: SVG by lxml and shapely, DXF by ezdxf."""
 
 import re
+import shutil
 import subprocess
 
 import ezdxf
@@ -20,6 +21,8 @@ def checks(out, manifest, settings):
     for path in patterns:
         pieces.update(read(path))
         yield f"{path.name}: mm, reference of 100.000 mm", reference(path)
+        if shutil.which("inkscape"):
+            yield f"{path.name}: Inkscape's sizes", inkscape(path)
     remarks = " ".join(manifest["remarks"])
     for name, piece in pieces.items():
         for check, fault in skin(piece, settings["allowance"], remarks):
@@ -67,6 +70,19 @@ def reference(path):
         return f"{root.get('width')} is not {view}"
     line = [shape(e) for g in root if g.get("id") == "reference" for e in g if e.tag == f"{SVG}path"][0]
     return None if abs(line.length - 100) < 5e-4 else f"{line.length} mm"
+
+
+def inkscape(path):
+    """Cut lines are as large in Inkscape (which answers in pixels of 1/96 inch, lines' widths included) as they are written."""
+    done = subprocess.run(["inkscape", "--query-all", path], capture_output=True, text=True)
+    sizes = {words[0]: words[3:] for words in (line.split(",") for line in done.stdout.splitlines()) if len(words) == 5}
+    for name, layers in read(path).items():
+        rim = layers["cut"][0].bounds
+        found = [float(v) * 25.4 / 96 for v in sizes.get(f"{name}-cut", ["nan", "nan"])]
+        wanted = [rim[2] - rim[0], rim[3] - rim[1]]
+        if not all(abs(a - b) < 0.02 for a, b in zip(found, wanted)):
+            return f"{name}: {found} mm, not {wanted}"
+    return None
 
 
 def skin(piece, allowance, remarks):

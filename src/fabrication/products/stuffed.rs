@@ -72,6 +72,8 @@ fn sheet(source: &Source<'_>, stuffed: &Stuffed) -> Sheet {
     let all: Vec<Point> = stuffed.flat.iter().chain(&stuffed.rings).flatten().copied().collect();
     let (low, high) = bounding_box(&all);
     let base = 2.0 * MARGIN_MM;
+    let width_mm = (high[0] - low[0] + 2.0 * MARGIN_MM).max(150.0);
+    let height_mm = high[1] - low[1] + base + MARGIN_MM + 14.0;
     let place = |p: Point| [p[0] - low[0] + MARGIN_MM, p[1] - low[1] + base];
     let placed = |rings: &[Vec<Point>]| -> Vec<Entity> {
         rings.iter().map(|ring| Entity::Polygon(ring.iter().map(|&p| place(p)).collect())).collect()
@@ -82,7 +84,7 @@ fn sheet(source: &Source<'_>, stuffed: &Stuffed) -> Sheet {
     round.entities = placed(&stuffed.rings);
     let mut across = Group::new("limbs", Style::line(BLACK, 0.3));
     let mut note = Group::new("note", Style::filled(BLACK));
-    let mut labels = Labels::default();
+    let mut labels = Labels::within(vec![[0.0; 2], [width_mm, 0.0], [width_mm, height_mm], [0.0, height_mm]]);
     for limb in &stuffed.limbs {
         let line: Vec<Point> = limb.across.iter().map(|&p| place(p)).collect();
         labels.polyline(&line);
@@ -99,8 +101,6 @@ fn sheet(source: &Source<'_>, stuffed: &Stuffed) -> Sheet {
             note.text(at, WORDS_MM, Anchor::Start, text);
         }
     }
-    let width_mm = (high[0] - low[0] + 2.0 * MARGIN_MM).max(150.0);
-    let height_mm = high[1] - low[1] + base + MARGIN_MM + 14.0;
     let words =
         format!("{}: dashed as cut, solid when stuffed, {:.0} mm thick", source.design.name, stuffed.thickness_mm);
     note.text([MARGIN_MM, height_mm - MARGIN_MM], 4.5, Anchor::Start, words);

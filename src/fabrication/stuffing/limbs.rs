@@ -4,13 +4,14 @@ use crate::mesh::Mesh;
 use crate::outline::polygon::length;
 use crate::outline::{Outline, Point};
 
-/// A limb is what a disc of this part of the body's deepest place does not reach, the band along the rim left out: a quarter more.
+/// A limb is what a disc of this part of the body's deepest place does not reach, the band along the rim left out: half as much
+/// again, which a corner of 90 degrees (1.42) does not reach.
 const OF_DEEPEST: f64 = 0.5;
-const BAND: f64 = 1.25;
+const BAND: f64 = 1.5;
 /// Smallest limb that is told, as a part of the body's area.
 const LEAST_AREA: f64 = 0.01;
-/// Largest angle off the straight line across a limb at which its other side is looked for: its cosine.
-const STRAIGHT: f64 = 0.9;
+/// Directions in which the way across a limb is looked for, over half a turn: 2 degrees apart, by which a width is 0.02 % too large at most.
+const DIRECTIONS: usize = 90;
 
 /// A limb by its middle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,10 +33,19 @@ pub fn limbs(mesh: &Mesh, outline: &Outline, seen: &[Point]) -> Vec<Limb> {
     let away: Vec<f64> =
         mesh.nodes.iter().map(|&p| core.iter().map(|&q| length(p, q)).fold(f64::INFINITY, f64::min)).collect();
     let is_limb: Vec<bool> = away.iter().map(|&d| d > BAND * OF_DEEPEST * deepest).collect();
-    let rim: Vec<usize> = mesh.boundary().into_iter().flatten().collect();
+    let rim: Vec<[usize; 2]> = mesh
+        .boundary()
+        .iter()
+        .flat_map(|ring| (0..ring.len()).map(|i| [ring[i], ring[(i + 1) % ring.len()]]))
+        .collect();
     let share = (LEAST_AREA * mesh.nodes.len() as f64).max(3.0) as usize;
     let parts = components(mesh, &is_limb).into_iter().filter(|part| part.len() >= share);
-    let mut limbs: Vec<Limb> = parts.filter_map(|part| limb(mesh, seen, &part, &depth, &away, &rim)).collect();
+    // The corners of a wide body are out of the disc's reach as well.
+    let most = 2.0 * BAND * OF_DEEPEST * deepest;
+    let mut limbs: Vec<Limb> = parts
+        .filter_map(|part| limb(mesh, seen, &part, &depth, &away, &rim))
+        .filter(|limb| limb.flat_mm <= most)
+        .collect();
     if limbs.is_empty() {
         let all: Vec<usize> = (0..mesh.nodes.len()).collect();
         limbs.extend(limb(mesh, seen, &all, &depth, &vec![0.0; all.len()], &rim));
@@ -44,27 +54,47 @@ pub fn limbs(mesh: &Mesh, outline: &Outline, seen: &[Point]) -> Vec<Limb> {
     limbs
 }
 
-/// The width of a limb at the deepest place of its outer half.
-fn limb(mesh: &Mesh, seen: &[Point], part: &[usize], depth: &[f64], away: &[f64], rim: &[usize]) -> Option<Limb> {
+/// The width of a limb at the deepest place of its outer half: the shortest way through it from rim to rim.
+fn limb(mesh: &Mesh, seen: &[Point], part: &[usize], depth: &[f64], away: &[f64], rim: &[[usize; 2]]) -> Option<Limb> {
     let farthest = part.iter().map(|&i| away[i]).fold(0.0, f64::max);
     let nearest = part.iter().map(|&i| away[i]).fold(f64::INFINITY, f64::min);
     let outer = part.iter().copied().filter(|&i| away[i] >= 0.5 * (nearest + farthest));
     let middle = outer.max_by(|&a, &b| depth[a].total_cmp(&depth[b]))?;
-    let p = mesh.nodes[middle];
-    let a = rim.iter().copied().min_by(|&a, &b| length(mesh.nodes[a], p).total_cmp(&length(mesh.nodes[b], p)))?;
-    let q = mesh.nodes[a];
-    let reach = length(p, q);
-    let opposite = |&b: &usize| {
-        let r = mesh.nodes[b];
-        let far = length(p, r);
-        let cosine =
-            ((r[0] - p[0]) * (p[0] - q[0]) + (r[1] - p[1]) * (p[1] - q[1])) / (far * reach).max(f64::MIN_POSITIVE);
-        cosine > STRAIGHT
+    let at = mesh.nodes[middle];
+    let ways = (0..DIRECTIONS).filter_map(|k| {
+        let (sine, cosine) = (std::f64::consts::PI * k as f64 / DIRECTIONS as f64).sin_cos();
+        Some([hit(mesh, rim, at, [cosine, sine])?, hit(mesh, rim, at, [-cosine, -sine])?])
+    });
+    let [a, b] = ways.min_by(|a, b| (a[0].reach + a[1].reach).total_cmp(&(b[0].reach + b[1].reach)))?;
+    let across = [a.on(&mesh.nodes), b.on(&mesh.nodes)];
+    Some(Limb { at, across, flat_mm: length(across[0], across[1]), stuffed_mm: length(a.on(seen), b.on(seen)) })
+}
+
+/// A point of the rim, by a side and the part of it that lies before the point.
+struct Hit {
+    side: [usize; 2],
+    part: f64,
+    reach: f64,
+}
+
+impl Hit {
+    fn on(&self, nodes: &[Point]) -> Point {
+        let [a, b] = self.side.map(|node| nodes[node]);
+        [0, 1].map(|k| a[k] + self.part * (b[k] - a[k]))
+    }
+}
+
+/// Where a ray from inside first meets the rim.
+fn hit(mesh: &Mesh, rim: &[[usize; 2]], from: Point, direction: Point) -> Option<Hit> {
+    let cross = |a: Point, b: Point| a[0] * b[1] - a[1] * b[0];
+    let meets = |&side: &[usize; 2]| {
+        let [a, b] = side.map(|node| [mesh.nodes[node][0] - from[0], mesh.nodes[node][1] - from[1]]);
+        let along = [b[0] - a[0], b[1] - a[1]];
+        let area = cross(direction, along);
+        let (part, reach) = (cross(a, direction) / area, cross(a, along) / area);
+        (area != 0.0 && (0.0..=1.0).contains(&part) && reach > 0.0).then_some(Hit { side, part, reach })
     };
-    let others = rim.iter().copied().filter(opposite);
-    let b = others.min_by(|&a, &b| length(mesh.nodes[a], p).total_cmp(&length(mesh.nodes[b], p)))?;
-    let across = [q, mesh.nodes[b]];
-    Some(Limb { at: p, across, flat_mm: length(q, mesh.nodes[b]), stuffed_mm: length(seen[a], seen[b]) })
+    rim.iter().filter_map(meets).min_by(|a, b| a.reach.total_cmp(&b.reach))
 }
 
 /// Nodes of limbs that hang together.

@@ -89,4 +89,26 @@ mod tests {
         };
         assert!(((side(true) - side(false)) / diameter - 1.0).abs() < 0.03, "{}", side(true) - side(false));
     }
+
+    #[test]
+    fn a_limb_is_as_wide_as_the_shortest_way_across_it() {
+        for angle in [0.0_f64, 0.6, 1.3] {
+            let (sine, cosine) = angle.sin_cos();
+            let corners = [
+                [0.0, 0.0],
+                [120.0, 0.0],
+                [120.0, 40.0],
+                [200.0, 40.0],
+                [200.0, 70.0],
+                [120.0, 70.0],
+                [120.0, 120.0],
+                [0.0, 120.0],
+            ];
+            let ring = corners.map(|[x, y]| [cosine * x - sine * y, sine * x + cosine * y]);
+            let found = stuffed(&body(ring.to_vec(), 600));
+            let [limb] = found.limbs.as_slice() else { panic!("{:?}", found.limbs) };
+            assert!((limb.flat_mm - 30.0).abs() < 0.1, "{limb:?}");
+            assert!(limb.stuffed_mm < 0.9 * limb.flat_mm, "{limb:?}");
+        }
+    }
 }
