@@ -118,6 +118,12 @@ impl Studio {
         self
     }
 
+    /// With views beside each other, however wide the body is.
+    pub fn side_by_side(mut self) -> Self {
+        self.session.look.stacks = false;
+        self
+    }
+
     /// Where a place in mm was on the screen in the last frame; `None` in a view that is not shown.
     pub fn on_screen(&self, plushie: viewport::Plushie, p: Point) -> Option<egui::Pos2> {
         self.views.on_screen(plushie, p)

@@ -39,6 +39,8 @@ pub struct Settings {
     /// A look by its name.
     pub look: Option<String>,
     pub overlaid: Option<bool>,
+    /// Whether the views of wide bodies stand beside each other too.
+    pub side_by_side: bool,
     pub cameras_apart: Option<bool>,
     pub rulers: Option<bool>,
     pub onion_skins: Option<bool>,

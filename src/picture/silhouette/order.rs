@@ -120,8 +120,11 @@ fn distances(rest: &[Point], triangles: &[[usize; 3]], heights: &[f64], beside: 
 mod tests {
     use super::*;
 
+    /// Points, triangles, and the letter of each triangle.
+    type Body = (Vec<Point>, Vec<[usize; 3]>, Vec<(char, usize)>);
+
     /// Squares of 10 mm in two triangles each, where there are letters.
-    fn body(rows: &[&str]) -> (Vec<Point>, Vec<[usize; 3]>, Vec<(char, usize)>) {
+    fn body(rows: &[&str]) -> Body {
         let width = rows[0].len() + 1;
         let rest =
             (0..width * (rows.len() + 1)).map(|n| [10.0 * (n % width) as f64, -10.0 * (n / width) as f64]).collect();

@@ -174,6 +174,7 @@ pub fn remember(session: &mut Session) {
         layers: now.shown.clone(),
         look: Some(now.body.to_owned()),
         overlaid: Some(now.views == Views::Overlay),
+        side_by_side: !now.stacks,
         cameras_apart: Some(!now.linked),
         rulers: Some(now.rulers),
         onion_skins: Some(now.onion.on),
@@ -194,6 +195,7 @@ fn take_settings(session: &mut Session) {
     session.look.shown = settings.layers.clone();
     session.look.views = settings.views();
     session.look.body = settings.look.as_deref().and_then(look).map_or(session.look.body, |look| look.name);
+    session.look.stacks = !settings.side_by_side;
     session.look.linked = settings.cameras_apart != Some(true);
     session.look.rulers = settings.rulers == Some(true);
     session.look.onion.on = settings.onion_skins == Some(true);

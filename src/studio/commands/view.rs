@@ -9,7 +9,7 @@ use crate::studio::language::t;
 use crate::studio::session::Views;
 use eframe::egui::Key;
 
-pub static ALL: [&Command; 14] = [
+pub static ALL: [&Command; 15] = [
     &FIT,
     &FIT_SELECTION,
     &ZOOM_IN,
@@ -17,6 +17,7 @@ pub static ALL: [&Command; 14] = [
     &IDEALIZED,
     &REALIZABLE,
     &OVERLAY,
+    &STACKED,
     &LINKED,
     &RULERS,
     &ONION,
@@ -68,6 +69,18 @@ pub static OVERLAY: Command = Command {
         "view.overlay",
         "One view, overlaid",
         "Show the realizable plushie alone, with the outline of the idealized one over it",
+    )
+};
+
+pub static STACKED: Command = Command {
+    scope: Scope::Views,
+    places: &[Place::ViewMenu],
+    on: Some(&|session| session.look.stacks),
+    run: &|session, _| session.look.stacks = !session.look.stacks,
+    ..Command::new(
+        "view.stacked",
+        "Stack views of wide bodies",
+        "Show the plushies one above the other where that shows them larger",
     )
 };
 

@@ -23,6 +23,8 @@ pub struct Look {
     pub views: Views,
     /// Of both views, or of the idealized one where each has its own. `None`: fits the body.
     pub camera: Option<Camera>,
+    /// Whether the views of a wide body stand one above the other.
+    pub stacks: bool,
     /// Whether both views have one camera.
     pub linked: bool,
     /// Of the realizable view where each has its own.
@@ -117,6 +119,7 @@ impl Default for Look {
             shown: Shown::default(),
             body: looks::Plush::NAME,
             views: Views::Both,
+            stacks: true,
             camera: None,
             linked: true,
             apart: None,

@@ -37,7 +37,7 @@ pub fn show(ui: &mut Ui, canvas: &Canvas<'_>, bar: &Bar) {
     for ((place, words), align) in bar.ticks().into_iter().zip(ends) {
         painter.text(pos2(left + place as f32 * length, top + SIZE[1] + 2.0), align, words, font.clone(), weak);
     }
-    let response = ui.interact(all, ui.scope_id().with(("bar", rect.min.x as i64)), Sense::hover());
+    let response = ui.interact(all, ui.scope_id().with(("bar", rect.min.x as i64, rect.min.y as i64)), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, range(bar)));
 }
 

@@ -115,11 +115,11 @@ fn broken(ui: &mut Ui, canvas: &Canvas<'_>) {
         let words: Vec<String> = breaches.iter().map(|breach| breach.words(&names).to_string()).collect();
         let words = tf!("Hard to sew: {breaches}", breaches = words.join("\n"));
         let square = Rect::from_center_size(pos2(middle.x, middle.y), Vec2::splat(2.0 * radius));
-        let response =
-            ui.interact(square, ui.scope_id().with(("broken", canvas.rect.min.x as i64, part)), Sense::hover());
+        let corner = [canvas.rect.min.x as i64, canvas.rect.min.y as i64];
+        let response = ui.interact(square, ui.scope_id().with(("broken", corner, part)), Sense::hover());
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &words));
         if !session.is_dragging() {
-            response.on_hover_text_at_pointer(words);
+            response.on_hover_text_at_pointer(tf!("{words}\nThe tendon tool (W) moves it", words));
         }
     }
 }

@@ -68,11 +68,12 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut State, tool: &mut dyn To
 /// By how much larger a body must be shown before its views stand one above the other.
 const STACKED: f32 = 1.2;
 
-/// Where the views are; one that is hidden leaves its place to the other. Those of a wide body stand one above the other.
+/// Where the views are; one that is hidden leaves its place to the other. Those of a wide body stand one above the other, unless that is not wanted.
 fn rects(ui: &Ui, session: &Session, area: Rect) -> [(Plushie, Rect); 2] {
     let scale = |size: Vec2| fit(session, size).scale;
     let half = area.size() / 2.0;
-    let stacked = scale(vec2(area.width(), half.y)) > STACKED * scale(vec2(half.x, area.height()));
+    let wider = scale(vec2(area.width(), half.y)) > STACKED * scale(vec2(half.x, area.height()));
+    let stacked = wider && session.look.stacks;
     let (left, right) = match session.look.views {
         Views::Only(_) | Views::Overlay => (area, area),
         Views::Both if stacked => {

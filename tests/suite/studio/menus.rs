@@ -31,8 +31,9 @@ fn menus_of_poses_and_keyframes_do_what_they_say() {
     let menu = |window: &mut Window, on: &str, entry: &str| {
         let at = center(window, on);
         open(window, at);
-        // The button of the toolbar or the list may be called so too.
-        let entries = window.get_all_by_label(entry).map(|node| node.rect().center());
+        // A button of the toolbar or the list may be called so too: entries are as wide as their menu.
+        let entries = window.get_all_by_label(entry).filter(|node| node.rect().width() > 120.0);
+        let entries = entries.map(|node| node.rect().center());
         let nearest = entries.min_by(|a, b| a.distance(at).total_cmp(&b.distance(at))).unwrap();
         crate::support::window::drag(window, nearest, nearest);
     };
@@ -181,7 +182,7 @@ fn fields_have_no_sign_before_zero() {
         press(&mut window, Modifiers::NONE, Key::Enter);
         assert_eq!(field(&window), "0.0 mm", "{typed}");
     }
-    let minus = window.get_all_by_label_contains("-0").filter(|node| {
+    let minus = window.query_all_by_label_contains("-0").filter(|node| {
         let text = node.value().unwrap_or_default();
         text.split_whitespace()
             .any(|word| word.parse::<f64>().is_ok_and(|figure| figure == 0.0 && word.starts_with('-')))

@@ -74,10 +74,12 @@ pub fn open(design: Design, path: Option<PathBuf>, services: Services, store: Op
             let studio = studio.get_or_insert_with(|| {
                 let (design, path, services, store) = given.take().expect("made once");
                 let studio = Studio::new(ui.ctx(), design, path, services);
-                match store {
+                let studio = match store {
                     Some(store) => studio.with_store(ui.ctx(), store),
                     None => studio,
-                }
+                };
+                // The bar is wide, and tests count on where its places are.
+                studio.side_by_side()
             });
             studio.update(ui);
         },
