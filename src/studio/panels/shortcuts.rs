@@ -9,6 +9,8 @@ use eframe::egui::{Context, Grid, Id, Modal, RichText, ScrollArea};
 
 /// Logical pixels.
 const SIZE: [f32; 2] = [520.0, 480.0];
+/// Width of the keys, so that what they do stands in one column in every language, logical pixels.
+const KEYS: f32 = 210.0;
 
 pub fn show(ctx: &Context, session: &Session, actions: &mut Actions) {
     if session.overlay() != Some(Overlay::Shortcuts) {
@@ -21,7 +23,7 @@ pub fn show(ctx: &Context, session: &Session, actions: &mut Actions) {
             for (subject, list) in commands::ALL.iter() {
                 ui.add_space(6.0);
                 heading(ui, t(subject));
-                Grid::new(*subject).num_columns(2).min_col_width(150.0).spacing([12.0, 3.0]).show(ui, |ui| {
+                Grid::new(*subject).num_columns(2).min_col_width(KEYS).spacing([12.0, 3.0]).show(ui, |ui| {
                     for command in list.iter().filter(|command| !command.keys.is_empty()) {
                         ui.label(RichText::new(command.keys_text()).monospace());
                         ui.label(t(command.label).trim_end_matches('…')).on_hover_text(t(command.tip));
