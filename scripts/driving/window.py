@@ -201,9 +201,18 @@ class Window:
 
     def command(self, words):
         """Runs a command from the palette."""
+        self.look_for(words)
+        self.key("Return")
+
+    def look_for(self, words):
+        """Opens the palette, and types what is looked for."""
         self.key("ctrl+shift+p")
         self.fill("Look for a command", words)
-        self.key("Return")
+
+    def gone(self, name):
+        """Waits until a control is no longer there."""
+        self.wait(f"“{name}” gone", lambda: not self.has(name))
+        self.rests()
 
     def kill(self):
         self.process.send_signal(signal.SIGKILL)

@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::ops::Deref;
 
-/// Words on a blueprint, and where on the body they are about. In files it is its words alone.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// Words on a blueprint, and where on the body they are about. In files it is its words alone, and two are the same where those are.
+#[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(from = "String", into = "String")]
 pub struct Remark {
     pub text: String,
@@ -44,6 +44,12 @@ impl Deref for Remark {
 
     fn deref(&self) -> &str {
         &self.text
+    }
+}
+
+impl PartialEq for Remark {
+    fn eq(&self, other: &Self) -> bool {
+        self.text == other.text
     }
 }
 

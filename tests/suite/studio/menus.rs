@@ -32,10 +32,9 @@ fn menus_of_poses_and_keyframes_do_what_they_say() {
         let at = center(window, on);
         open(window, at);
         // A button of the toolbar or the list may be called so too: entries are as wide as their menu.
-        let entries = window.get_all_by_label(entry).filter(|node| node.rect().width() > 120.0);
-        let entries = entries.map(|node| node.rect().center());
-        let nearest = entries.min_by(|a, b| a.distance(at).total_cmp(&b.distance(at))).unwrap();
-        crate::support::window::drag(window, nearest, nearest);
+        let width = |node: &egui_kittest::Node<'_>| node.rect().width();
+        window.get_all_by_label(entry).max_by(|a, b| width(a).total_cmp(&width(b))).expect("an entry").click();
+        settle(window);
     };
     menu(&mut window, "Pose 1", "Duplicate pose");
     assert_eq!(session(&window).design().poses.len(), 2);
