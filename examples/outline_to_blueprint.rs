@@ -46,7 +46,7 @@ pub fn run(folder: &Path) -> Result<(), Box<dyn Error>> {
             pose.name, pose.error_rest, pose.error_realizable
         );
     }
-    let manifest = export::run(&design, folder, &export::Options::default(), &context)?;
+    let manifest = export::run(&design, folder, &export::Options::default(), &mut context)?;
     println!("{} files in {}", manifest.files.len(), folder.display());
     Ok(())
 }

@@ -104,7 +104,7 @@ fn open_studio(cli: &Cli) -> Result<(), CommandError> {
     use plushwright::studio::{self, StudioError};
     let design = cli.design.as_deref().map(commands::document::load).transpose()?;
     files::survive_size_limits();
-    studio::run(design, cli.design.clone()).map_err(|error| match error {
+    studio::run(design, cli.design.clone(), cli.controls).map_err(|error| match error {
         StudioError::Failed(_) | StudioError::AdapterLost => CommandError::Failed(error.to_string()),
         _ => CommandError::Environment(error.to_string()),
     })

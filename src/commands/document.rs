@@ -85,7 +85,7 @@ impl Edit<'_> {
     pub fn save(&self, design: &Design, cancel: &AtomicBool) -> Result<(), CommandError> {
         check_cancel(cancel)?;
         log::info!("writing {}", shown(self.to));
-        let save = |seen| file::save(design, Some(self.from), self.to, seen).map(drop).map_err(unwritten);
+        let save = |seen| file::save(design, Some(self.from.into()), self.to, seen).map(drop).map_err(unwritten);
         match &self.place {
             Place::Back { seen, .. } => save(Some(seen)),
             Place::Away(read, force) => alone_in(self.to, cancel, || {
@@ -112,7 +112,7 @@ impl Edit<'_> {
             return self.save(design, &go).map(|()| self.to.to_owned());
         }
         let path = self.to.with_extension("interrupted.plush");
-        file::save(design, Some(self.from), &path, None).map_err(unwritten)?;
+        file::save(design, Some(self.from.into()), &path, None).map_err(unwritten)?;
         Ok(path)
     }
 }

@@ -2,12 +2,12 @@
 
 use super::error::CommandError;
 use super::output::{json, say, say_lines};
-use super::{document, words};
+use super::{document, progress, words};
 use crate::fabrication::piece::{Corners, Cutting};
 use crate::fabrication::{Catalogue, Cutter, SheetSize, Topic, Topics, catalogue};
 use crate::files;
 use crate::motion::TooFast;
-use crate::operations::{Context, export};
+use crate::operations::{Context, Progress, export};
 use clap::{Args, ValueEnum};
 use std::io::Write;
 use std::path::PathBuf;
@@ -169,11 +169,16 @@ impl Export {
             motors: self.catalogue()?,
             controllers: self.controllers.clone(),
         };
-        let manifest =
-            export::run(&design, &self.output, &options, &Context::new(cancel)).map_err(|error| match error {
-                export::Error::Export(error) => words::unexported(&self.design, error),
-                export::Error::Cancelled(_) => CommandError::Cancelled,
-            })?;
+        let mut told = |step: &Progress| {
+            if let Progress::Part { done, of } = step {
+                progress::at(*done, *of, "parts");
+            }
+        };
+        let mut context = Context::telling(cancel, &mut told);
+        let manifest = export::run(&design, &self.output, &options, &mut context).map_err(|error| match error {
+            export::Error::Export(error) => words::unexported(&self.design, error),
+            export::Error::Cancelled(_) => CommandError::Cancelled,
+        })?;
         if self.json {
             return say_lines(out, &json(&manifest)?);
         }

@@ -76,6 +76,9 @@ pub struct Cli {
     /// File to write a log to, line by line
     #[arg(long, value_name = "FILE", global = true)]
     pub log: Option<PathBuf>,
+    /// Tell the controls of the window on standard output, whenever they change, for a program that drives it
+    #[arg(long, hide = true)]
+    pub controls: bool,
     #[command(subcommand)]
     pub command: Option<Command>,
 }

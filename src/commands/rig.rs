@@ -148,9 +148,10 @@ impl Told {
                 self.errors.clone_from(errors);
                 None
             }
-            Progress::Rig(rigging::Progress::Candidates { .. }) | Progress::Proposals(_) | Progress::Picture { .. } => {
-                None
-            }
+            Progress::Rig(rigging::Progress::Candidates { .. })
+            | Progress::Proposals(_)
+            | Progress::Picture { .. }
+            | Progress::Part { .. } => None,
         };
         let news = gain.is_none() || gain != self.gain;
         self.gain = gain;

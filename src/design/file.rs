@@ -4,8 +4,9 @@
 //! a file back gives the same bits. The version is read before anything else, so that a file from the future is refused
 //! as such and not for the first word this program does not know.
 
+use super::texture::{self, Origin};
 use super::version::FORMAT_VERSION;
-use super::{Design, DesignError, texture};
+use super::{Design, DesignError};
 use crate::files::{self, Stamp, printable, shown};
 use crate::sewing::Rules;
 use ron::error::{Position, SpannedError};
@@ -174,9 +175,9 @@ pub fn write(path: &Path, design: &Design) -> Result<(), FileError> {
 ///
 /// # Errors
 /// [`FileError::Changed`], where it is not; a design that is unsound; what the system says. Nothing is written then.
-pub fn save(design: &Design, from: Option<&Path>, to: &Path, seen: Option<&Stamp>) -> Result<Stamp, FileError> {
+pub fn save(design: &Design, from: Option<Origin<'_>>, to: &Path, seen: Option<&Stamp>) -> Result<Stamp, FileError> {
     let failed = |source| FileError::Write { path: to.into(), source };
-    let carried = texture::carried(design, from.unwrap_or(to), to).map_err(failed)?;
+    let carried = texture::carried(design, from.unwrap_or(to.into()), to).map_err(failed)?;
     if let Some(seen) = seen
         && !seen.may_be_replaced(to, MAX_BYTES).map_err(failed)?
     {

@@ -26,6 +26,20 @@ pub enum TextureError {
     Missing(io::Error),
 }
 
+/// Where a design was read from.
+#[derive(Clone, Copy, Debug)]
+pub struct Origin<'a> {
+    pub file: &'a Path,
+    /// Whether what is beside it stays there; what does not is copied, even from a folder below that of the new file.
+    pub stays: bool,
+}
+
+impl<'a> From<&'a Path> for Origin<'a> {
+    fn from(file: &'a Path) -> Self {
+        Self { file, stays: true }
+    }
+}
+
 /// A design as it is to be written elsewhere, where that differs, and the copy of its texture that goes with it.
 #[derive(Debug, Default)]
 pub struct Carried {
@@ -57,12 +71,13 @@ pub fn find(design: &Design, file: &Path) -> Result<Option<PathBuf>, TextureErro
 }
 
 /// A design read from `from` as it is to be written to `to`: its texture is named by where it is seen from there or, where it is not
-/// beside or below that, copied to it as `NAME.texture.png`, with a number where that is another picture. One that cannot be read
+/// beside or below that or does not stay there, copied to it as `NAME.texture.png`, with a number where that is another picture. One that cannot be read
 /// stays a name.
 ///
 /// # Errors
 /// No name is free for the copy.
-pub fn carried(design: &Design, from: &Path, to: &Path) -> io::Result<Carried> {
+pub fn carried(design: &Design, from: Origin<'_>, to: &Path) -> io::Result<Carried> {
+    let Origin { file: from, stays } = from;
     let Ok(Some(path)) = find(design, from) else { return Ok(Carried::default()) };
     let [old, new] = [from, to].map(|file| fs::canonicalize(files::parent(file)).ok());
     if old == new {
@@ -70,7 +85,7 @@ pub fn carried(design: &Design, from: &Path, to: &Path) -> io::Result<Carried> {
     }
     let named = |name: &str| Some(Design { texture: Some(name.to_owned()), ..design.clone() });
     let seen = fs::canonicalize(&path).ok().zip(new).and_then(|(path, new)| slashed(path.strip_prefix(new).ok()?));
-    if let Some(name) = seen {
+    if let Some(name) = seen.filter(|_| stays) {
         return Ok(Carried { design: named(&name), texture: None });
     }
     let Ok(bytes) = files::read(&path, MOST_BYTES) else { return Ok(Carried::default()) };
@@ -136,11 +151,18 @@ mod tests {
         let at = |path: &str| folder.path().join(path);
         fs::create_dir_all(at("a/b")).unwrap();
         fs::write(at("a/x.png"), "x").unwrap();
-        let carry = |to: &str| carried(&textured("x.png"), &at("a/p.plush"), &at(to)).unwrap();
+        let from = at("a/p.plush");
+        let carry = |to: &str| carried(&textured("x.png"), from.as_path().into(), &at(to)).unwrap();
         let name = |carried: &Carried| carried.design.as_ref().and_then(|design| design.texture.clone());
         assert!(name(&carry("a/q.plush")).is_none());
         let up = carry("q.plush");
         assert_eq!((name(&up).as_deref(), up.texture.is_some()), (Some("a/x.png"), false));
+        let passing = Origin { file: &from, stays: false };
+        let up = carried(&textured("x.png"), passing, &at("q.plush")).unwrap();
+        assert_eq!(
+            (name(&up).as_deref(), up.texture),
+            (Some("q.texture.png"), Some((at("q.texture.png"), b"x".to_vec())))
+        );
         let down = carry("a/b/q.plush");
         assert_eq!(name(&down).as_deref(), Some("q.texture.png"));
         assert_eq!(down.texture, Some((at("a/b/q.texture.png"), b"x".to_vec())));

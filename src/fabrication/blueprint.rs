@@ -5,6 +5,7 @@ use super::error::ExportError;
 use super::options::Options;
 use super::product::{Section, Shared, Source};
 use super::products::PRODUCTS;
+use super::remark::Remark;
 use super::stuffing::compensated;
 use super::writers;
 use crate::design::Design;
@@ -26,7 +27,7 @@ pub struct Manifest {
     /// Every file but the manifest itself.
     pub files: Vec<Listed>,
     /// Remarks for the user on this blueprint (a motor too slow, a gap too small, ...).
-    pub remarks: Vec<String>,
+    pub remarks: Vec<Remark>,
 }
 
 /// One file of a blueprint, in memory.
@@ -36,14 +37,30 @@ pub struct File {
     pub bytes: Vec<u8>,
 }
 
+/// Hears how many parts of how many are made, and says whether the next one is wanted.
+pub type Watch<'w> = &'w mut dyn FnMut(usize, usize) -> bool;
+
 /// Writes the blueprint of a design as a folder, which appears whole or not at all. An earlier export there is
 /// replaced; a folder that holds anything else is refused.
 ///
 /// # Errors
 /// A folder that is not ours or was changed by hand, what [`blueprint`] refuses, and what the system says of the disk.
 pub fn export(design: &Design, dir: &Path, options: &Options) -> Result<Manifest, ExportError> {
+    export_watched(design, dir, options, &mut |_, _| true)
+}
+
+/// [`export`] for somebody who waits for it.
+///
+/// # Errors
+/// As there, and [`ExportError::Stopped`] before anything is written.
+pub fn export_watched(
+    design: &Design,
+    dir: &Path,
+    options: &Options,
+    watch: Watch<'_>,
+) -> Result<Manifest, ExportError> {
     folder::check(dir, ANY_VERSION)?;
-    let (files, manifest) = blueprint(design, options)?;
+    let (files, manifest) = blueprint_watched(design, options, watch)?;
     let files: Vec<(&str, &[u8])> = files.iter().map(|file| (file.name.as_str(), file.bytes.as_slice())).collect();
     folder::write(dir, ANY_VERSION, &files)?;
     Ok(manifest)
@@ -55,6 +72,18 @@ pub fn export(design: &Design, dir: &Path, options: &Options) -> Result<Manifest
 /// # Errors
 /// A design that is not sound or has no networks, and an animation that the motors cannot be told.
 pub fn blueprint(design: &Design, options: &Options) -> Result<(Vec<File>, Manifest), ExportError> {
+    blueprint_watched(design, options, &mut |_, _| true)
+}
+
+/// [`blueprint`] for somebody who waits for it.
+///
+/// # Errors
+/// As there, and [`ExportError::Stopped`].
+pub fn blueprint_watched(
+    design: &Design,
+    options: &Options,
+    watch: Watch<'_>,
+) -> Result<(Vec<File>, Manifest), ExportError> {
     let (acting, all) = (design.acting(), design);
     let design = &*acting;
     motion::check(design)?;
@@ -68,12 +97,15 @@ pub fn blueprint(design: &Design, options: &Options) -> Result<(Vec<File>, Manif
     let cut = options.compensate.then(|| compensated(design));
     let skin = cut.as_ref().and_then(|cut| cut.as_ref().ok()).unwrap_or(design);
     let uncompensated = cut.as_ref().and_then(|cut| cut.as_ref().err());
-    let (mut files, mut sections, mut remarks) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut files, mut sections, mut remarks) = (Vec::new(), Vec::new(), Vec::<Remark>::new());
     let off: Vec<&str> = all.muted_names().collect();
     if !off.is_empty() {
-        remarks.push(format!("Switched off and left out: {}.", off.join(", ")));
+        remarks.push(format!("Switched off and left out: {}.", off.join(", ")).into());
     }
-    for (topic, make) in PRODUCTS {
+    for (done, (topic, make)) in PRODUCTS.iter().enumerate() {
+        if !watch(done, PRODUCTS.len()) {
+            return Err(ExportError::Stopped);
+        }
         if topic.is_some_and(|topic| !options.only.has(topic)) {
             continue;
         }

@@ -2,6 +2,7 @@
 
 use super::error::ExportError;
 use super::piece::{Seam, Ways};
+use super::remark::Remark;
 use super::winch::{self, Housing};
 use crate::design::Design;
 use crate::motion::winch_labels;
@@ -47,86 +48,97 @@ pub(super) fn refuse(design: &Design) -> Result<(), ExportError> {
 }
 
 /// A remark for each thing that no hand can do, all places in it. `breaches` are those of the rules of sewing.
-pub(super) fn remarks(design: &Design, breaches: &[Breach], seam: &Seam) -> Vec<String> {
+pub(super) fn remarks(design: &Design, breaches: &[Breach], seam: &Seam) -> Vec<Remark> {
     let names = winch_labels(design);
-    let mut remarks = of_winches(&names, breaches);
+    let mut remarks = of_winches(design, &names, breaches);
     let housing = winch::housing(design);
     remarks.extend(of_the_way(design, &names, &housing, seam));
     remarks.extend(thin(&design.outline));
     remarks
 }
 
-fn of_winches(names: &[String], breaches: &[Breach]) -> Vec<String> {
+/// Where winches are, mm.
+pub(super) fn places_of(design: &Design, winches: impl IntoIterator<Item = usize>) -> Vec<Point> {
+    let place = |winch: usize| Some(design.networks.get(winch)?.winch()?.place(&design.mesh.nodes));
+    winches.into_iter().filter_map(place).collect()
+}
+
+fn of_winches(design: &Design, names: &[String], breaches: &[Breach]) -> Vec<Remark> {
     let mut remarks = Vec::new();
-    let cramped: Vec<String> = breaches
+    let cramped: (Vec<usize>, Vec<String>) = breaches
         .iter()
         .filter_map(|breach| match breach {
             Breach::HousingOutside { winch, room_mm, housing_mm } => {
-                Some(format!("{} (room for {:.0} mm of {housing_mm:.0})", names[*winch], room_mm.max(0.0)))
+                Some((*winch, format!("{} (room for {:.0} mm of {housing_mm:.0})", names[*winch], room_mm.max(0.0))))
             }
             _ => None,
         })
-        .collect();
-    if !cramped.is_empty() {
-        remarks.push(format!(
+        .unzip();
+    if !cramped.1.is_empty() {
+        let words = format!(
             "No housing fits at: {}. Move these winches inward, or take a smaller spool.",
-            cramped.join(", ")
-        ));
+            cramped.1.join(", ")
+        );
+        remarks.push(Remark::at(places_of(design, cramped.0), words));
     }
-    let through: Vec<String> = breaches
+    let through: (Vec<usize>, Vec<String>) = breaches
         .iter()
         .filter_map(|breach| match breach {
             Breach::ThroughWinch { at, winch, .. } => {
-                Some(format!("{} tendon {} through {}", names[at.winch], at.cable + 1, names[*winch]))
+                Some((*winch, format!("{} tendon {} through {}", names[at.winch], at.cable + 1, names[*winch])))
             }
             _ => None,
         })
-        .collect();
-    if !through.is_empty() {
-        remarks.push(format!(
+        .unzip();
+    if !through.1.is_empty() {
+        let words = format!(
             "{} through the housings of other winches: {}. Lead them around, or move the winches.",
-            if through.len() == 1 { "One cable runs".into() } else { format!("{} cables run", through.len()) },
-            through.join(", ")
-        ));
+            if through.1.len() == 1 { "One cable runs".into() } else { format!("{} cables run", through.1.len()) },
+            through.1.join(", ")
+        );
+        remarks.push(Remark::at(places_of(design, through.0), words));
     }
     remarks
 }
 
 /// Whether housings get through the gap and to their places.
-fn of_the_way(design: &Design, names: &[String], housing: &Housing, seam: &Seam) -> Vec<String> {
+fn of_the_way(design: &Design, names: &[String], housing: &Housing, seam: &Seam) -> Vec<Remark> {
     let flat = housing.flat_mm();
     let mut remarks = Vec::new();
     if design.sewing.housing_mm <= 0.0 {
         return remarks;
     }
     if seam.gap_mm < flat {
-        remarks.push(format!(
+        let words = format!(
             "The turning gap of {:.0} mm lets no housing through: around its ears that takes {flat:.0} mm. Set fabrication.turning_gap_mm to that.",
             seam.gap_mm
-        ));
+        );
+        remarks.push(Remark::at(seam.middle(), words));
     }
     if seam.gap.is_empty() {
         return remarks;
     }
-    let narrow: Vec<String> = Ways::of(design)
-        .widths(&seam.gap)
+    let widths = Ways::of(design).widths(&seam.gap);
+    let narrow: (Vec<usize>, Vec<String>) = widths
         .into_iter()
         .zip(names)
-        .filter(|(width, _)| *width < flat)
-        .map(|(width, name)| format!("{name} ({width:.0} mm)"))
-        .collect();
-    if !narrow.is_empty() {
-        remarks.push(format!(
+        .enumerate()
+        .filter(|(_, (width, _))| *width < flat)
+        .map(|(winch, (width, name))| (winch, format!("{name} ({width:.0} mm)")))
+        .unzip();
+    if !narrow.1.is_empty() {
+        let words = format!(
             "The way from the turning gap is too narrow for a housing of {flat:.0} mm, measured flat, to: {}. Put these winches in before the seam beside \
              them is closed.",
-            narrow.join(", ")
-        ));
+            narrow.1.join(", ")
+        );
+        remarks.push(Remark::at(places_of(design, narrow.0), words));
     }
     remarks
 }
 
 /// Parts that cannot be turned after sewing: what the opening of the outline by a disc leaves, without its corners.
-fn thin(outline: &Outline) -> Vec<String> {
+fn thin(outline: &Outline) -> Option<Remark> {
     let r = 0.5 * TURNED_MM;
     let rings: Vec<Vec<Point>> = outline.polygons().map(Vec::from).collect();
     let by = |d: f64| OutlineStyle::new(d).line_join(LineJoin::Round(0.2));
@@ -150,7 +162,7 @@ fn thin(outline: &Outline) -> Vec<String> {
         .collect();
     found.sort_by(|a, b| b.0.total_cmp(&a.0));
     if found.is_empty() {
-        return Vec::new();
+        return None;
     }
     let told: Vec<String> =
         found.iter().take(TOLD).map(|(_, p)| format!("({:.0}, {:.0})", p[0] - from[0], p[1] - from[1])).collect();
@@ -158,10 +170,11 @@ fn thin(outline: &Outline) -> Vec<String> {
         0 => String::new(),
         more => format!(" and {more} more"),
     };
-    vec![format!(
+    let words = format!(
         "{} narrower than {TURNED_MM:.0} mm, which cannot be sewn and turned: their ends are at {}{more} (mm from the lower left of the front). Widen \
          them when the outline is read, or cut them of one layer of felt and sew them on.",
         if found.len() == 1 { "One part is".into() } else { format!("{} parts are", found.len()) },
         told.join(", ")
-    )]
+    );
+    Some(Remark::at(found.into_iter().map(|(_, place)| place), words))
 }

@@ -15,6 +15,9 @@ pub enum ExportError {
         "winches {one:?} and {other:?} are {distance_mm:.1} mm apart, and their spools need {least_mm:.1} mm: they would be in one hole"
     )]
     WinchesCollide { one: String, other: String, distance_mm: f64, least_mm: f64 },
+    /// Whoever waited for it did not want it any more; nothing is written.
+    #[error("stopped")]
+    Stopped,
     #[error(transparent)]
     Invalid(#[from] DesignError),
     #[error(transparent)]

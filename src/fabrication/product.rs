@@ -5,6 +5,7 @@ use super::error::ExportError;
 use super::guide::Guide;
 use super::options::Options;
 use super::piece::Piece;
+use super::remark::Remark;
 use super::sheet::Sheet;
 use super::solid::Solid;
 use super::stuffing::{Impossible, Stuffed, stuffed};
@@ -57,7 +58,7 @@ pub struct Source<'a> {
     /// The parts before this one in the table of products.
     pub sections: &'a [Section],
     /// Their remarks.
-    pub remarks: &'a [String],
+    pub remarks: &'a [Remark],
     /// What several products need, worked out when the first one asks.
     pub shared: &'a Shared,
 }
@@ -94,7 +95,7 @@ pub struct Part {
     /// How to use them, for the page that goes with the blueprint: lines indented by two spaces, each with its end.
     pub guide: String,
     /// Remarks for the user.
-    pub remarks: Vec<String>,
+    pub remarks: Vec<Remark>,
 }
 
 /// A part of the blueprint as files.

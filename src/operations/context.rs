@@ -21,6 +21,11 @@ pub enum Progress {
         done: usize,
         of: usize,
     },
+    /// So many parts of a blueprint are made.
+    Part {
+        done: usize,
+        of: usize,
+    },
 }
 
 /// The operation was told to stop; nothing has changed.

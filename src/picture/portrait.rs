@@ -1,5 +1,6 @@
 //! Small pictures of one plushie: of designs to choose from, of candidates in their poses.
 
+use super::layers::looks::Plush;
 use super::layers::{Layer, Layers, Pins, Shown, Subject};
 use super::palette::{Palette, Theme};
 use super::pixels::Preview;
@@ -21,6 +22,8 @@ pub fn portrait(
     size: (u32, u32),
 ) -> Result<Preview, RasterError> {
     let shown = Shown::default().with(Pins::NAME, false);
-    let subject = Subject { fibers: false, theme, shown: &shown, targets, proposed, ..Subject::new(design, shape) };
+    let look = Plush::NAME;
+    let subject =
+        Subject { look, fibers: false, theme, shown: &shown, targets, proposed, ..Subject::new(design, shape) };
     raster::one(&Layers::of(&subject).scene(), size, Palette::of(theme).background)
 }

@@ -7,6 +7,16 @@ pub struct Place {
     pub cable: usize,
 }
 
+/// The part of a rig that a breach is about, counted as there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Spot {
+    Winch(usize),
+    /// A cable as a whole.
+    Cable(Place),
+    Hole(Place, usize),
+    Piece(Place, usize),
+}
+
 /// A rule that is broken, and where. Figures in mm and degrees; holes counted from the winch, which is number 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Breach {
@@ -52,6 +62,24 @@ impl Breach {
             Self::ThinBody { .. } => (None, None),
         };
         one.into_iter().chain(other.filter(|other| Some(*other) != one))
+    }
+
+    /// The parts of the rig that it is about; none where it is the body's.
+    pub fn spots(&self) -> [Option<Spot>; 2] {
+        let hole = |at: Place, hole: usize| Some(Spot::Hole(at, hole));
+        let piece = |at: Place, piece: usize| Some(Spot::Piece(at, piece));
+        let (cable, housing) = (|at: Place| Some(Spot::Cable(at)), |winch: usize| Some(Spot::Winch(winch)));
+        match *self {
+            Self::NearSeam { at, hole: h, .. } | Self::SharpTurn { at, hole: h, .. } => [hole(at, h), None],
+            Self::Crowded { at, hole: h, other, other_hole, .. } => [hole(at, h), hole(other, other_hole)],
+            Self::ManyHoles { at, .. } | Self::Turning { at, .. } => [cable(at), None],
+            Self::Along { at, other, .. } => [cable(at), cable(other)],
+            Self::ThroughWinch { at, piece: p, winch, .. } => [piece(at, p), housing(winch)],
+            Self::Outside { at, piece: p, .. } => [piece(at, p), None],
+            Self::ThinBody { .. } => [None, None],
+            Self::HousingOutside { winch, .. } | Self::HousingAtGap { winch, .. } => [housing(winch), None],
+            Self::HousingsClose { winch, other, .. } => [housing(winch), housing(other)],
+        }
     }
 
     /// The breach with winches by other numbers: `numbers` are those of the winches that it counts.

@@ -20,7 +20,7 @@ mod rules;
 mod words;
 
 pub use along::shared_mm;
-pub use breach::{Breach, Place, most_severe};
+pub use breach::{Breach, Place, Spot, most_severe};
 pub use cable::{turn, turning};
 pub use facts::Facts;
 pub use housing::largest_housing;

@@ -71,6 +71,10 @@ pub enum Action {
     File(FileAction),
     /// A job of a panel.
     Start(Task),
+    /// The job of a panel is not wanted any more.
+    Stop(&'static str),
+    /// Shows where places of the body at rest are, mm.
+    ShowPlaces(Vec<Point>),
     DismissMessage(u64),
 }
 

@@ -5,13 +5,14 @@ use super::adapter::Lost;
 use super::focus::Focus;
 use super::pacing::Pacing;
 use super::panels;
-use super::session::{Overlay, Services, Session, desktop_has_dialogs};
+use super::session::{Dialog, Overlay, Services, Session, desktop_has_dialogs};
 use super::store::Store;
 use super::tools::Toolbox;
 use super::{acts, canvas, keys, style, viewport};
 use crate::design::Design;
 use crate::outline::Point;
 use crate::picture::palette::{Palette, Theme};
+use crate::studio::language::{self, Language, t};
 use eframe::egui::{self, CentralPanel, Frame, Margin, Panel, ViewportCommand};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -104,11 +105,22 @@ impl Studio {
         self
     }
 
-    /// Shows the start page over what is open, where nothing that was left behind is offered.
+    /// Speaks the language of the system, until another one is chosen.
+    pub fn in_language_of_system(mut self, system: &'static Language) -> Self {
+        self.session.look.language.system = system;
+        self
+    }
+
+    /// Shows the start page over what is open; what was left behind is offered there.
     pub fn with_start_page(mut self) -> Self {
-        if self.session.files.dialog.is_none() {
-            self.session.overlay = Some(Overlay::Start);
-        }
+        self.session.files.dialog.take_if(|dialog| *dialog == Dialog::Recover);
+        self.session.overlay = Some(Overlay::Start);
+        self
+    }
+
+    /// With views beside each other, however wide the body is.
+    pub fn side_by_side(mut self) -> Self {
+        self.session.look.stacks = false;
         self
     }
 
@@ -131,6 +143,7 @@ impl Studio {
         if ctx.input(|i| i.key_pressed(egui::Key::Escape)) {
             acts::motors::stop(&mut self.session);
         }
+        language::speak(self.session.look.language.language());
         let was_drawing = self.tools.is_drawing(&self.session);
         self.session.sketching.waits = was_drawing;
         acts::tick::tick(&mut self.session, now_s, passed_s, hands_off && !typing);
@@ -185,7 +198,7 @@ impl Studio {
         Panel::bottom("status").frame(Frame::new()).exact_size(panels::status::HEIGHT).resizable(false).show(
             ui,
             |ui| {
-                panels::status::show(ui, session);
+                panels::status::show(ui, session, actions);
             },
         );
         if session.sketching().open {
@@ -197,7 +210,7 @@ impl Studio {
             });
             let (tool, entry) = self.tools.tool(session);
             CentralPanel::no_frame()
-                .show(ui, |ui| canvas::show(ui, session, &mut self.sheet, tool, entry.hint, actions));
+                .show(ui, |ui| canvas::show(ui, session, &mut self.sheet, tool, t(entry.hint), actions));
             panels::dialogs::show(ui.ctx(), session, &mut self.dialogs, actions);
             return;
         }
@@ -301,7 +314,6 @@ mod tests {
     use super::*;
     use crate::outline::Changes;
     use crate::studio::jobs::{New, Outcome};
-    use crate::studio::session::Dialog;
     use crate::studio::{blank, services};
     use egui_kittest::Harness;
     use egui_kittest::kittest::Queryable;

@@ -277,7 +277,7 @@ fn write(folder: &Path, work: &Work) -> Result<(), Box<dyn std::error::Error>> {
     files::write(&folder.join(FACTS), facts.as_bytes())?;
     let drawn = work.drawing.clone().map(|drawing| Design { drawing: Some(drawing), ..Design::clone(&work.design) });
     let design = drawn.as_ref().unwrap_or(&work.design);
-    file::save(design, work.facts.origin.as_deref(), &folder.join(DESIGN), None)?;
+    file::save(design, work.facts.origin.as_deref().map(Into::into), &folder.join(DESIGN), None)?;
     Ok(())
 }
 

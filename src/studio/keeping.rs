@@ -52,14 +52,24 @@ mod tests {
         let path = folder.path().join("pig.plush");
         fs::write(folder.path().join("pig.texture.png"), b"another").unwrap();
         for _ in 0..2 {
-            file::save(&design, Some(&kept.origin()), &path, None).unwrap();
+            file::save(&design, Some(kept.origin().as_path().into()), &path, None).unwrap();
             assert_eq!(file::read(&path).unwrap().texture.as_deref(), Some("pig.texture-2.png"));
         }
         assert_eq!(fs::read(folder.path().join("pig.texture.png")).unwrap(), b"another");
         assert_eq!(fs::read(folder.path().join("pig.texture-2.png")).unwrap(), b"picture");
+        // A folder that goes with the window is no place for it, wherever that is.
+        let home = folder.path().join("home.plush");
+        let within = folder.path().join("state");
+        fs::create_dir(&within).unwrap();
+        let kept = Kept::new(&mut design, b"picture", Some(&within)).unwrap();
+        let passing = texture::Origin { file: &kept.origin(), stays: false };
+        file::save(&design, Some(passing), &home, None).unwrap();
+        drop(kept);
+        let saved = file::read(&home).unwrap();
+        assert!(texture::find(&saved, &home).unwrap().unwrap().is_file());
         // A document that names something else keeps to it.
         design.texture = None;
-        file::save(&design, Some(&kept.origin()), &path, None).unwrap();
+        file::save(&design, Some(home.as_path().into()), &path, None).unwrap();
         assert_eq!(file::read(&path).unwrap().texture, None);
     }
 }

@@ -17,12 +17,14 @@ mod blank;
 pub mod canvas;
 pub mod change;
 pub mod commands;
+mod controls;
 mod focus;
 pub mod icons;
 pub mod jobs;
 pub mod keeper;
 pub mod keeping;
 mod keys;
+pub mod language;
 pub mod measure;
 pub mod messages;
 pub mod offscreen;
@@ -45,7 +47,7 @@ use session::Services;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 use std::time::Duration;
 use store::Store;
 use thiserror::Error;
@@ -80,11 +82,12 @@ pub enum StudioError {
     Failed(String),
 }
 
-/// Opens the window and returns when it is closed. Without a design the first example is shown.
+/// Opens the window and returns when it is closed. Without a design the first example is shown. `told`: controls and where they are go
+/// to standard output, for a program that drives the window.
 ///
 /// # Errors
 /// [`StudioError`] where there is no display or no graphics adapter.
-pub fn run(design: Option<Design>, path: Option<PathBuf>) -> Result<(), StudioError> {
+pub fn run(design: Option<Design>, path: Option<PathBuf>, told: bool) -> Result<(), StudioError> {
     if !has_display() {
         return Err(StudioError::NoDisplay);
     }
@@ -113,12 +116,16 @@ pub fn run(design: Option<Design>, path: Option<PathBuf>) -> Result<(), StudioEr
         };
         style::set_theme(&context.egui_ctx, theme);
         let studio = Studio::new(&context.egui_ctx, design, path, services()).watching(watched);
+        let studio = studio.in_language_of_system(language::of_system());
         let mut studio = studio.with_window(context.wgpu_render_state.as_ref(), theme);
         if let Some(store) = store {
             studio = studio.with_store(&context.egui_ctx, store);
         }
         if begins {
             studio = studio.with_start_page();
+        }
+        if told {
+            context.egui_ctx.add_plugin(controls::Controls::new(std::io::stdout()));
         }
         end_when_asked(context.egui_ctx.clone());
         Ok(Box::new(studio))
@@ -168,9 +175,9 @@ pub fn services() -> Services {
             // That nothing was found is told where the proposals would be.
             propose::for_targets(design, targets, options, &mut context).unwrap_or_default()
         }),
-        export: Arc::new(|design, folder, options| {
-            export::run(design, folder, options, &Context::new(&AtomicBool::new(false)))
-                .map(|manifest| manifest.remarks)
+        export: Arc::new(|design, folder, options, context| {
+            export::run(design, folder, options, context)
+                .map(|manifest| manifest.remarks.into_iter().map(|remark| remark.text).collect())
                 .map_err(|error| match error {
                     export::Error::Export(error) => words::unexported(&error),
                     export::Error::Cancelled(_) => error.to_string(),

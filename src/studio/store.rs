@@ -30,6 +30,8 @@ pub struct Store {
 #[serde(default)]
 pub struct Settings {
     pub dark: Option<bool>,
+    /// By its code; that of the system where there is none.
+    pub language: Option<String>,
     pub quality: Option<String>,
     pub idealized: Option<bool>,
     pub realizable: Option<bool>,
@@ -37,6 +39,8 @@ pub struct Settings {
     /// A look by its name.
     pub look: Option<String>,
     pub overlaid: Option<bool>,
+    /// Whether the views of wide bodies stand beside each other too.
+    pub side_by_side: bool,
     pub cameras_apart: Option<bool>,
     pub rulers: Option<bool>,
     pub onion_skins: Option<bool>,
@@ -109,6 +113,11 @@ impl Store {
 
     pub fn at(root: impl Into<PathBuf>) -> Self {
         Self { root: root.into() }
+    }
+
+    /// Whether a file is in it.
+    pub(super) fn holds(&self, file: &Path) -> bool {
+        file.starts_with(&self.root)
     }
 
     /// A folder below, made where it is missing, for this user alone.

@@ -3,7 +3,7 @@
 use crate::support::rigged;
 use plushwright::design::{Design, Material, bundled};
 use plushwright::engine::{Setpoint, solve_once};
-use plushwright::fabrication::{Options, blueprint};
+use plushwright::fabrication::{Options, Remark, blueprint};
 use plushwright::live::{Order, Remote, Status};
 use plushwright::motion::families::{bus, sdo};
 use plushwright::motion::{Framing, Plan, TooFast, counts_per_mm, hex};
@@ -53,7 +53,7 @@ fn a_motion_beyond_a_servo_is_refused_with_the_spool_that_would_do() {
     let (files, manifest) = blueprint(&design, &options).expect("a blueprint");
     assert!(!files.iter().any(|file| file.name.starts_with("controller-servo")));
     // 40 mm on a spool of 10 mm are 229 degrees; half a turn winds them on 12.8 mm.
-    let told = |remark: &String| remark.contains("229 degrees") && remark.contains("12.8 mm radius");
+    let told = |remark: &Remark| remark.contains("229 degrees") && remark.contains("12.8 mm radius");
     assert_eq!(manifest.remarks.iter().filter(|remark| told(remark)).count(), 1, "{:?}", manifest.remarks);
     let asked = Options { controllers: vec!["servo-arduino".into()], ..options };
     let refused = blueprint(&design, &asked).map(drop).expect_err("beyond").to_string();

@@ -2,7 +2,7 @@
 
 use crate::support::{Random, rectangle, rigged};
 use plushwright::design::{Design, Easing, Keyframe, MaterialPoint, Network, Tendon, animation};
-use plushwright::fabrication::{self, ExportError, Manifest, Options, SheetSize, Topic, blueprint, export};
+use plushwright::fabrication::{self, ExportError, Manifest, Options, Remark, SheetSize, Topic, blueprint, export};
 use plushwright::files::folder::FolderError;
 use plushwright::motion::{MotionError, Plan, TooFast, winch_labels};
 use roxmltree::{Document, Node};
@@ -208,7 +208,7 @@ fn holes_on_the_seam_are_remarked() {
     assert!(!manifest.remarks.iter().any(|r| r.contains("from the seam")), "{:?}", manifest.remarks);
     design.networks[0].tendons[0].routing = MaterialPoint::through([10, 0]);
     let (_, manifest) = blueprint(&design, &Options::default()).expect("a blueprint");
-    let told = |r: &&String| r.contains("tendon 1: hole 1 from the winch is 0.0 mm from the seam");
+    let told = |r: &&Remark| r.contains("tendon 1: hole 1 from the winch is 0.0 mm from the seam");
     assert_eq!(manifest.remarks.iter().filter(told).count(), 1, "{:?}", manifest.remarks);
     // Such a hole is marked, not cut.
     assert!(manifest.remarks.iter().any(|r| r.starts_with("Marked, not cut")), "{:?}", manifest.remarks);
@@ -248,7 +248,7 @@ fn what_no_hand_can_sew_is_remarked_the_worst_first_and_counted() {
     assert_eq!(told.len(), 6);
     let breaches = design.breaches().len();
     assert!(breaches > 6 && breaches <= holes + 1, "{breaches}");
-    assert_eq!(told[5], format!("Hard to sew: {} more places break a rule.", breaches - 5));
+    assert_eq!(told[5].text, format!("Hard to sew: {} more places break a rule.", breaches - 5));
     design.sewing.turn_degrees = 180.0;
     design.sewing.hole_to_seam_mm = 0.0;
     assert_eq!(remarks(&design), [""; 0]);

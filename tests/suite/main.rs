@@ -17,6 +17,8 @@ mod files;
 mod friction;
 mod hostile;
 mod import;
+#[cfg(feature = "studio")]
+mod languages;
 mod layers;
 mod live;
 mod makers;

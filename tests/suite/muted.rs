@@ -65,7 +65,11 @@ fn the_blueprint_leaves_it_out_and_says_so() {
     let [design, without] = muted();
     let [(files, manifest), (plain, _)] =
         [&design, &without].map(|design| blueprint(design, &Options::default()).unwrap());
-    assert!(manifest.remarks.contains(&"Switched off and left out: left.".to_owned()), "{:?}", manifest.remarks);
+    assert!(
+        manifest.remarks.iter().any(|remark| *remark == "Switched off and left out: left."),
+        "{:?}",
+        manifest.remarks
+    );
     for (file, plain) in files.iter().zip(&plain) {
         let told = ["manifest.json", "README.txt", "assembly.html", "assembly.pdf"].contains(&file.name.as_str());
         assert!(file.name == plain.name && (told || file.bytes == plain.bytes), "{}", file.name);

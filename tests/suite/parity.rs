@@ -460,7 +460,7 @@ fn what_is_too_quick_is_refused_or_stretched_the_same_both_ways() {
     let manifest: Manifest = serde_json::from_slice(&fs::read(folder.join("cli/manifest.json")).unwrap()).unwrap();
     assert!(!manifest.remarks.is_empty());
     let shown = told(&window).concat();
-    assert!(manifest.remarks.iter().take(4).all(|remark| shown.contains(remark.as_str())), "{shown}");
+    assert!(manifest.remarks.iter().take(4).all(|remark| shown.contains(&**remark)), "{shown}");
 }
 
 #[test]

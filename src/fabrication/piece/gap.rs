@@ -37,6 +37,14 @@ pub struct Seam {
     pub gap_mm: f64,
 }
 
+impl Seam {
+    /// The middle of the gap; none without one.
+    pub fn middle(&self) -> Option<Point> {
+        let (first, last) = (self.gap.first()?, self.gap.last()?);
+        Some([0.5 * (first[0] + last[0]), 0.5 * (first[1] + last[1])])
+    }
+}
+
 /// The seam of a design: its turning gap away from the holes of its cables and from its pins, where a housing gets in to every winch.
 pub fn seam_of(design: &Design) -> Seam {
     let pins = design.pins.iter().map(|p| design.mesh.position(&p.at, &design.mesh.nodes));

@@ -30,7 +30,7 @@ pub(super) fn make(source: &Source<'_>) -> Result<Part, ExportError> {
     parts(&mut guide, source, motor);
     if !source.remarks.is_empty() {
         guide.heading("Mind");
-        guide.blocks.push(Block::Steps(source.remarks.to_vec()));
+        guide.blocks.push(Block::Steps(source.remarks.iter().map(|remark| remark.text.clone()).collect()));
     }
     guide.heading("Steps");
     guide.blocks.push(Block::Steps(steps(source, motor)));

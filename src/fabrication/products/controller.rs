@@ -3,6 +3,7 @@
 use crate::fabrication::demand::strong_enough;
 use crate::fabrication::error::ExportError;
 use crate::fabrication::product::{Content, Part, Product, Source};
+use crate::fabrication::remark::Remark;
 use crate::motion::families::{self, classic};
 use crate::motion::{
     Family, Following, Forecast, Machine, MotionError, Note, Plan, Sketch, Stream, Trajectory, commands_a_step, line,
@@ -14,7 +15,7 @@ pub(super) fn make(source: &Source<'_>) -> Result<Part, ExportError> {
     let machine = Machine::new(source.design, source.trajectory);
     let (mut products, mut guide, mut remarks) = (Vec::new(), how(), remarks(source));
     let weak = strong_enough(source.design, source.trajectory, source.demands())?;
-    remarks.extend(weak.map(|error| format!("Assumed of the motors: {error}.")));
+    remarks.extend(weak.map(|error| Remark::from(format!("Assumed of the motors: {error}."))));
     guide += &followed(source, &machine)?;
     let mut left_out: Vec<(String, Vec<&str>)> = Vec::new();
     for family in chosen(source)? {
@@ -33,8 +34,8 @@ pub(super) fn make(source: &Source<'_>) -> Result<Part, ExportError> {
             },
         }
     }
-    remarks
-        .extend(left_out.iter().map(|(why, names)| format!("No files for controllers {}: {why}.", names.join(", "))));
+    let left_out = left_out.iter().map(|(why, names)| format!("No files for controllers {}: {why}.", names.join(", ")));
+    remarks.extend(left_out.map(Remark::from));
     Ok(Part { products, guide, remarks })
 }
 
@@ -177,22 +178,23 @@ fn ascii(machine: &Machine) -> String {
 }
 
 /// What became of the animation, and where the line is too slow for it.
-fn remarks(source: &Source<'_>) -> Vec<String> {
+fn remarks(source: &Source<'_>) -> Vec<Remark> {
     let (design, trajectory) = (source.design, source.trajectory);
-    let mut remarks: Vec<String> = trajectory.notes.iter().map(worded).collect();
+    let mut remarks: Vec<Remark> = trajectory.notes.iter().map(|note| worded(note).into()).collect();
     let machine = Machine::new(design, trajectory);
     if let Ok(classic) = classic::Classic::new(&machine) {
         let on_line = commands_a_step(&classic) as f64 * line::carried_s(&machine, line::COMMAND_BYTES);
         let steps = trajectory.times_s.windows(2).map(|times| times[1] - times[0]);
         let shortest = steps.fold(f64::INFINITY, f64::min);
         if on_line > shortest {
-            remarks.push(format!(
+            let words = format!(
                 "At {} baud a step takes about {:.0} ms on the line with its replies, longer than the {:.0} ms of the shortest step: set a higher \
                  baud rate, or a lower track rate; or play it live, where slow lines get fewer steps.",
                 machine.controller.drives.baud,
                 1e3 * on_line,
                 1e3 * shortest
-            ));
+            );
+            remarks.push(words.into());
         }
     }
     if design.keyframes.is_empty() {
@@ -200,6 +202,7 @@ fn remarks(source: &Source<'_>) -> Vec<String> {
     }
     remarks
 }
+
 /// A sentence of what happened to the animation on its way to the motors.
 fn worded(note: &Note) -> String {
     match note {

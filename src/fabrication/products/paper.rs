@@ -41,7 +41,8 @@ pub(super) fn make(source: &Source<'_>) -> Result<Part, ExportError> {
     let mut remarks = Vec::new();
     for paper in PAPERS {
         let Some(tiles) = Tiles::new(&source.design.name, &close, &paper) else {
-            remarks.push(format!("The pattern would take hundreds of pages of {} paper: there are none.", paper.title));
+            let words = format!("The pattern would take hundreds of pages of {} paper: there are none.", paper.title);
+            remarks.push(words.into());
             continue;
         };
         counts.push(format!("{} of {}", tiles.pages.len(), paper.title));

@@ -8,6 +8,7 @@ use crate::fabrication::error::ExportError;
 use crate::fabrication::piece::{Bed, Laid, Piece, nest};
 use crate::fabrication::preset::Preset;
 use crate::fabrication::product::{Content, Part, Product, Source};
+use crate::fabrication::remark::Remark;
 use crate::fabrication::sheet::{REFERENCE_MM, Sheet, reference};
 use crate::outline::{Point, polygon::bounding_box};
 
@@ -43,7 +44,7 @@ pub(super) fn make(source: &Source<'_>) -> Result<Part, ExportError> {
 }
 
 /// Front and back on as few sheets as they fit on, and a remark where a piece fits on none.
-fn sheets(source: &Source<'_>, piece: &Piece) -> (Vec<Sheet>, Vec<String>) {
+fn sheets(source: &Source<'_>, piece: &Piece) -> (Vec<Sheet>, Vec<Remark>) {
     let (design, options) = (source.design, source.options);
     let size = options.sheet.size_mm;
     let reserved = [REFERENCE_MM + 2.0 * MARGIN_MM, MARGIN_MM + REFERENCE_ROW_MM];
@@ -63,11 +64,12 @@ fn sheets(source: &Source<'_>, piece: &Piece) -> (Vec<Sheet>, Vec<String>) {
     let large = [(own[0] + 2.0 * MARGIN_MM).max(reserved[0]), own[1] + reserved[1] + MARGIN_MM];
     let mut remarks = Vec::new();
     if laid.iter().any(Option::is_none) {
-        remarks.push(format!(
+        let words = format!(
             "Each piece is {:.0} x {:.0} mm and does not fit on a sheet of {} x {} mm: it has a larger sheet of its own. Choose larger sheets, \
              or make the design smaller.",
             own[0], own[1], size[0], size[1]
-        ));
+        );
+        remarks.push(words.into());
     }
     let places: Vec<(Laid, bool)> = laid
         .into_iter()

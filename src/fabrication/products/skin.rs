@@ -1,8 +1,9 @@
 //! The two faces of the skin as groups of a sheet, and remarks for whoever sews them.
 
 use crate::design::Design;
-use crate::fabrication::piece::{Cutting, LEAST_FELT_MM, Labels, Piece};
+use crate::fabrication::piece::{Cutting, LEAST_FELT_MM, Labels, Passage, Piece};
 use crate::fabrication::preset::Preset;
+use crate::fabrication::remark::Remark;
 use crate::fabrication::sheet::{Anchor, Entity, Group, Layer};
 use crate::outline::Point;
 use crate::outline::polygon::{bounding_box, contains, distance};
@@ -158,9 +159,7 @@ fn label(
         let middle = closed.snips.first().map_or(closed.bottom, |snip| snip[snip.len() / 2]);
         put(&letter(i), place(middle));
     }
-    let gap = &piece.seam.gap;
-    if let (Some(first), Some(last)) = (gap.first(), gap.last()) {
-        let middle = [0.5 * (first[0] + last[0]), 0.5 * (first[1] + last[1])];
+    if let Some(middle) = piece.seam.middle() {
         put(&format!("leave {:.0} mm open to turn", piece.seam.gap_mm), place(middle));
     }
     for passage in &piece.passages {
@@ -179,11 +178,12 @@ fn label(
 }
 
 /// What whoever cuts and sews should know of this skin.
-pub fn remarks(design: &Design, piece: &Piece, cutting: &Cutting) -> Vec<String> {
+pub fn remarks(design: &Design, piece: &Piece, cutting: &Cutting) -> Vec<Remark> {
     let mut remarks = Vec::new();
     let (gap_mm, wanted) = (piece.seam.gap_mm, design.fabrication.turning_gap_mm);
     if gap_mm < wanted {
-        remarks.push(format!("The turning gap is {gap_mm:.0} mm instead of {wanted:.0} mm: the body is small."));
+        let words = format!("The turning gap is {gap_mm:.0} mm instead of {wanted:.0} mm: the body is small.");
+        remarks.push(Remark::at(piece.seam.middle(), words));
     }
     let from = design.outline.bounding_box().0;
     let told = piece.closed.iter().enumerate().take(TOLD).map(|(i, c)| {
@@ -197,26 +197,30 @@ pub fn remarks(design: &Design, piece: &Piece, cutting: &Cutting) -> Vec<String>
             0 => String::new(),
             more => format!("; and {more} more, marked on the pattern"),
         };
-        remarks.push(format!(
+        let words = format!(
             "Seam allowances meet in a narrow notch or inner corner: there the cut is farther from the stitches than the allowance of {} mm \
              ({}{more}; x and y in mm from the lower left of the front). Snip along the dotted lines after sewing.",
             design.fabrication.seam_allowance_mm,
             told.join("; "),
-        ));
+        );
+        remarks.push(Remark::at(piece.closed.iter().map(|closed| closed.bottom), words));
     }
-    let uncut: Vec<String> = piece.passages.iter().filter(|p| !p.is_cut).map(|p| p.number.to_string()).collect();
+    let uncut: Vec<&Passage> = piece.passages.iter().filter(|p| !p.is_cut).collect();
     if !uncut.is_empty() {
-        remarks.push(format!(
+        let numbers: Vec<String> = uncut.iter().map(|p| p.number.to_string()).collect();
+        let words = format!(
             "Marked, not cut, because less than {LEAST_FELT_MM} mm of felt would be left to the stitches or to an opening: hole {}. Move the \
              cables inward, or lead them through the seam.",
-            uncut.join(", ")
-        ));
+            numbers.join(", ")
+        );
+        remarks.push(Remark::at(uncut.iter().map(|p| p.at), words));
     }
     if cutting.kerf_mm > 0.0 {
-        remarks.push(format!(
+        let words = format!(
             "Cutting lines are moved by half a kerf of {} mm: the pieces come out at their size.",
             cutting.kerf_mm
-        ));
+        );
+        remarks.push(words.into());
     }
     remarks
 }

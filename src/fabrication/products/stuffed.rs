@@ -3,6 +3,7 @@
 use crate::fabrication::error::ExportError;
 use crate::fabrication::piece::Labels;
 use crate::fabrication::product::{Content, Part, Product, Source};
+use crate::fabrication::remark::Remark;
 use crate::fabrication::sheet::{Anchor, BLACK, Entity, Group, Sheet, Style, reference};
 use crate::fabrication::stuffing::{Impossible, Stuffed};
 use crate::outline::Point;
@@ -19,8 +20,12 @@ pub(super) fn make(source: &Source<'_>) -> Result<Part, ExportError> {
     let guide = "  Dashed: the stitch line as it is cut. Solid: the silhouette when the body is firmly stuffed, of felt that wrinkles and does not stretch.
   Narrow parts become round: a flat strip is 0.64 of its width then; curved tubes curl more. Compensation widens the pattern for that.
 ";
-    let mut remarks = vec![narrowing(source, stuffed)];
-    remarks.extend(source.uncompensated.map(|why| uncompensated(source, why)));
+    let limbs = stuffed.limbs.iter().take(TOLD).map(|limb| limb.at);
+    let mut remarks = vec![Remark::at(limbs, narrowing(source, stuffed))];
+    remarks.extend(source.uncompensated.map(|why| {
+        let place = if let Impossible::Overlap(place) = why { Some(*place) } else { None };
+        Remark::at(place, uncompensated(source, why))
+    }));
     let products = vec![Product::new("stuffed", Content::Sheet(sheet(source, stuffed)))];
     Ok(Part { products, guide: guide.into(), remarks })
 }

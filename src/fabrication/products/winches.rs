@@ -1,10 +1,12 @@
 //! Spools and housings to print, their drawings, and which motors fit.
 
 use crate::defaults::CABLE_MM;
+use crate::fabrication::buildable::places_of;
 use crate::fabrication::catalogue::{Fit, Motor};
 use crate::fabrication::demand::{Demand, TOO_FINE};
 use crate::fabrication::error::ExportError;
 use crate::fabrication::product::{Content, Part, Product, Source};
+use crate::fabrication::remark::Remark;
 use crate::fabrication::sheet::Sheet;
 use crate::fabrication::table::{Column, Table, Values};
 use crate::fabrication::winch::{Housing, Spool, drawing, housing, housing_solid, spool, spool_solid};
@@ -104,18 +106,19 @@ fn table(source: &Source<'_>, names: &[String]) -> Table {
     Table { settings: vec![("spool_radius_mm", radius.to_string())], columns }
 }
 
-fn remarks(source: &Source<'_>, names: &[String], housing: &Housing) -> Vec<String> {
+fn remarks(source: &Source<'_>, names: &[String], housing: &Housing) -> Vec<Remark> {
     let radius = source.design.fabrication.spool_radius_mm;
     let motors = source.options.motors.motors();
     let mut remarks = Vec::new();
-    for (name, demand) in names.iter().zip(source.demands()) {
+    for (winch, (name, demand)) in names.iter().zip(source.demands()).enumerate() {
         let fits = motors.iter().filter(|m| matches!(m.fit(demand, radius), Fit::Fits(_))).count();
         if fits == 0 {
-            remarks.push(format!(
+            let words = format!(
                 "No motor of the catalogue fits winch {name:?}: it asks for {:.0} N mm at {:.0} rpm. Give its cables fewer turns, move its keyframes \
                  apart, use a smaller spool, or add a stronger motor to the table.",
                 demand.torque_nmm, demand.speed_rpm
-            ));
+            );
+            remarks.push(Remark::at(places_of(source.design, [winch]), words));
         }
     }
     if source.design.mesh.triangles.len() > TOO_FINE {
@@ -123,11 +126,13 @@ fn remarks(source: &Source<'_>, names: &[String], housing: &Housing) -> Vec<Stri
             "The mesh is too fine to simulate the pull of the cables here: the torques of motors.csv are 0.".into(),
         );
     }
-    let crowded = source.design.networks.iter().zip(names).filter(|(n, _)| 2 * n.tendons.len() > MOST_GROOVES);
-    let crowded: Vec<&str> = crowded.map(|(_, name)| name.as_str()).collect();
-    if !crowded.is_empty() {
-        remarks
-            .push(format!("More than {MOST_GROOVES} threads, too many for a spool to print: {}.", crowded.join(", ")));
+    let networks = source.design.networks.iter().zip(names).enumerate();
+    let crowded = networks.filter(|(_, (network, _))| 2 * network.tendons.len() > MOST_GROOVES);
+    let crowded: (Vec<usize>, Vec<&str>) = crowded.map(|(winch, (_, name))| (winch, name.as_str())).unzip();
+    if !crowded.1.is_empty() {
+        let words =
+            format!("More than {MOST_GROOVES} threads, too many for a spool to print: {}.", crowded.1.join(", "));
+        remarks.push(Remark::at(places_of(source.design, crowded.0), words));
     }
     let short = |m: &&Motor| {
         let fit = |d: &Demand| matches!(m.fit(d, radius), Fit::TurnsTooLittle(_));
@@ -137,18 +142,20 @@ fn remarks(source: &Source<'_>, names: &[String], housing: &Housing) -> Vec<Stri
     let farthest = source.demands().iter().map(|d| d.turn_degrees).fold(0.0, f64::max);
     if !servos.is_empty() {
         let least = motors.iter().filter(short).filter_map(|m| m.turn_degrees).fold(f64::INFINITY, f64::min);
-        remarks.push(format!(
+        let words = format!(
             "Winches turn by up to {farthest:.0} degrees, which these cannot: {}. A spool of {:.1} mm radius would do.",
             servos.join(", "),
             radius * farthest / least
-        ));
+        );
+        remarks.push(words.into());
     }
     let (wide, rule) = (2.0 * housing.outer_radius_mm, source.design.sewing.housing_mm);
     if rule > 0.0 && wide > rule + 0.05 {
-        remarks.push(format!(
+        let words = format!(
             "The housing around a spool of {radius} mm radius is {wide:.1} mm wide, wider than the {rule:.1} mm that the rules of sewing count on: set \
              sewing.housing_mm to that, or make the spool smaller."
-        ));
+        );
+        remarks.push(words.into());
     }
     remarks
 }

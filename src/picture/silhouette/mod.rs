@@ -2,10 +2,12 @@
 //!
 //! A mesh follows its outline from node to node in straight lines. What is seen follows the drawn outline instead: each of its points
 //! is tied to the stretch of rim beside it (`rim`) and goes with that. The felt within is cut into cells between those points and the
-//! inside of the mesh (`cells`), with a height over the plane as a stuffed body has one (`height`).
+//! inside of the mesh (`cells`), with a height over the plane as a stuffed body has one
+//! (`height`), in an order in which limbs lie over each other as wholes (`order`).
 
 mod cells;
 mod height;
+mod order;
 mod rim;
 mod tie;
 
@@ -27,7 +29,7 @@ pub struct Silhouette {
     rim: Rim,
     /// Places of the points at rest, mm.
     pub rest: Vec<Point>,
-    /// Counter-clockwise at rest, over the points.
+    /// Counter-clockwise at rest, over the points; painted in this order limbs lie over the trunk and over each other.
     pub triangles: Vec<[usize; 3]>,
     /// Closed lines of points: the outer one first, the body on their left.
     pub rings: Vec<Vec<usize>>,
@@ -49,6 +51,7 @@ impl Silhouette {
             if cut.is_upright || parts == 1 {
                 let heights = height::heights(&cut.rest, &cut.triangles, &cut.rings);
                 let cells::Cut { ties, rest, triangles, rings, .. } = cut;
+                let triangles = order::ordered(&rest, triangles, &heights);
                 return Self { ties, rim: drawn, rest, triangles, rings, heights };
             }
             parts -= 1;

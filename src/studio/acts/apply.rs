@@ -1,6 +1,6 @@
 //! What panels and tools ask for, done.
 
-use super::{animate, edit, filing, motors, sheet, timing, wind};
+use super::{animate, edit, filing, frame, motors, sheet, timing, wind};
 use crate::studio::action::Action;
 use crate::studio::jobs::Outcome;
 use crate::studio::session::{Session, Task};
@@ -50,6 +50,8 @@ pub fn apply(session: &mut Session, action: Action) {
         Action::Sketch(sketch) => sheet::sketch(session, sketch),
         Action::File(action) => filing::ask(session, action),
         Action::Start(task) => start(session, task),
+        Action::Stop(owner) => session.tasks.stop(owner),
+        Action::ShowPlaces(places) => frame::show_places(session, &places),
         Action::DismissMessage(id) => session.messages.dismiss(id),
     }
 }

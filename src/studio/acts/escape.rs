@@ -18,6 +18,7 @@ pub fn escape(session: &mut Session) {
         session.picked.mode = Mode::Pose;
     } else {
         session.picked.selection = Selection::Nothing;
+        session.look.marked = None;
         session.group.set(Vec::new());
         session.timing.keys.clear();
         session.discovery.shown = None;

@@ -7,10 +7,11 @@ use super::{film, import, keep, open, paths, replace, save, sheet};
 use crate::defaults;
 use crate::design::file::is_design;
 use crate::files;
-use crate::operations::export;
+use crate::operations::{Context, Progress, export};
 use crate::studio::action::Sketch;
-use crate::studio::jobs::{New, Outcome, Refused};
-use crate::studio::session::{Dialog, FREEHAND, FileAction, PathDialog, Picking, Purpose, Resolution, Session};
+use crate::studio::jobs::{self, New, Outcome, Refused};
+use crate::studio::language::{mark, t, tf};
+use crate::studio::session::{Dialog, Done, FREEHAND, FileAction, PathDialog, Picking, Purpose, Resolution, Session};
 use crate::studio::words;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -26,6 +27,7 @@ pub fn ask(session: &mut Session, action: FileAction) {
             | FileAction::OpenExample(_)
             | FileAction::ImportPath { .. }
             | FileAction::OpenImported
+            | FileAction::Recover
             | FileAction::Quit
     );
     // An answer is about the document as it was then. Whatever dialog is open, the end of all work is asked about.
@@ -53,7 +55,7 @@ fn go_on(session: &mut Session, action: FileAction) {
         }
         FileAction::SaveAs => paths::ask_path(session, Purpose::SaveAs),
         FileAction::Export if session.design().networks.is_empty() => {
-            session.messages.warning("There is nothing to export yet: propose and accept a network first.");
+            session.messages.warning(t("There is nothing to export yet: propose and accept a network first."));
         }
         FileAction::Film => paths::show_path_dialog(session, Purpose::Film),
         FileAction::FilmPath { path, options } => film::start(session, path, options),
@@ -67,7 +69,7 @@ fn go_on(session: &mut Session, action: FileAction) {
         FileAction::ImportPath { path, choice } => import::import(session, path, *choice),
         FileAction::Dropped(path) if session.files.dialog.is_some() => {
             let path = files::shown(&path);
-            session.messages.warning(format!("{path} was not opened: answer the dialog first."));
+            session.messages.warning(tf!("{path} was not opened: answer the dialog first.", path));
         }
         FileAction::Dropped(path) => ask(session, FileAction::OpenPath(path)),
         FileAction::OpenImported => import::open_imported(session),
@@ -126,7 +128,7 @@ pub fn take_path(session: &mut Session, serial: u64, path: Option<PathBuf>, at_o
         (None, dialog) if at_once => {
             session.files.native_dialogs = false;
             match (dialog, &session.files.dialog) {
-                (Some(_), _) => session.messages.info("This desktop has no file dialogs; type the path instead."),
+                (Some(_), _) => session.messages.info(t("This desktop has no file dialogs; type the path instead.")),
                 (None, None) if wanted => paths::show_path_dialog(session, purpose),
                 _ => session.files.take_back(),
             }
@@ -137,7 +139,7 @@ pub fn take_path(session: &mut Session, serial: u64, path: Option<PathBuf>, at_o
         (Some(path), None) => {
             session.files.take_back();
             let path = files::shown(&path);
-            session.messages.warning(format!("Nothing was saved to {path}: another plushie is open by now."));
+            session.messages.warning(tf!("Nothing was saved to {path}: another plushie is open by now.", path));
         }
     }
 }
@@ -169,23 +171,45 @@ pub fn take_import(session: &mut Session, result: Result<Box<New>, Box<Refused>>
 pub fn take_export(session: &mut Session, folder: &Path, result: Result<Vec<String>, String>) {
     match result {
         Ok(remarks) => {
-            session.messages.info(format!("The blueprint is in {}", files::shown(folder)));
+            session.messages.info(tf!("The blueprint is in {path}", path = files::shown(folder)));
             if let Some(text) = words::remarks(&remarks) {
                 session.messages.warning(text);
             }
         }
-        Err(why) => session.messages.error(format!("The export failed: {why}")),
+        Err(why) => session.messages.error(tf!("No blueprint was written: {why}", why)),
     }
 }
 
 fn export(session: &mut Session, folder: PathBuf, options: export::Options) {
     session.files.dialog = None;
-    session.files.working = Some("Exporting the blueprint");
+    session.files.working = Some(t("Exporting the blueprint"));
     let (design, export) = (session.design().clone(), session.services.export.clone());
-    session.files.running = Some(session.jobs.start("Export", move |_| {
-        let result = export(&design, &folder, &options);
+    let (done, wake) = (Done::default(), session.jobs.wake());
+    session.files.done = done.clone();
+    session.files.running = Some(session.jobs.start(mark("job|Export"), move |cancel| {
+        let mut progress = |step: &Progress| {
+            if let Progress::Part { done: now, of } = step {
+                done.say(*now, *of);
+                wake();
+            }
+        };
+        let result = export(&design, &folder, &options, &mut Context::telling(cancel, &mut progress));
         Outcome::Exported { folder, result }
     }));
+}
+
+/// Stops what [`Session::working`] tells of; nothing of it is kept. What reads or writes a file tells itself that it has stopped.
+pub fn stop(session: &mut Session) {
+    if let Some(running) = &session.files.running {
+        running.cancel();
+        session.files.working = Some(t("Stopping"));
+    } else if session.rigging.running.is_some() || session.rigging.curve.running.is_some() {
+        session.rigging.cancel();
+    } else if session.keying.is_some() {
+        jobs::cancel(&mut session.keying);
+    } else {
+        jobs::cancel(&mut session.filming.running);
+    }
 }
 
 /// Saves, and does what waited for that.

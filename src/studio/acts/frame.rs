@@ -2,6 +2,7 @@
 
 use crate::design::MaterialPoint;
 use crate::engine::Shape;
+use crate::mesh::BodyPoint;
 use crate::operations::network::Part;
 use crate::outline::{Point, polygon};
 use crate::studio::canvas::Hit;
@@ -9,17 +10,35 @@ use crate::studio::session::Session;
 
 /// Around a part that is small or a point, mm of body at least, as a part of the body's length.
 const AROUND: f64 = 0.12;
+/// Around places that somebody looks for: enough of the body to tell where that is.
+const AROUND_PLACES: f64 = 0.4;
 
 /// Frames what a menu is about or what is selected; otherwise both plushies as they are.
 pub fn fit_selection(session: &mut Session, at: Hit) {
     let about = if matches!(at, Hit::Nothing | Hit::Body(_)) { session.selected() } else { at };
     let points = points(session, about);
     let points = if points.is_empty() { all(session) } else { points };
-    let (low, high) = polygon::bounding_box(&points);
+    frame(session, &points, AROUND);
+}
+
+/// Marks places of the body at rest, mm, and frames them where they are in the shapes that are shown.
+pub fn show_places(session: &mut Session, places: &[Point]) {
+    let design = session.design().clone();
+    let mesh = &design.mesh;
+    let at: Vec<BodyPoint> = places.iter().filter_map(|&p| Some(mesh.locate_nearest(p, &mesh.nodes)?.0)).collect();
+    let shown = |shape: &Shape| at.iter().map(|at| mesh.position(at, &shape.nodes)).collect::<Vec<_>>();
+    let points: Vec<Point> = shapes(session).flat_map(shown).collect();
+    session.look.marked = Some((design.clone(), at));
+    frame(session, &points, AROUND_PLACES);
+}
+
+/// Frames points, with so much of the body around them at least.
+fn frame(session: &mut Session, points: &[Point], around: f64) {
+    let (low, high) = polygon::bounding_box(points);
     if points.is_empty() {
         return session.look.fit();
     }
-    let least = AROUND * session.design().body_length_mm();
+    let least = around * session.design().body_length_mm();
     let grown = |axis: usize| 0.5 * (least - (high[axis] - low[axis])).max(0.0);
     session.look.frame = Some([[0, 1].map(|k| low[k] - grown(k)), [0, 1].map(|k| high[k] + grown(k))]);
 }

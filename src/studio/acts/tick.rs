@@ -5,7 +5,9 @@ use crate::design::animation;
 use crate::engine::Setpoint;
 use crate::studio::canvas::Plushie;
 use crate::studio::jobs::{Finished, Outcome, Running};
-use crate::studio::session::{Mode, ONION, Session};
+use crate::studio::language::{t, tf};
+use crate::studio::session::{Done, Mode, ONION, Session};
+use std::sync::Arc;
 
 /// Takes what the threads have to report, moves the playhead, asks for what should be seen next.
 /// `hands_off`: nobody holds a button or types, so gestures are over.
@@ -16,9 +18,9 @@ pub fn tick(session: &mut Session, now_s: f64, passed_s: f64, hands_off: bool) {
     }
     motors::follow(session);
     if session.solver.revive() {
-        session.messages.error(
+        session.messages.error(t(
             "The solver broke down and was started again. Your work is as it was; the last good shapes are shown",
-        );
+        ));
     }
     session.solver.take(session.design().mesh.nodes.len());
     if hands_off {
@@ -30,6 +32,8 @@ pub fn tick(session: &mut Session, now_s: f64, passed_s: f64, hands_off: bool) {
     }
     edit::clamp(session);
     let design = session.document.design().clone();
+    session.look.marked.take_if(|(of, _)| !Arc::ptr_eq(of, &design));
+    session.playback.follow(animation::duration_s(&design));
     session.posing.follow(&design);
     session.timing.follow(&design);
     discover::follow(session);
@@ -65,6 +69,7 @@ fn take(session: &mut Session, Finished { serial, outcome }: Finished) {
     if Running::is(session.files.running.as_ref(), serial) {
         session.files.running = None;
         session.files.working = None;
+        session.files.done = Done::default();
     }
     match outcome {
         Outcome::Proposed(proposals) => discover::take_proposals(session, serial, proposals),
@@ -85,7 +90,7 @@ fn take(session: &mut Session, Finished { serial, outcome }: Finished) {
         Outcome::Told { owner, told } => session.tasks.finish(owner, serial, told),
         Outcome::Broken { job, why } => {
             break_off(session, serial);
-            session.messages.error(format!("{job} failed: {why}"));
+            session.messages.error(tf!("{job} failed: {why}", job = t(job), why));
         }
     }
 }

@@ -3,11 +3,12 @@
 use super::command::{Command, Group, Keys, Place};
 use crate::studio::action::FileAction;
 use crate::studio::acts;
+use crate::studio::language::t;
 use crate::studio::session::Overlay;
 use eframe::egui::Key;
 
-pub static ALL: [&Command; 11] =
-    [&START, &NEW, &NEW_DRAWING, &OPEN, &SAVE, &SAVE_AS, &EXPORT, &PALETTE, &SHORTCUTS, &LOG, &QUIT];
+pub static ALL: [&Command; 12] =
+    [&START, &NEW, &NEW_DRAWING, &OPEN, &SAVE, &SAVE_AS, &EXPORT, &PALETTE, &SHORTCUTS, &LOG, &STOP, &QUIT];
 
 pub static START: Command = Command {
     places: &[Place::FileMenu],
@@ -88,6 +89,12 @@ pub static LOG: Command = Command {
     places: &[Place::FileMenu],
     run: &|session, _| session.overlay = Some(Overlay::Log),
     ..Command::new("window.messages", "Messages", "Show everything that the window has said")
+};
+
+pub static STOP: Command = Command {
+    why_not: &|session, _| (!session.can_stop()).then_some(t("Nothing is at work that can be stopped")),
+    run: &|session, _| acts::filing::stop(session),
+    ..Command::new("work.stop", "Stop work", "Stop what the window is busy with; nothing of it is kept")
 };
 
 pub static QUIT: Command = Command {

@@ -5,10 +5,11 @@ use crate::picture::palette::Theme;
 use crate::studio::acts::frame;
 use crate::studio::canvas::Plushie;
 use crate::studio::icons::Icon;
+use crate::studio::language::t;
 use crate::studio::session::Views;
 use eframe::egui::Key;
 
-pub static ALL: [&Command; 14] = [
+pub static ALL: [&Command; 15] = [
     &FIT,
     &FIT_SELECTION,
     &ZOOM_IN,
@@ -16,6 +17,7 @@ pub static ALL: [&Command; 14] = [
     &IDEALIZED,
     &REALIZABLE,
     &OVERLAY,
+    &STACKED,
     &LINKED,
     &RULERS,
     &ONION,
@@ -70,6 +72,18 @@ pub static OVERLAY: Command = Command {
     )
 };
 
+pub static STACKED: Command = Command {
+    scope: Scope::Views,
+    places: &[Place::ViewMenu],
+    on: Some(&|session| session.look.stacks),
+    run: &|session, _| session.look.stacks = !session.look.stacks,
+    ..Command::new(
+        "view.stacked",
+        "Stack views of wide bodies",
+        "Show the plushies one above the other where that shows them larger",
+    )
+};
+
 pub static LINKED: Command = Command {
     scope: Scope::Views,
     places: &[Place::ViewMenu],
@@ -96,7 +110,7 @@ pub static ONION: Command = Command {
     places: &[Place::ViewMenu],
     on: Some(&|session| session.look.onion.on),
     why_not: &|session, _| {
-        session.design().keyframes.is_empty().then_some("There are no keyframes whose neighbours could be shown")
+        session.design().keyframes.is_empty().then_some(t("There are no keyframes whose neighbours could be shown"))
     },
     run: &|session, _| session.look.onion.on = !session.look.onion.on,
     ..Command::new(

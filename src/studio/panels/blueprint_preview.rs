@@ -1,18 +1,17 @@
 //! The blueprint before it is written: its sheets as they will be cut, what the motors are told, and remarks.
 
 use crate::design::Design;
-use crate::fabrication::blueprint;
-use crate::motion::winch_labels;
+use crate::fabrication::{Remark, Watch, blueprint_watched};
 use crate::operations::export;
-use crate::operations::network::Part;
 use crate::picture::preview::Preview;
 use crate::picture::sheet;
 use crate::studio::action::{Action, Actions, FileAction};
 use crate::studio::jobs::Told;
+use crate::studio::language::{mark, t, tf};
 use crate::studio::pictures::Pictures;
-use crate::studio::session::{Selection, Session, Task};
+use crate::studio::session::{Done, Session, Task};
 use crate::studio::words;
-use eframe::egui::{Label, RichText, Role, ScrollArea, Sense, Spinner, Ui, WidgetInfo, vec2};
+use eframe::egui::{Button, Label, RichText, Role, ScrollArea, Sense, Spinner, Ui, WidgetInfo, vec2};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -21,6 +20,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub struct State {
     pictures: Pictures,
     page: usize,
+    /// How far it is.
+    done: Done,
     asked: Option<(Arc<Design>, export::Options)>,
 }
 
@@ -29,7 +30,7 @@ struct Made {
     of: Arc<Design>,
     options: export::Options,
     pages: Result<Vec<Page>, String>,
-    remarks: Vec<String>,
+    remarks: Vec<Remark>,
 }
 
 /// A file of it, as it is shown.
@@ -50,6 +51,8 @@ const LONGEST: u32 = 900;
 const HEIGHT: f32 = 250.0;
 /// Height of the remarks, logical pixels: others are scrolled to.
 const REMARKS: f32 = 120.0;
+/// What the button beside a remark does.
+const SHOW: &str = mark("Close this, and look at the place on the body");
 /// Lines of a table or a program that are shown, and files of each kind.
 const LINES: usize = 40;
 const FILES: usize = 24;
@@ -61,24 +64,40 @@ pub fn show(ui: &mut Ui, session: &Session, options: &export::Options, state: &m
     let made = session.tasks().told::<Made>(OWNER).filter(|made| is(&made.of, &made.options));
     state.pictures.begin();
     if let Some(made) = made {
-        return pages(ui, session, made, state, actions);
+        return pages(ui, made, state, actions);
     }
     let running = session.tasks().running(OWNER).is_some();
     if running && state.asked.as_ref().is_some_and(|(of, asked)| is(of, asked)) {
         ui.horizontal(|ui| {
             ui.add(Spinner::new());
-            ui.label("Making the preview");
+            let at = state
+                .done
+                .get()
+                .map_or_else(String::new, |[done, of]| tf!(", part {number} of {of}", number = done + 1, of));
+            ui.label(tf!("Making the preview{at}", at));
+            if ui.button(t("Cancel preview")).on_hover_text(t("Stop making it")).clicked() {
+                state.asked = None;
+                actions.push(Action::Stop(OWNER));
+            }
         });
-    } else if ui.button("Preview").on_hover_text("Sheets as they will be cut, motor files and remarks").clicked() {
+    } else if ui.button(t("Preview")).on_hover_text(t("Sheets as they will be cut, motor files and remarks")).clicked()
+    {
         state.page = 0;
-        state.asked = Some((design.clone(), options.clone()));
-        let (of, options) = (design.clone(), options.clone());
-        let work = Arc::new(move |cancel: &AtomicBool| -> Told { Arc::new(made_of(&of, &options, cancel)) });
-        actions.push(Action::Start(Task { owner: OWNER, name: "The preview of the blueprint", work }));
+        (state.asked, state.done) = (Some((design.clone(), options.clone())), Done::default());
+        let (of, options, done, wake) = (design.clone(), options.clone(), state.done.clone(), session.jobs.wake());
+        let work = Arc::new(move |cancel: &AtomicBool| -> Told {
+            let mut watch = |now: usize, of: usize| {
+                done.say(now, of);
+                wake();
+                !cancel.load(Ordering::Relaxed)
+            };
+            Arc::new(made_of(&of, &options, cancel, &mut watch))
+        });
+        actions.push(Action::Start(Task { owner: OWNER, name: mark("The preview of the blueprint"), work }));
     }
 }
 
-fn pages(ui: &mut Ui, session: &Session, made: &Made, state: &mut State, actions: &mut Actions) {
+fn pages(ui: &mut Ui, made: &Made, state: &mut State, actions: &mut Actions) {
     let pages = match &made.pages {
         Ok(pages) => pages,
         Err(why) => {
@@ -89,20 +108,20 @@ fn pages(ui: &mut Ui, session: &Session, made: &Made, state: &mut State, actions
     let last = pages.len().saturating_sub(1);
     state.page = state.page.min(last);
     ui.horizontal(|ui| {
-        if ui.add_enabled(state.page > 0, eframe::egui::Button::new("Back")).clicked() {
+        if ui.add_enabled(state.page > 0, Button::new(t("Back"))).clicked() {
             state.page -= 1;
         }
-        if ui.add_enabled(state.page < last, eframe::egui::Button::new("Next page")).clicked() {
+        if ui.add_enabled(state.page < last, Button::new(t("Next page"))).clicked() {
             state.page += 1;
         }
         let name = pages.get(state.page).map_or("", |page| &page.name);
-        ui.label(format!("{} of {}: {name}", state.page + 1, pages.len()));
+        ui.label(tf!("{page} of {pages}: {name}", page = state.page + 1, pages = pages.len(), name));
     });
     let size = vec2(ui.available_width(), HEIGHT);
     match pages.get(state.page).map(|page| &page.content) {
         Some(Content::Sheet(picture)) => {
             let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
-            response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Sheet"));
+            response.widget_info(|| WidgetInfo::labeled(Role::Image, true, t("Sheet")));
             state.pictures.paint(ui, picture, rect);
         }
         Some(Content::Text(text)) => {
@@ -113,35 +132,28 @@ fn pages(ui: &mut Ui, session: &Session, made: &Made, state: &mut State, actions
         }
         None => {}
     }
-    remarks(ui, session, made, actions);
+    remarks(ui, made, actions);
 }
 
 /// What its maker should know; what is somewhere on the body can be shown there.
-fn remarks(ui: &mut Ui, session: &Session, made: &Made, actions: &mut Actions) {
+fn remarks(ui: &mut Ui, made: &Made, actions: &mut Actions) {
     let most = ScrollArea::vertical().id_salt("remarks of the blueprint").max_height(REMARKS);
-    most.auto_shrink([false, true]).show(ui, |ui| remark_lines(ui, session, made, actions));
-}
-
-fn remark_lines(ui: &mut Ui, session: &Session, made: &Made, actions: &mut Actions) {
-    for remark in &made.remarks {
-        ui.add(Label::new(RichText::new(remark).small().color(ui.visuals().warn_fg_color)).wrap());
-    }
-    for breach in session.judging().breaches() {
-        ui.horizontal(|ui| {
-            if ui.small_button("Show me").clicked() {
-                if let Some(winch) = breach.winches().next() {
-                    actions.push(Action::Select(Selection::Part(Part::Winch(winch))));
+    most.auto_shrink([false, true]).show(ui, |ui| {
+        for remark in &made.remarks {
+            ui.horizontal_top(|ui| {
+                let words = RichText::new(&remark.text).small();
+                if !remark.places.is_empty() && ui.small_button(t("Show me")).on_hover_text(t(SHOW)).clicked() {
+                    actions.push(Action::File(FileAction::CloseDialog));
+                    actions.push(Action::ShowPlaces(remark.places.clone()));
                 }
-                actions.push(Action::File(FileAction::CloseDialog));
-            }
-            let words = breach.words(&winch_labels(&made.of)).to_string();
-            ui.add(Label::new(RichText::new(words).small()).wrap());
-        });
-    }
+                ui.add(Label::new(words).wrap());
+            });
+        }
+    });
 }
 
-fn made_of(design: &Arc<Design>, options: &export::Options, cancel: &AtomicBool) -> Made {
-    let (pages, remarks) = match blueprint(design, options) {
+fn made_of(design: &Arc<Design>, options: &export::Options, cancel: &AtomicBool, watch: Watch<'_>) -> Made {
+    let (pages, remarks) = match blueprint_watched(design, options, watch) {
         Err(error) => (Err(words::unexported(&error)), Vec::new()),
         Ok((files, manifest)) => {
             let has = |name: &str, endings: &[&str]| endings.iter().any(|ending| name.ends_with(ending));

@@ -1,7 +1,7 @@
-//! The start page: designs to begin with as pictures, recent files, and ways to a new plushie.
+//! The start page: work that was left behind, designs to begin with as pictures, recent files, and ways to a new plushie.
 
-use super::buttons;
-use super::widgets::heading;
+use super::widgets::{heading, primary};
+use super::{buttons, dialogs};
 use crate::design::{Design, bundled, file};
 use crate::engine::Shape;
 use crate::files::shown;
@@ -11,10 +11,11 @@ use crate::picture::preview::Preview;
 use crate::studio::action::{Action, Actions, FileAction};
 use crate::studio::commands::files::{NEW, NEW_DRAWING, OPEN};
 use crate::studio::jobs::Told;
+use crate::studio::language::{mark, t, tf};
 use crate::studio::pictures::Pictures;
 use crate::studio::session::{Overlay, Session, Task};
 use eframe::egui::{
-    Align2, Context, FontId, Frame, Id, Modal, Rect, RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui,
+    Align2, Context, FontId, Frame, Id, Label, Modal, Rect, RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui,
     WidgetInfo, vec2,
 };
 use std::path::{Path, PathBuf};
@@ -25,12 +26,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 #[derive(Default)]
 pub struct State {
     pictures: Pictures,
-    asked: Option<(Theme, Vec<PathBuf>)>,
+    asked: Option<(Theme, Vec<PathBuf>, Option<PathBuf>)>,
 }
 
-/// Pictures of the examples and of recent files, each where it could be made.
+/// Pictures of the examples, of recent files and of work that was left behind, each where it could be made.
 struct Shots {
     theme: Theme,
+    work: Option<(PathBuf, Option<Arc<Preview>>)>,
     examples: Vec<Option<Arc<Preview>>>,
     recent: Vec<(PathBuf, Option<Arc<Preview>>)>,
 }
@@ -67,11 +69,12 @@ pub fn show(ctx: &Context, session: &Session, state: &mut State, actions: &mut A
             });
             let most = 0.74 * ui.ctx().content_rect().height();
             ScrollArea::vertical().max_height(most).auto_shrink([false, true]).show(ui, |ui| {
+                left_behind(ui, session, state, shots, actions);
                 examples(ui, state, shots, actions);
                 recent(ui, session, state, shots, actions);
             });
             ui.add_space(8.0);
-            if ui.button("Go on with what is open").clicked() {
+            if ui.button(t("Go on with what is open")).clicked() {
                 actions.push(Action::Overlay(None));
             }
         });
@@ -80,13 +83,41 @@ pub fn show(ctx: &Context, session: &Session, state: &mut State, actions: &mut A
     }
 }
 
+/// Work that another window left behind.
+fn left_behind(ui: &mut Ui, session: &Session, state: &mut State, shots: Option<&Shots>, actions: &mut Actions) {
+    let Some(work) = session.offered() else { return };
+    ui.add_space(6.0);
+    heading(ui, t("Not saved"));
+    ui.horizontal(|ui| {
+        let (rect, _) = ui.allocate_exact_size(vec2(CARD[0], CARD[1] - 28.0), Sense::hover());
+        let found = shots.and_then(|shots| shots.work.as_ref()).filter(|(of, _)| of == work.folder());
+        if let Some(picture) = found.and_then(|(_, picture)| picture.as_ref()) {
+            state.pictures.paint(ui, picture, rect.shrink(6.0));
+        }
+        ui.vertical(|ui| {
+            ui.label(RichText::new(&work.design.name).strong());
+            ui.add(Label::new(dialogs::left_behind(work)).wrap());
+            ui.add_space(4.0);
+            ui.horizontal(|ui| {
+                if primary(ui, true, t("Recover"), 100.0).clicked() {
+                    actions.push(Action::Overlay(None));
+                    actions.push(Action::File(FileAction::Recover));
+                }
+                if ui.button(t("Discard it")).clicked() {
+                    actions.push(Action::File(FileAction::DiscardWork));
+                }
+            });
+        });
+    });
+}
+
 fn examples(ui: &mut Ui, state: &mut State, shots: Option<&Shots>, actions: &mut Actions) {
     ui.add_space(6.0);
-    heading(ui, "Examples");
+    heading(ui, t("Examples"));
     ui.horizontal_wrapped(|ui| {
         for (index, example) in bundled::ALL.iter().enumerate() {
             let picture = shots.and_then(|shots| shots.examples.get(index)?.as_ref());
-            if card(ui, state, picture, example.name, &format!("Open example {}", example.name)) {
+            if card(ui, state, picture, example.name, &tf!("Open example {name}", name = example.name)) {
                 actions.push(Action::Overlay(None));
                 actions.push(Action::File(FileAction::OpenExample(index)));
             }
@@ -99,13 +130,13 @@ fn recent(ui: &mut Ui, session: &Session, state: &mut State, shots: Option<&Shot
         return;
     }
     ui.add_space(6.0);
-    heading(ui, "Recent");
+    heading(ui, t("Recent"));
     ui.horizontal_wrapped(|ui| {
         for path in session.recent().iter().take(RECENT) {
             let found = shots.and_then(|shots| shots.recent.iter().find(|(of, _)| of == path));
             let picture = found.and_then(|(_, picture)| picture.as_ref());
             let name = shown(path.file_stem().map_or(path, Path::new));
-            if card(ui, state, picture, &name, &format!("Open {}", shown(path))) {
+            if card(ui, state, picture, &name, &tf!("Open {path}", path = shown(path))) {
                 actions.push(Action::Overlay(None));
                 actions.push(Action::File(FileAction::OpenPath(path.clone())));
             }
@@ -134,17 +165,21 @@ fn card(ui: &mut Ui, state: &mut State, picture: Option<&Arc<Preview>>, name: &s
 /// The pictures that are there; where others are wanted, they are begun.
 fn follow<'s>(session: &'s Session, state: &mut State, actions: &mut Actions) -> Option<&'s Shots> {
     let (theme, recent) = (session.look().theme, session.recent());
-    let begun = state.asked.as_ref().is_some_and(|(of, files)| *of == theme && files == recent);
+    let offered = session.offered().map(|work| work.folder().to_owned());
+    let begun =
+        state.asked.as_ref().is_some_and(|(of, files, work)| *of == theme && files == recent && *work == offered);
     if !begun {
-        state.asked = Some((theme, recent.to_vec()));
+        state.asked = Some((theme, recent.to_vec(), offered));
         let recent: Vec<PathBuf> = recent.iter().take(RECENT).cloned().collect();
-        let work = Arc::new(move |cancel: &AtomicBool| -> Told { Arc::new(drawn(theme, &recent, cancel)) });
-        actions.push(Action::Start(Task { owner: OWNER, name: "Pictures of designs", work }));
+        let left = session.offered().map(|work| (work.folder().to_owned(), Design::clone(&work.design)));
+        let work =
+            Arc::new(move |cancel: &AtomicBool| -> Told { Arc::new(drawn(theme, left.clone(), &recent, cancel)) });
+        actions.push(Action::Start(Task { owner: OWNER, name: mark("Pictures of designs"), work }));
     }
     session.tasks().told::<Shots>(OWNER).filter(|shots| shots.theme == theme)
 }
 
-fn drawn(theme: Theme, recent: &[PathBuf], cancel: &AtomicBool) -> Shots {
+fn drawn(theme: Theme, left: Option<(PathBuf, Design)>, recent: &[PathBuf], cancel: &AtomicBool) -> Shots {
     let picture = |design: Option<Design>| {
         let design = Arc::new(design.filter(|_| !cancel.load(Ordering::Relaxed))?);
         let rest = Arc::new(Shape { nodes: design.mesh.nodes.clone(), ..Shape::default() });
@@ -152,5 +187,6 @@ fn drawn(theme: Theme, recent: &[PathBuf], cancel: &AtomicBool) -> Shots {
     };
     let examples = bundled::ALL.iter().map(|example| picture(example.design().ok())).collect();
     let recent = recent.iter().map(|path| (path.clone(), picture(file::read(path).ok()))).collect();
-    Shots { theme, examples, recent }
+    let work = left.map(|(folder, design)| (folder, picture(Some(design))));
+    Shots { theme, work, examples, recent }
 }

@@ -3,7 +3,7 @@
 use crate::studio::action::{Action, Actions};
 use crate::studio::session::Session;
 use crate::studio::style;
-use eframe::egui::{Button, Frame, Key, Margin, Response, RichText, TextEdit, Ui};
+use eframe::egui::{Button, Color32, Frame, Key, Margin, Response, RichText, TextEdit, TextStyle, Ui};
 
 /// Height of a button that takes the width of its panel, logical pixels.
 const WIDE: f32 = 30.0;
@@ -18,9 +18,12 @@ pub fn heading(ui: &mut Ui, text: &str) {
     ui.label(RichText::new(text).strong().size(13.5));
 }
 
-/// The one button of a panel or a dialog that matters most.
+/// The one button of a panel or a dialog that matters most: so wide, or as wide as its words are in this language.
 pub fn primary(ui: &mut Ui, enabled: bool, text: &str, width: f32) -> Response {
     let theme = style::theme_of(ui.visuals());
+    let font = TextStyle::Button.resolve(ui.style());
+    let words = ui.painter().layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER).size().x;
+    let width = width.max(words + 2.0 * ui.spacing().button_padding.x);
     let label = RichText::new(text).strong().color(style::on_accent(theme));
     let button = Button::new(label).fill(style::accent(theme));
     ui.add_enabled_ui(enabled, |ui| wide(ui, button, width)).inner
@@ -50,8 +53,41 @@ pub fn name_field(ui: &mut Ui, session: &Session, label: &str, actions: &mut Act
     None
 }
 
+/// What comes and goes by itself, as threads report. Whether it is shown or not, the widgets after it keep their ids: a click or a drag that is
+/// under way finds them again, and so does the keyboard.
+pub fn passing(ui: &mut Ui, shown: bool, add: impl FnOnce(&mut Ui)) {
+    if shown {
+        ui.scope(add);
+    } else {
+        ui.skip_ahead_auto_ids(1);
+    }
+}
+
 /// An error as a sentence of its own.
 pub fn sentence(error: &str) -> String {
     let mut letters = error.chars();
     letters.next().map_or_else(String::new, |first| format!("{}{}.", first.to_uppercase(), letters.as_str()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use eframe::egui::{Context, Id, RawInput};
+
+    #[test]
+    fn what_comes_and_goes_moves_no_ids() {
+        let ctx = Context::default();
+        let mut ids: Vec<Id> = Vec::new();
+        for shown in [false, true, false] {
+            let _ = ctx.run_ui(RawInput::default(), |ui| {
+                ui.horizontal(|ui| {
+                    passing(ui, shown, |ui| {
+                        let _ = (ui.button("Now"), ui.label("and then"));
+                    });
+                    ids.push(ui.button("Always").id);
+                });
+            });
+        }
+        assert!(ids.windows(2).all(|pair| pair[0] == pair[1]), "{ids:?}");
+    }
 }

@@ -1,19 +1,18 @@
 //! A film that is made of the animation.
 
+use super::done::Done;
 use crate::studio::jobs::Running;
-use std::sync::{Arc, Mutex};
 
-/// The job, and how far it is.
+/// The job, and how many of its pictures are done.
 #[derive(Default)]
 pub struct Filming {
     pub running: Option<Running>,
-    /// Pictures that are done, of how many.
-    pub(crate) done: Arc<Mutex<[usize; 2]>>,
+    pub(crate) done: Done,
 }
 
 impl Filming {
     /// Pictures that are done, of how many.
     pub fn done(&self) -> [usize; 2] {
-        self.done.lock().map_or([0; 2], |done| *done)
+        self.done.get().unwrap_or_default()
     }
 }

@@ -1,13 +1,18 @@
 //! How things are shown.
 
 use super::onion::Onion;
+use crate::design::Design;
+use crate::mesh::BodyPoint;
 use crate::outline::Point;
 use crate::picture::layers::looks;
 use crate::picture::layers::{Layer, Shown};
 use crate::picture::palette::Theme;
 use crate::studio::canvas::{Camera, Plushie};
+use crate::studio::language::Choice;
+use std::sync::Arc;
 
 pub struct Look {
+    pub language: Choice,
     pub theme: Theme,
     /// Nothing moves by itself but what is asked to play.
     pub still: bool,
@@ -18,6 +23,8 @@ pub struct Look {
     pub views: Views,
     /// Of both views, or of the idealized one where each has its own. `None`: fits the body.
     pub camera: Option<Camera>,
+    /// Whether the views of a wide body stand one above the other.
+    pub stacks: bool,
     /// Whether both views have one camera.
     pub linked: bool,
     /// Of the realizable view where each has its own.
@@ -26,6 +33,8 @@ pub struct Look {
     pub zoom: Option<f32>,
     /// A box that shall fill the views, as soon as they know their sizes, mm.
     pub frame: Option<[Point; 2]>,
+    /// Places of a body that were asked for, ringed until something else is done.
+    pub marked: Option<(Arc<Design>, Vec<BodyPoint>)>,
     /// Whether rulers and a grid are shown.
     pub rulers: bool,
     /// Outlines of neighbouring keyframes.
@@ -87,7 +96,7 @@ impl Look {
 
     /// Fits the body into the views.
     pub(crate) fn fit(&mut self) {
-        (self.camera, self.apart, self.frame, self.zoom) = (None, None, None, None);
+        (self.camera, self.apart, self.frame, self.zoom, self.marked) = (None, None, None, None, None);
     }
 
     /// Lets each view have its own camera, or both that of the idealized one.
@@ -105,15 +114,18 @@ impl Look {
 impl Default for Look {
     fn default() -> Self {
         Self {
+            language: Choice::default(),
             theme: Theme::Light,
             shown: Shown::default(),
             body: looks::Plush::NAME,
             views: Views::Both,
+            stacks: true,
             camera: None,
             linked: true,
             apart: None,
             zoom: None,
             frame: None,
+            marked: None,
             rulers: false,
             onion: Onion::default(),
             still: false,

@@ -3,6 +3,7 @@
 mod basis;
 mod discovery;
 mod document;
+mod done;
 mod files;
 mod filming;
 mod following;
@@ -34,6 +35,7 @@ mod winding;
 pub use super::jobs::Told;
 pub use discovery::{Discovery, Order};
 pub use document::Document;
+pub use done::Done;
 pub(crate) use files::Picking;
 pub use files::{Dialog, FileAction, Files, PathDialog, Purpose, Why, desktop_has_dialogs};
 pub use filming::Filming;

@@ -25,10 +25,11 @@ use super::timing::Timing;
 use super::winding::Winding;
 use crate::design::file::MAX_BYTES;
 use crate::design::history::History;
+use crate::design::texture::Origin;
 use crate::design::{Design, Target};
 use crate::engine::{Quality, Request};
 use crate::files::Stamp;
-use crate::operations::export;
+use crate::operations::{Context, export};
 use crate::outline::Drawing;
 use crate::picture::Texture;
 use crate::picture::layers::{Layer, Textured};
@@ -36,6 +37,7 @@ use crate::rigging::{Proposal, ProposeOptions};
 use crate::studio::canvas::Hit;
 use crate::studio::jobs::{self, Jobs, Running, Wake};
 use crate::studio::keeper::Abandoned;
+use crate::studio::language::t;
 use crate::studio::messages::Messages;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -47,7 +49,8 @@ pub type Propose =
 /// Hears of the list of proposals as it grows.
 pub type Found<'f> = &'f mut dyn FnMut(&[Arc<Proposal>]);
 /// Writes the blueprint of a design into a folder, and returns its remarks.
-pub type Export = Arc<dyn Fn(&Design, &Path, &export::Options) -> Result<Vec<String>, String> + Send + Sync>;
+pub type Export =
+    Arc<dyn Fn(&Design, &Path, &export::Options, &mut Context<'_>) -> Result<Vec<String>, String> + Send + Sync>;
 
 /// The long work that is done elsewhere; tests put their own in.
 #[derive(Clone)]
@@ -141,6 +144,13 @@ impl Session {
             tasks: Tasks::default(),
             services,
         }
+    }
+
+    /// Where the document was read from; what waits in a folder of the window's own does not stay there.
+    pub(crate) fn origin(&self) -> Option<Origin<'_>> {
+        let file = self.document.origin.as_deref()?;
+        let own = self.safety.store.as_ref().is_some_and(|store| store.holds(file));
+        Some(Origin { file, stays: !own && self.document.kept.is_none() })
     }
 
     /// The document as it is now.
@@ -275,12 +285,29 @@ impl Session {
 
     /// The work that threads are busy with, ready to be shown.
     pub fn working(&self) -> Option<&'static str> {
-        let keying = self.keying.is_some().then_some("Working out the keyframe");
+        let keying = self.keying.is_some().then_some(t("Working out the keyframe"));
         let rigging = self.rigging.running.is_some() || self.rigging.curve.running.is_some();
-        let rigging = rigging.then_some("Looking for winches and tendons");
-        let filming = self.filming.running.is_some().then_some("Drawing the animation");
-        let following = self.following.is_running().then_some("Working out keyframes again");
+        let rigging = rigging.then_some(t("Looking for winches and tendons"));
+        let filming = self.filming.running.is_some().then_some(t("Drawing the animation"));
+        let following = self.following.is_running().then_some(t("Working out keyframes again"));
         self.files.working.or(rigging).or(keying).or(filming).or(following)
+    }
+
+    /// Whether that work can be stopped: keyframes that follow their poses begin anew by themselves.
+    pub fn can_stop(&self) -> bool {
+        self.files.running.is_some()
+            || self.rigging.running.is_some()
+            || self.rigging.curve.running.is_some()
+            || self.keying.is_some()
+            || self.filming.running.is_some()
+    }
+
+    /// How far that work is, where it tells: steps, of how many.
+    pub fn working_at(&self) -> Option<[usize; 2]> {
+        match self.files.working {
+            Some(_) => self.files.done.get(),
+            None => self.filming.running.as_ref().and_then(|_| self.filming.done.get()),
+        }
     }
 
     /// Whether the window is about to close.
@@ -339,9 +366,9 @@ impl Session {
     /// Why networks cannot be proposed now, if so.
     pub fn cannot_propose(&self) -> Option<&'static str> {
         if self.discovery.running.is_some() && !self.discovery.is_stale() {
-            Some("Discovery is running")
+            Some(t("Discovery is running"))
         } else if self.picked.mode != Mode::Pose || self.targets().is_empty() {
-            Some("Choose a pose with at least one target first: drag a point of the body")
+            Some(t("Choose a pose with at least one target first: drag a point of the body"))
         } else {
             None
         }
@@ -372,10 +399,10 @@ impl Session {
     /// Why no rig can be looked for now, if so.
     pub fn cannot_rig(&self) -> Option<&'static str> {
         if self.rigging.running.is_some() || self.rigging.curve.running.is_some() {
-            return Some("A rig is being looked for");
+            return Some(t("A rig is being looked for"));
         }
         let posed = self.design().poses.iter().any(|pose| !pose.targets.is_empty());
-        (!posed).then_some("Pose the plushie first: drag a point of the body")
+        (!posed).then_some(t("Pose the plushie first: drag a point of the body"))
     }
 
     /// Files that were opened or saved lately, the newest first.
@@ -412,10 +439,10 @@ impl Session {
         }
         match self.texturing.found {
             texturing::Found::Picture(_) => None,
-            texturing::Found::Trouble => Some("The texture of this plushie is missing or broken"),
-            texturing::Found::Nothing if self.texturing.path.is_some() => Some("The texture is being read"),
+            texturing::Found::Trouble => Some(t("The texture of this plushie is missing or broken")),
+            texturing::Found::Nothing if self.texturing.path.is_some() => Some(t("The texture is being read")),
             texturing::Found::Nothing => {
-                Some("This plushie has no texture; the import has “Keep the picture as texture”")
+                Some(t("This plushie has no texture; the import has “Keep the picture as texture”"))
             }
         }
     }

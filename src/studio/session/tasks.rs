@@ -38,6 +38,13 @@ impl Tasks {
         std::mem::take(&mut self.running).values().for_each(Running::cancel);
     }
 
+    /// Stops the job of a panel, and waits for it no more.
+    pub fn stop(&mut self, owner: &str) {
+        if let Some(running) = self.running.remove(owner) {
+            running.cancel();
+        }
+    }
+
     /// A job has begun in the place of the one before.
     pub fn begin(&mut self, owner: &'static str, running: Running) {
         if let Some(before) = self.running.insert(owner, running) {

@@ -5,7 +5,7 @@ use crate::operations::network::Part;
 use crate::outline::Point;
 use crate::studio::action::Actions;
 use crate::studio::canvas::{Canvas, Ground, Hit, act, navigate};
-use crate::studio::commands::{self, Place};
+use crate::studio::commands::{self, Command, Place};
 use crate::studio::panels::{buttons, tendons};
 use crate::studio::session::Session;
 use crate::studio::style;
@@ -34,16 +34,43 @@ pub fn interact(
     pointer.map(|p| tool.under(canvas, p))
 }
 
-/// All that can be done to what lies under the pointer: to a winch or a cable, and to the body below.
+/// All that can be done to what lies under the pointer: first to a winch or a cable, then to the body below, then what can always be done.
 fn menu(ui: &mut Ui, session: &Session, hits: [Hit; 2], actions: &mut Actions) {
     ui.set_min_width(170.0);
+    let allowed = |command: &Command, hit: Hit| command.refused(session, hit).is_none();
+    let mut groups: [Vec<(&'static Command, Hit)>; 3] = Default::default();
     for command in commands::at(Place::ContextMenu) {
-        if let Some(hit) = hits.into_iter().find(|&hit| command.refused(session, hit).is_none()) {
+        let Some(hit) = hits.into_iter().find(|&hit| allowed(command, hit)) else { continue };
+        let group = if allowed(command, Hit::Nothing) { 2 } else { usize::from(allowed(command, hits[1])) };
+        groups[group].push((command, hit));
+    }
+    let mut parted = false;
+    for group in groups.iter().filter(|group| !group.is_empty()) {
+        if std::mem::replace(&mut parted, true) {
+            ui.separator();
+        }
+        for &(command, hit) in group {
             buttons::entry(ui, session, command, hit, actions);
         }
     }
     if let Hit::Part(part) = hits[0] {
         tendons::hand_over(ui, session, part, actions);
+    }
+}
+
+/// Rings around places that were asked for, with a light around each that is seen from afar.
+pub fn marked(ui: &Ui, canvas: &Canvas<'_>) {
+    let (Some((design, places)), Ground::Plushie(_, Some(shape))) = (&canvas.session.look.marked, canvas.ground) else {
+        return;
+    };
+    if shape.nodes.len() != design.mesh.nodes.len() {
+        return;
+    }
+    let (painter, warn) = (ui.painter_at(canvas.rect), ui.visuals().warn_fg_color);
+    for at in places {
+        let middle = canvas.to_screen(design.mesh.position(at, &shape.nodes));
+        painter.circle_stroke(middle, 16.0, Stroke::new(6.0, warn.gamma_multiply(0.25)));
+        painter.circle_stroke(middle, 16.0, Stroke::new(2.0, warn));
     }
 }
 

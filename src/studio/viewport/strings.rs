@@ -4,8 +4,9 @@ use crate::motion::winch_labels;
 use crate::operations::network::Part;
 use crate::outline::Point;
 use crate::picture::palette::Palette;
-use crate::sewing::{Breach, Place};
+use crate::sewing::{Breach, Spot};
 use crate::studio::canvas::{Canvas, Ground, HANDLE};
+use crate::studio::language::tf;
 use crate::studio::session::Selection;
 use crate::studio::style;
 use crate::studio::tools::TENDON;
@@ -112,13 +113,13 @@ fn broken(ui: &mut Ui, canvas: &Canvas<'_>) {
         let painter = ui.painter_at(canvas.rect);
         painter.circle_stroke(middle, radius, Stroke::new(2.0, red));
         let words: Vec<String> = breaches.iter().map(|breach| breach.words(&names).to_string()).collect();
-        let words = format!("Hard to sew: {}", words.join("\n"));
+        let words = tf!("Hard to sew: {breaches}", breaches = words.join("\n"));
         let square = Rect::from_center_size(pos2(middle.x, middle.y), Vec2::splat(2.0 * radius));
-        let response =
-            ui.interact(square, ui.scope_id().with(("broken", canvas.rect.min.x as i64, part)), Sense::hover());
+        let corner = [canvas.rect.min.x as i64, canvas.rect.min.y as i64];
+        let response = ui.interact(square, ui.scope_id().with(("broken", corner, part)), Sense::hover());
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &words));
         if !session.is_dragging() {
-            response.on_hover_text_at_pointer(words);
+            response.on_hover_text_at_pointer(tf!("{words}\nThe tendon tool (W) moves it", words));
         }
     }
 }
@@ -136,18 +137,12 @@ fn ringed(canvas: &Canvas<'_>, part: Part) -> Option<Point> {
 
 /// The parts that break a rule.
 fn parts(breach: &Breach) -> [Option<Part>; 2] {
-    let hole = |at: Place, hole: usize| Some(Part::Hole(at.winch, at.cable, hole));
-    let piece = |at: Place, piece: usize| Some(Part::Piece(at.winch, at.cable, piece));
-    let tendon = |at: Place| Some(Part::Tendon(at.winch, at.cable));
-    match *breach {
-        Breach::NearSeam { at, hole: h, .. } | Breach::SharpTurn { at, hole: h, .. } => [hole(at, h), None],
-        Breach::Crowded { at, hole: h, other, other_hole, .. } => [hole(at, h), hole(other, other_hole)],
-        Breach::ManyHoles { at, .. } | Breach::Turning { at, .. } => [tendon(at), None],
-        Breach::Along { at, other, .. } => [tendon(at), tendon(other)],
-        Breach::ThroughWinch { at, piece: p, winch, .. } => [piece(at, p), Some(Part::Winch(winch))],
-        Breach::Outside { at, piece: p, .. } => [piece(at, p), None],
-        Breach::ThinBody { .. } => [None, None],
-        Breach::HousingOutside { winch, .. } | Breach::HousingAtGap { winch, .. } => [Some(Part::Winch(winch)), None],
-        Breach::HousingsClose { winch, other, .. } => [Some(Part::Winch(winch)), Some(Part::Winch(other))],
-    }
+    breach.spots().map(|spot| {
+        Some(match spot? {
+            Spot::Winch(winch) => Part::Winch(winch),
+            Spot::Cable(at) => Part::Tendon(at.winch, at.cable),
+            Spot::Hole(at, hole) => Part::Hole(at.winch, at.cable, hole),
+            Spot::Piece(at, piece) => Part::Piece(at.winch, at.cable, piece),
+        })
+    })
 }

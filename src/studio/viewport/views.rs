@@ -1,4 +1,4 @@
-//! Both views side by side, one alone, or one over the other.
+//! Both views beside each other or stacked, one alone, or one over the other.
 
 use super::picture::{Drawn, Picture};
 use super::silhouettes::Silhouettes;
@@ -7,9 +7,10 @@ use crate::engine::Shape;
 use crate::outline::{Point, polygon};
 use crate::studio::action::Actions;
 use crate::studio::canvas::{Camera, Canvas, Ground, Hit, Plushie};
+use crate::studio::language::t;
 use crate::studio::session::{Session, Views};
 use crate::studio::tools::Tool;
-use eframe::egui::{Pos2, Rect, Role, Sense, Ui, Vec2, WidgetInfo, pos2};
+use eframe::egui::{Pos2, Rect, Role, Sense, Ui, Vec2, WidgetInfo, pos2, vec2};
 use std::sync::Arc;
 
 /// The state that the views keep from frame to frame.
@@ -38,13 +39,13 @@ impl State {
     }
 }
 
-/// Shows both views side by side, or the one that is not hidden.
+/// Shows both views, or the one that is not hidden.
 pub fn show(ui: &mut Ui, session: &Session, state: &mut State, tool: &mut dyn Tool, actions: &mut Actions) {
     let area = ui.available_rect_before_wrap();
     let views = session.look.views;
     state.silhouettes.follow(session.design());
     let mut hovered = None;
-    for (plushie, rect) in rects(ui, views, area) {
+    for (plushie, rect) in rects(ui, session, area) {
         if !views.has_place(plushie) {
             state.views[plushie as usize].seen = None;
             continue;
@@ -64,10 +65,23 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut State, tool: &mut dyn To
     ui.allocate_rect(area, Sense::hover());
 }
 
-/// Where the views are; one that is hidden leaves its place to the other.
-fn rects(ui: &Ui, views: Views, area: Rect) -> [(Plushie, Rect); 2] {
-    let (left, right) = match views {
+/// By how much larger a body must be shown before its views stand one above the other.
+const STACKED: f32 = 1.2;
+
+/// Where the views are; one that is hidden leaves its place to the other. Those of a wide body stand one above the other, unless that is not wanted.
+fn rects(ui: &Ui, session: &Session, area: Rect) -> [(Plushie, Rect); 2] {
+    let scale = |size: Vec2| fit(session, size).scale;
+    let half = area.size() / 2.0;
+    let wider = scale(vec2(area.width(), half.y)) > STACKED * scale(vec2(half.x, area.height()));
+    let stacked = wider && session.look.stacks;
+    let (left, right) = match session.look.views {
         Views::Only(_) | Views::Overlay => (area, area),
+        Views::Both if stacked => {
+            let middle = area.center().y.round();
+            ui.painter().hline(area.x_range(), middle, ui.visuals().widgets.noninteractive.bg_stroke);
+            let above = Rect::from_min_max(area.min, pos2(area.right(), middle - 1.0));
+            (above, Rect::from_min_max(pos2(area.left(), middle + 1.0), area.max))
+        }
         Views::Both => {
             let middle = area.center().x.round();
             ui.painter().vline(middle, area.y_range(), ui.visuals().widgets.noninteractive.bg_stroke);
@@ -88,8 +102,8 @@ fn view(
     actions: &mut Actions,
 ) -> Option<Hit> {
     let name = match plushie {
-        Plushie::Idealized => "Idealized view",
-        Plushie::Realizable => "Realizable view",
+        Plushie::Idealized => t("Idealized view"),
+        Plushie::Realizable => t("Realizable view"),
     };
     let response = ui.interact(canvas.rect, ui.scope_id().with(name), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, name));
@@ -110,6 +124,7 @@ fn view(
     let hit = pointer::interact(ui, canvas, tool, &mut view.menu_at, &response, actions);
     strings::show(ui, canvas);
     loads::show(ui, canvas);
+    pointer::marked(ui, canvas);
     pointer::highlight(ui, canvas, state.hovered);
     tool.paint(canvas, &ui.painter_at(canvas.rect), response.hover_pos());
     if canvas.session.look().rulers {

@@ -19,7 +19,7 @@ fn pig() -> Design {
 }
 
 fn services() -> Services {
-    Services { propose: Arc::new(|_, _, _, _, _| Vec::new()), export: Arc::new(|_, _, _| Ok(Vec::new())) }
+    Services { propose: Arc::new(|_, _, _, _, _| Vec::new()), export: Arc::new(|_, _, _, _| Ok(Vec::new())) }
 }
 
 /// A window on a design, and on a file where it has one, that keeps its state in `state`.
@@ -207,6 +207,37 @@ fn work_that_was_not_saved_is_offered_by_the_next_window() {
     drop(fourth);
     let fifth = window(pig(), None, state.path());
     assert!(fifth.query_by_label_contains("Recover").is_none());
+}
+
+#[test]
+fn work_that_was_not_saved_is_offered_on_the_start_page() {
+    let state = tempfile::tempdir().unwrap();
+    let mut first = window(pig(), None, state.path());
+    change(&mut first);
+    kept(&mut first, state.path());
+    // As after a kill: it neither asked nor saved.
+    drop(first);
+    let mut given = Some(Store::at(state.path()));
+    let mut window: Window =
+        egui_kittest::Harness::builder().with_size(eframe::egui::vec2(1280.0, 800.0)).build_ui_state(
+            move |ui, studio: &mut Option<plushwright::studio::app::Studio>| {
+                let make = || plushwright::studio::app::Studio::new(ui.ctx(), pig(), None, services());
+                let studio = studio.get_or_insert_with(|| {
+                    make().with_store(ui.ctx(), given.take().expect("made once")).with_start_page()
+                });
+                studio.update(ui);
+            },
+            None,
+        );
+    steps(&mut window);
+    // No question stands in the way: it is the first thing on the page.
+    assert!(window.query_by_label_contains("Recover “pig”").is_none());
+    let [offer, examples] = ["Recover", "Open example Pig"].map(|name| window.get_by_label(name).rect());
+    assert!(offer.bottom() < examples.top());
+    let before = session(&window).design().poses.len();
+    click(&mut window, "Recover");
+    assert_eq!(session(&window).design().poses.len(), before + 1);
+    assert!(session(&window).history().is_modified() && session(&window).overlay().is_none());
 }
 
 #[test]

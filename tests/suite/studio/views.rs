@@ -182,6 +182,25 @@ fn cameras_are_linked_until_they_are_freed() {
 }
 
 #[test]
+fn views_of_a_wide_body_stand_one_above_the_other_where_that_is_wanted() {
+    let mut window = window(bar());
+    let views = |window: &Window| ["Idealized view", "Realizable view"].map(|name| window.get_by_label(name).rect());
+    let scale = |window: &Window| {
+        let at = |x: f64| window.state().as_ref().unwrap().on_screen(Plushie::Realizable, [x, 0.0]).unwrap().x;
+        at(100.0) - at(0.0)
+    };
+    let ([left, right], before) = (views(&window), scale(&window));
+    assert!(left.right() <= right.left() && left.top() == right.top());
+    choose(&mut window, "View", "Stack views of wide bodies");
+    settle(&mut window);
+    let [above, below] = views(&window);
+    assert!(above.bottom() <= below.top() && above.left() == below.left() && scale(&window) > 1.5 * before);
+    choose(&mut window, "View", "Stack views of wide bodies");
+    settle(&mut window);
+    assert_eq!(views(&window), [left, right]);
+}
+
+#[test]
 fn one_view_holds_both_in_an_overlay() {
     let mut window = window(bar());
     press(&mut window, Modifiers::NONE, Key::Num3);

@@ -47,7 +47,7 @@ pub fn other(design: &Design, error_after: f64) -> Proposal {
 pub fn services() -> Services {
     Services {
         propose: Arc::new(|design, _, _, _, _| vec![Arc::new(proposal(design, 0.05)), Arc::new(other(design, 0.1))]),
-        export: Arc::new(|_, folder, _| {
+        export: Arc::new(|_, folder, _, _| {
             std::fs::create_dir(folder).map_err(|e| e.to_string())?;
             std::fs::write(folder.join("pattern.svg"), "<svg/>").map_err(|e| e.to_string())?;
             Ok(Vec::new())
@@ -74,10 +74,12 @@ pub fn open(design: Design, path: Option<PathBuf>, services: Services, store: Op
             let studio = studio.get_or_insert_with(|| {
                 let (design, path, services, store) = given.take().expect("made once");
                 let studio = Studio::new(ui.ctx(), design, path, services);
-                match store {
+                let studio = match store {
                     Some(store) => studio.with_store(ui.ctx(), store),
                     None => studio,
-                }
+                };
+                // The bar is wide, and tests count on where its places are.
+                studio.side_by_side()
             });
             studio.update(ui);
         },
