@@ -56,6 +56,8 @@ class Window:
             **{k: v for k, v in os.environ.items() if k not in ("WAYLAND_DISPLAY", "DBUS_SESSION_BUS_ADDRESS", "XDG_RUNTIME_DIR")},
             "DISPLAY": display.name,
             "XDG_STATE_HOME": str(state),
+            # Controls are found by their English names.
+            "LANGUAGE": "en",
             "WINIT_X11_SCALE_FACTOR": str(scale),
         }
         self.told, self.changed = [], 0.0

@@ -20,7 +20,7 @@ use std::sync::atomic::AtomicBool;
 #[derive(Debug, Args)]
 #[command(after_help = "Example: plushwright new assets/pig.svg -o pig.plush --height 250 --fibers 571")]
 pub struct New {
-    /// Outline to read: an SVG (SVGZ), PDF (AI) or DXF drawing, a picture (PNG, JPEG, WebP, GIF, BMP, TIFF), a flat mesh (OBJ, STL), or a
+    /// Outline to read: an SVG (SVGZ), PDF (AI) or DXF drawing, a picture (PNG, JPEG, WebP, GIF, BMP, TIFF), a flat mesh (OBJ, STL, 3MF), or a
     /// drawing of parts (RON, see `drawing`); all that it paints is joined to one silhouette
     pub outline: PathBuf,
     /// Design file to write (*.plush)

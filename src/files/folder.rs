@@ -203,6 +203,7 @@ fn put_back(old: TempDir, place: &Path, exchange: impl Fn(&Path, &Path) -> io::R
 
 /// A new folder beside a place, held so that nobody takes it for one that was left behind.
 fn fresh_beside(place: &Path) -> io::Result<(TempDir, Option<File>)> {
+    #[cfg_attr(not(unix), allow(unused_mut))]
     let mut builder = temporary();
     // A temporary folder is private by default; a result gets what the user's umask says.
     #[cfg(unix)]

@@ -1,7 +1,6 @@
 //! Folders, absolute paths, temporary names.
 
 use super::sweep;
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -16,7 +15,7 @@ pub fn parent(path: &Path) -> &Path {
 /// The name itself is on the disk once its folder is. Not every system can flush a folder; the content is safe anyway.
 pub(super) fn sync_folder(folder: &Path) {
     #[cfg(unix)]
-    if let Ok(folder) = fs::File::open(folder) {
+    if let Ok(folder) = std::fs::File::open(folder) {
         let _ = folder.sync_all();
     }
     #[cfg(not(unix))]

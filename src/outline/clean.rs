@@ -2,7 +2,7 @@
 //! simplification, placement.
 
 use super::changes::{Changes, What};
-use super::imported::{Aside, Imported, Why};
+use super::imported::{Asides, Imported, Why, placed};
 use super::lines::{self, Lines};
 use super::notes::Note;
 use super::options::{Holes, Import, Pieces};
@@ -10,7 +10,7 @@ use super::readers::Painting;
 use super::regions::{self, Shapes};
 use super::simplify::simplify;
 use super::thin::{self, Opened};
-use super::{Outline, OutlineError, Point, even, gaps, polygon, smooth};
+use super::{Outline, OutlineError, Point, even, gaps, islands, polygon, smooth};
 
 /// Farthest that simplification may move the boundary, as a fraction of the longer side of the box: 0.03 mm on a
 /// 300 mm plushie, a tenth of what scissors can follow. Larger values drop detail, smaller ones keep needless points.
@@ -136,27 +136,6 @@ impl Units {
     }
 }
 
-/// What does not count, in the drawing's coordinates.
-struct Asides(Vec<Aside>);
-
-impl Asides {
-    fn add(&mut self, why: Why, areas: Shapes) {
-        if !areas.is_empty() {
-            self.0.push(Aside { why, areas });
-        }
-    }
-
-    /// In the coordinates of the outline, whose box was `drawn_box` in the drawing.
-    fn placed(self, outline: &Outline, drawn_box: [Point; 2]) -> Vec<Aside> {
-        let (_, high) = outline.bounding_box();
-        let scale = high[1] / (drawn_box[1][1] - drawn_box[0][1]);
-        self.0
-            .into_iter()
-            .map(|Aside { why, areas }| Aside { why, areas: placed(areas, drawn_box[0], scale) })
-            .collect()
-    }
-}
-
 /// Parts that all but touch joined.
 fn without_gaps(
     shapes: Shapes,
@@ -219,19 +198,25 @@ fn filled(
     let before = shapes.clone();
     let widest = import.join_mm.map_or(lines::OPENING_FRACTION * units.longer, |mm| mm / units.mm);
     let shapes = match lines::filled(shapes, widest)? {
-        Lines::Body(shapes) => shapes,
+        Lines::Body(shapes) => without_gaps_around(shapes, changes, aside)?,
         Lines::Open { shapes, opening } => {
             let (gap_mm, at) = (opening.opening * units.mm, units.place(opening.at));
             changes.notes.push(Note::NotClosed { gap_mm, at });
             shapes
         }
-        Lines::Filled { shapes, opening } => {
+        Lines::Filled { shapes, opening, beside } => {
+            if !beside.is_empty() {
+                changes.notes.push(Note::OpenLines(beside.len()));
+                aside.add(Why::Specks, beside);
+            }
             changes.notes.push(match opening {
                 Some(opening) => Note::Closed { gap_mm: opening.opening * units.mm, at: units.place(opening.at) },
                 None => Note::LinesFilled,
             });
             aside.add(Why::Filled, regions::difference(&shapes, &before));
-            return Ok(shapes);
+            // What is small beside the lines may be large beside what they enclose, and the other way round.
+            let all = regions::area(&shapes);
+            return Ok(without_specks(shapes, all, changes, aside));
         }
     };
     let count = shapes.iter().map(|rings| rings.len().saturating_sub(1)).sum();
@@ -243,6 +228,16 @@ fn filled(
     changes.add(What::Holes, count, (regions::area(&shapes) - area) / area, true);
     aside.add(Why::Filled, regions::difference(&shapes, &before));
     Ok(shapes)
+}
+
+/// Holes filled that other pieces take up.
+fn without_gaps_around(shapes: Shapes, changes: &mut Changes, aside: &mut Asides) -> Result<Shapes, OutlineError> {
+    let (joined, count) = islands::joined(shapes.clone())?;
+    if count > 0 {
+        changes.notes.push(Note::GapsAround(count));
+        aside.add(Why::Filled, regions::difference(&joined, &shapes));
+    }
+    Ok(joined)
 }
 
 fn holes_area(shapes: &Shapes) -> f64 {
@@ -269,14 +264,6 @@ fn one_piece(
     aside.add(Why::Pieces, shapes.split_off(1));
     changes.add(What::Pieces, pieces - 1, 1.0 - largest, true);
     Ok(shapes)
-}
-
-/// Scaled to mm, `low` at the origin.
-fn placed(mut shapes: Shapes, low: Point, scale: f64) -> Shapes {
-    for p in shapes.iter_mut().flatten().flatten() {
-        *p = [(p[0] - low[0]) * scale, (p[1] - low[1]) * scale];
-    }
-    shapes
 }
 
 /// What is thin of a silhouette, hair shaved off where there is much of it and a width is not asked for; whether it was.

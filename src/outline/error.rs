@@ -10,7 +10,7 @@ pub enum OutlineError {
     #[error("{0}")]
     Unopened(String),
     #[error(
-        "neither an SVG, PDF or DXF drawing, nor a picture (PNG, JPEG, WebP, GIF, BMP, TIFF), flat mesh (OBJ, STL) or drawing of parts"
+        "neither an SVG, PDF or DXF drawing, nor a picture (PNG, JPEG, WebP, GIF, BMP, TIFF), flat mesh (OBJ, STL, 3MF) or drawing of parts"
     )]
     UnknownFormat,
     #[error("{format} is not read; {advice}")]
@@ -25,6 +25,10 @@ pub enum OutlineError {
     TextureTooLarge { millions: u64 },
     #[error("nothing is painted: {0}")]
     NothingPainted(&'static str),
+    #[error(
+        "nothing is painted: the DXF has no lines, arcs, polylines or splines, but {0}; explode these to lines, and save it anew"
+    )]
+    OtherKinds(String),
     #[error("there is no layer \"{name}\"; the drawing has: {layers}")]
     NoSuchLayer { name: String, layers: String },
     #[error("{0} have no layers to choose from; SVG and DXF drawings have")]

@@ -2,6 +2,7 @@
 
 use super::changes::Changes;
 use super::drawing::{Drawing, Track};
+use super::regions::Shapes;
 use super::{Outline, Point};
 
 /// Something that a file shows and that is no part of the outline.
@@ -49,4 +50,33 @@ impl Imported {
     pub fn tracks(&self) -> &[Track] {
         self.drawing.as_ref().map_or(&[], |drawing| &drawing.tracks)
     }
+}
+
+/// What does not count, in the drawing's coordinates.
+pub(super) struct Asides(pub Vec<Aside>);
+
+impl Asides {
+    pub fn add(&mut self, why: Why, areas: Shapes) {
+        if !areas.is_empty() {
+            self.0.push(Aside { why, areas });
+        }
+    }
+
+    /// In the coordinates of the outline, whose box was `drawn_box` in the drawing.
+    pub fn placed(self, outline: &Outline, drawn_box: [Point; 2]) -> Vec<Aside> {
+        let (_, high) = outline.bounding_box();
+        let scale = high[1] / (drawn_box[1][1] - drawn_box[0][1]);
+        self.0
+            .into_iter()
+            .map(|Aside { why, areas }| Aside { why, areas: placed(areas, drawn_box[0], scale) })
+            .collect()
+    }
+}
+
+/// Scaled to mm, `low` at the origin.
+pub(super) fn placed(mut shapes: Shapes, low: Point, scale: f64) -> Shapes {
+    for p in shapes.iter_mut().flatten().flatten() {
+        *p = [(p[0] - low[0]) * scale, (p[1] - low[1]) * scale];
+    }
+    shapes
 }

@@ -29,9 +29,21 @@ pub(super) enum Lines {
     /// It is more than lines.
     Body(Shapes),
     /// Filled; where openings were bridged, the widest of them.
-    Filled { shapes: Shapes, opening: Option<Basin> },
+    /// Lines beside it enclose nothing.
+    Filled { shapes: Shapes, opening: Option<Basin>, beside: Shapes },
     /// Its widest opening is wider than was allowed.
     Open { shapes: Shapes, opening: Basin },
+}
+
+impl Lines {
+    /// What lines enclose is the figure, and those that enclose nothing, as under a title, are left beside it.
+    fn of(body: Shapes, opening: Option<Basin>) -> Self {
+        let (beside, shapes): (Shapes, Shapes) = body.into_iter().partition(|piece| are_lines(&vec![piece.clone()]));
+        if shapes.is_empty() {
+            return Self::Filled { shapes: beside, opening, beside: shapes };
+        }
+        Self::Filled { shapes, opening, beside }
+    }
 }
 
 /// Whether the regions are thin lines all over.
@@ -60,11 +72,7 @@ pub(super) fn filled(shapes: Shapes, widest: f64) -> Result<Lines, OutlineError>
             // What is closed already may be the figure all the same.
             let body = solid(&lines)?;
             let enough = regions::area(&body) > ENCLOSES * ink && regions::area(&body) > basin.area;
-            return Ok(if enough {
-                Lines::Filled { shapes: body, opening: bridged }
-            } else {
-                Lines::Open { shapes, opening: basin }
-            });
+            return Ok(if enough { Lines::of(body, bridged) } else { Lines::Open { shapes, opening: basin } });
         }
         let Some(bridge) = bridge(&lines, &basin) else { break };
         lines = regions::union([lines, vec![vec![bridge]]].concat())?;
@@ -72,7 +80,7 @@ pub(super) fn filled(shapes: Shapes, widest: f64) -> Result<Lines, OutlineError>
     }
     let body = solid(&lines)?;
     let enough = regions::area(&body) > ENCLOSES * ink;
-    Ok(if enough { Lines::Filled { shapes: body, opening: bridged } } else { Lines::Body(shapes) })
+    Ok(if enough { Lines::of(body, bridged) } else { Lines::Body(shapes) })
 }
 
 fn solid(shapes: &Shapes) -> Result<Shapes, OutlineError> {
@@ -138,7 +146,7 @@ mod tests {
     #[test]
     fn a_ring_is_filled_across_openings_up_to_the_widest_allowed() {
         for openings in [vec![], vec![(1.0, 8.0)], vec![(0.3, 4.0), (2.0, 9.0), (4.0, 6.0)]] {
-            let Lines::Filled { shapes, opening } = filled(ring(&openings), 10.0).unwrap() else {
+            let Lines::Filled { shapes, opening, .. } = filled(ring(&openings), 10.0).unwrap() else {
                 panic!("{openings:?}")
             };
             assert_eq!((shapes.len(), opening.is_some()), (1, !openings.is_empty()));

@@ -5,7 +5,7 @@
 //! | `readers/` | files to painted areas: SVG, PDF, pictures, DXF, flat meshes, drawings; one reader a file, and the table of them |
 //! | `options`, `notes`, `error` | how to read, what there is to say about it, why it failed |
 //! | `clean` | painted areas to one outline, and what was changed |
-//! | `even`, `gaps`, `lines`, `basins` | noise, parts that all but touch, figures drawn in lines |
+//! | `even`, `gaps`, `islands`, `lines`, `basins` | noise, parts that all but touch or lie in each other, figures drawn in lines |
 //! | `import` | from the bytes of a file to one clean outline |
 //! | `texture` | what a file shows within the silhouette's box |
 //! | `drawing/` | outlines drawn by hand |
@@ -21,6 +21,7 @@ mod gaps;
 mod grid;
 mod import;
 mod imported;
+mod islands;
 mod lines;
 mod notes;
 mod options;

@@ -87,6 +87,8 @@ pub enum Note {
     MostlyLines,
     /// What is drawn in lines was filled.
     LinesFilled,
+    /// So many holes that other parts take up for the most part were filled.
+    GapsAround(usize),
     /// A line that does not close was closed here, and filled.
     Closed {
         gap_mm: f64,
@@ -183,7 +185,7 @@ impl Note {
             Self::NoUnit(_) | Self::Size(_) => Some(Remedy::Unit),
             Self::Ink(_) | Self::SoftEdge { .. } => Some(Remedy::Threshold),
             Self::MostlyLines | Self::HolesWithin(_) => Some(Remedy::Holes),
-            Self::LinesFilled => Some(Remedy::KeepHoles),
+            Self::LinesFilled | Self::GapsAround(_) => Some(Remedy::KeepHoles),
             Self::Closed { .. } | Self::NotClosed { .. } | Self::Joined { .. } | Self::OpenLines(_) => {
                 Some(Remedy::Join)
             }
@@ -258,6 +260,7 @@ impl fmt::Display for Note {
                 )
             }
             Self::MostlyLines => f.write_str("the drawing is mostly lines around holes"),
+            Self::GapsAround(count) => write!(f, "{count} gap(s) all around a part filled, so that it is one piece"),
             Self::LinesFilled => f.write_str("the drawing is thin lines alone, which were filled"),
             Self::Closed { gap_mm, at: [x, y] } => {
                 write!(f, "the outline was open over {gap_mm:.1} mm near ({x:.0}, {y:.0}) mm; it was closed and filled")

@@ -27,12 +27,34 @@ const MAX_PIECES: usize = 2000;
 const MAX_LOBES: usize = 100;
 /// From so many thin ends on they are hair: no animal has as many whiskers.
 const HAIRS: usize = 40;
+/// Tufts of hair are thinner than this, in `r`.
+const TUFT: f64 = 3.0;
+/// Tufts and the dents between them are smaller than this, in squares of half their width; what is larger is a limb or an armpit.
+const TUFT_AREA: f64 = 6.0;
 /// Part of what is thick that is one piece where necks hold nothing together.
 const BODY: f64 = 0.95;
 /// Corners of the disc that joins a pinched point.
 const DISC: usize = 12;
 /// Rounds of joining pinched points, each with larger discs.
 const ROUNDS: usize = 5;
+
+/// Without tufts and dents at the rim that a disc of a radius does not reach, limbs and bays kept.
+fn combed(shapes: Shapes, radius: f64) -> Result<Shapes, OutlineError> {
+    let least = TUFT_AREA * radius * radius;
+    let opening = regions::grown(&regions::grown(&shapes, -radius), (1.0 + SLIVER) * radius);
+    let mut limbs = regions::difference(&shapes, &opening);
+    limbs.retain(|piece| regions::piece_area(piece) >= least);
+    // Where a limb meets the body nothing is cut off between them.
+    let combed =
+        regions::union([regions::intersection(&opening, &shapes), regions::grown(&limbs, SLIVER * radius)].concat())?;
+    let filled = regions::grown(&regions::grown(&combed, radius), -(1.0 + SLIVER) * radius);
+    let mut dents = regions::difference(&filled, &combed);
+    dents.retain(|piece| regions::piece_area(piece) < least);
+    let mut whole = regions::union([combed, regions::grown(&dents, SLIVER * radius)].concat())?;
+    whole.sort_by(|a, b| regions::piece_area(b).total_cmp(&regions::piece_area(a)));
+    whole.truncate(1);
+    Ok(whole)
+}
 
 /// Shapes with their thin parts widened.
 pub(super) struct Widened {
@@ -90,7 +112,7 @@ impl Opened {
         // Tufts that hung together by hairs alone.
         shaved.sort_by(|a, b| regions::piece_area(b).total_cmp(&regions::piece_area(a)));
         shaved.truncate(1);
-        Ok(Some((shaved, hairs)))
+        Ok(Some((combed(shaved, TUFT * r)?, hairs)))
     }
 
     /// Widens what is thinner, the smallest parts first, as long as no more than `budget` of area is added.

@@ -94,7 +94,7 @@ fn together(
 /// The layout whose worst pose is best as a part of its error at rest: as a hand sews it where it should, with friction where the design has it; a
 /// rig that has no figure there is the last choice. Where it is to be sewn, it is the one that pulls least of those that nobody can tell from it: on
 /// the felt, on a hand, on a motor.
-fn chosen(mut verified: Vec<(Design, Vec<Verified>)>, sewn: bool) -> Option<(Design, Vec<Verified>)> {
+fn chosen(mut verified: Vec<Candidate>, sewn: bool) -> Option<Candidate> {
     let worst = |poses: &[Verified], error: fn(&Verified) -> f64| poses.iter().map(error).fold(0.0, f64::max);
     let order = |poses: &[Verified]| (worst(poses, |p| p.real() / p.rest), worst(poses, |p| p.error / p.rest));
     verified.sort_by(|a, b| order(&a.1).partial_cmp(&order(&b.1)).unwrap_or(Ordering::Equal));
@@ -116,7 +116,7 @@ fn judged(
     coarse: bool,
     options: &RigOptions,
     cancel: &AtomicBool,
-) -> Result<Vec<(Design, Vec<Verified>)>, RigError> {
+) -> Result<Vec<Candidate>, RigError> {
     let is_raised = || cancel.load(atomic::Ordering::Relaxed);
     if !is_raised() {
         let verified = judge(design, found, coarse, options, options.rules, cancel);
@@ -139,14 +139,38 @@ fn judge(
     options: &RigOptions,
     sewn: bool,
     cancel: &AtomicBool,
-) -> Vec<(Design, Vec<Verified>)> {
+) -> Vec<Candidate> {
     let (outline, stop) = (rim(&design.mesh), || cancel.load(atomic::Ordering::Relaxed));
     let sewable = sewable(design, &outline);
     let task = Task::new(design, options.rules.then_some(&sewable), &design.networks).trimming(options.trims);
     // What was found on a coarse mesh is improved on the body's own.
     let moved =
         coarse.then(|| in_order(found, |fit| task.transferred(fit, &stop)).into_iter().flatten().collect::<Vec<Fit>>());
-    in_order(moved.as_deref().unwrap_or(found), |fit| verified(design, fit, sewn, cancel))
+    let verified = in_order(moved.as_deref().unwrap_or(found), |fit| verified(design, fit, cancel));
+    if sewn { as_sewn(verified, design.tendons.friction, cancel) } else { verified }
+}
+
+/// Rigs with what a hand leaves of them, those left out that cannot be [`chosen`] any more: sewing makes no rig better than it is drawn, and winding
+/// five plushies of each is most of the work.
+fn as_sewn(mut verified: Vec<Candidate>, friction: f64, cancel: &AtomicBool) -> Vec<Candidate> {
+    let worst = |(_, poses): &Candidate| poses.iter().map(|p| p.real() / p.rest).fold(0.0, f64::max);
+    // Part of the error at rest that nobody sees.
+    let unseen = |(_, poses): &Candidate| poses.iter().map(|p| SEEN / p.rest).fold(0.0, f64::max);
+    verified.sort_by(|a, b| worst(a).total_cmp(&worst(b)));
+    let mut best = f64::INFINITY;
+    let mut sewn = Vec::new();
+    for mut candidate in verified {
+        if worst(&candidate) > best + unseen(&candidate) && !sewn.is_empty() {
+            break;
+        }
+        let (design, poses) = &mut candidate;
+        let targets: Vec<&[Target]> = posed(design).map(|pose| pose.targets.as_slice()).collect();
+        let told = robust::sewn(design, &targets, friction, cancel);
+        poses.iter_mut().zip(told).for_each(|(pose, told)| pose.sewn = Some(told));
+        best = best.min(worst(&candidate));
+        sewn.push(candidate);
+    }
+    sewn
 }
 
 /// How many winches and tendons there may be.
@@ -289,13 +313,20 @@ impl Verified {
     }
 }
 
+/// A rig and its poses that have targets.
+type Candidate = (Design, Vec<Verified>);
+
+fn posed(design: &Design) -> impl Iterator<Item = &Pose> {
+    design.poses.iter().filter(|pose| !pose.targets.is_empty())
+}
+
 /// Whether a rig brings the poses closer to their targets, all taken together: one winch may serve one pose of several.
 fn helps(poses: &[Verified]) -> bool {
     poses.iter().map(|pose| (pose.error / pose.rest).powi(2)).sum::<f64>() < poses.len() as f64
 }
 
-/// The design with a layout's networks, and what a check says of every pose; where it should be `sewn`, what a hand leaves of it too.
-fn verified(design: &Design, fit: &Fit, sewn: bool, cancel: &AtomicBool) -> (Design, Vec<Verified>) {
+/// The design with a layout's networks, and what a check says of every pose.
+fn verified(design: &Design, fit: &Fit, cancel: &AtomicBool) -> Candidate {
     let mut with = design.clone();
     if let Some(points) = fit.layout.located(&design.mesh) {
         for network in fit.layout.networks(&design.mesh, &points) {
@@ -305,19 +336,21 @@ fn verified(design: &Design, fit: &Fit, sewn: bool, cancel: &AtomicBool) -> (Des
     }
     let count = with.networks.len();
     with.keyframes.iter_mut().for_each(|keyframe| keyframe.activations_mm.resize(count, 0.0));
-    let posed: Vec<&Pose> = design.poses.iter().filter(|pose| !pose.targets.is_empty()).collect();
-    let targets: Vec<&[Target]> = posed.iter().map(|pose| pose.targets.as_slice()).collect();
     let friction = design.tendons.friction;
-    let sewn = if sewn { robust::sewn(&with, &targets, friction, cancel) } else { Vec::new() };
-    let mut sewn = sewn.into_iter();
-    let poses = posed.into_iter().map(|pose| {
+    let poses = posed(design).map(|pose| {
         let checked = Checked::of(&with, &pose.targets, friction, cancel);
         let rest = target_error(design, &pose.targets, &design.mesh.nodes).max(f64::MIN_POSITIVE);
-        let sewn = sewn.next();
         let mut tensions = checked.shape.tendon_tensions.iter();
         let pulls = with.networks.iter().map(|network| tensions.by_ref().take(network.tendons.len()).sum());
         let pull_n = pulls.fold(0.0, f64::max);
-        Verified { name: pose.name.clone(), error: checked.error(), real: checked.real_error(), sewn, rest, pull_n }
+        Verified {
+            name: pose.name.clone(),
+            error: checked.error(),
+            real: checked.real_error(),
+            sewn: None,
+            rest,
+            pull_n,
+        }
     });
     let poses = poses.collect();
     (with, poses)
@@ -336,6 +369,14 @@ mod tests {
             Verified { name: "pose".into(), error, real: error, sewn, rest: 0.2, pull_n }
         };
         (design, poses.iter().map(pose).collect())
+    }
+
+    #[test]
+    fn rigs_that_sewing_cannot_save_are_not_sewn() {
+        let mut all = vec![candidate("hopeless", &[(f64::INFINITY, 1.0)]), candidate("good", &[(0.02, 1.0)])];
+        all.iter_mut().flat_map(|(_, poses)| poses).for_each(|pose| pose.sewn = None);
+        let sewn = as_sewn(all, 0.0, &AtomicBool::new(false));
+        assert!(sewn.len() == 1 && sewn[0].0.name == "good" && sewn[0].1[0].sewn.is_some());
     }
 
     #[test]

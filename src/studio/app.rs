@@ -12,6 +12,7 @@ use super::{acts, canvas, keys, style, viewport};
 use crate::design::Design;
 use crate::outline::Point;
 use crate::picture::palette::{Palette, Theme};
+use crate::studio::language::{self, Language, t};
 use eframe::egui::{self, CentralPanel, Frame, Margin, Panel, ViewportCommand};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -104,6 +105,12 @@ impl Studio {
         self
     }
 
+    /// Speaks the language of the system, until another one is chosen.
+    pub fn in_language_of_system(mut self, system: &'static Language) -> Self {
+        self.session.look.language.system = system;
+        self
+    }
+
     /// Shows the start page over what is open; what was left behind is offered there.
     pub fn with_start_page(mut self) -> Self {
         self.session.files.dialog.take_if(|dialog| *dialog == Dialog::Recover);
@@ -136,6 +143,7 @@ impl Studio {
         if ctx.input(|i| i.key_pressed(egui::Key::Escape)) {
             acts::motors::stop(&mut self.session);
         }
+        language::speak(self.session.look.language.language());
         let was_drawing = self.tools.is_drawing(&self.session);
         self.session.sketching.waits = was_drawing;
         acts::tick::tick(&mut self.session, now_s, passed_s, hands_off && !typing);
@@ -202,7 +210,7 @@ impl Studio {
             });
             let (tool, entry) = self.tools.tool(session);
             CentralPanel::no_frame()
-                .show(ui, |ui| canvas::show(ui, session, &mut self.sheet, tool, entry.hint, actions));
+                .show(ui, |ui| canvas::show(ui, session, &mut self.sheet, tool, t(entry.hint), actions));
             panels::dialogs::show(ui.ctx(), session, &mut self.dialogs, actions);
             return;
         }

@@ -1,6 +1,7 @@
 //! Work that takes too long for a frame, each on a thread that reports back once.
 
 use super::keeping::Kept;
+use super::language;
 use super::session::{ImportChoice, Judgement};
 use crate::design::Design;
 use crate::operations::explore::Point;
@@ -143,7 +144,9 @@ impl Jobs {
         let (send, wake, serial) = (self.send.clone(), self.wake.clone(), self.serial);
         let cancel = Arc::new(AtomicBool::new(false));
         let running = Running { serial, started: Instant::now(), cancel: cancel.clone() };
+        let language = language::spoken();
         std::thread::spawn(move || {
+            language::speak(language);
             let outcome = catch_unwind(AssertUnwindSafe(|| work(&cancel))).unwrap_or_else(|panic| {
                 let text = panic.downcast_ref::<&str>().map(|s| (*s).to_owned());
                 let why = text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default();

@@ -24,6 +24,7 @@ pub mod jobs;
 pub mod keeper;
 pub mod keeping;
 mod keys;
+pub mod language;
 pub mod measure;
 pub mod messages;
 pub mod offscreen;
@@ -115,6 +116,7 @@ pub fn run(design: Option<Design>, path: Option<PathBuf>, told: bool) -> Result<
         };
         style::set_theme(&context.egui_ctx, theme);
         let studio = Studio::new(&context.egui_ctx, design, path, services()).watching(watched);
+        let studio = studio.in_language_of_system(language::of_system());
         let mut studio = studio.with_window(context.wgpu_render_state.as_ref(), theme);
         if let Some(store) = store {
             studio = studio.with_store(&context.egui_ctx, store);

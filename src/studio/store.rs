@@ -30,6 +30,8 @@ pub struct Store {
 #[serde(default)]
 pub struct Settings {
     pub dark: Option<bool>,
+    /// By its code; that of the system where there is none.
+    pub language: Option<String>,
     pub quality: Option<String>,
     pub idealized: Option<bool>,
     pub realizable: Option<bool>,

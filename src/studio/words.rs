@@ -5,9 +5,10 @@ use crate::motion::MotionError;
 use crate::operations::{MoreFibers, Progress, key, new_design, play, preview, remesh, reshape, rig};
 use crate::outline::{Change, Changes, Note, OutlineError, Remedy};
 use crate::rigging::{self, RigError};
+use crate::studio::language::{mark, t, tf};
 
 /// The choice in the dialog of the export that gives motors the time they need.
-pub const STRETCH: &str = "Stretch what is too quick";
+pub const STRETCH: &str = mark("Stretch what is too quick");
 
 /// The steps and notes of a clean-up, a line each.
 pub fn changes(changes: &Changes) -> impl Iterator<Item = String> {
@@ -28,9 +29,9 @@ pub fn outline(error: &OutlineError) -> String {
 pub fn unplayed(error: &play::Error) -> String {
     match error {
         play::Error::Motion(MotionError::TooFast { .. }) => {
-            format!("{error}; move the keyframes apart, or choose “{STRETCH}”")
+            tf!("{error}; move the keyframes apart, or choose “{choice}”", error, choice = t(STRETCH))
         }
-        play::Error::NoNetworks => format!("{error}: propose networks for a pose, or rig all poses"),
+        play::Error::NoNetworks => tf!("{error}: propose networks for a pose, or rig all poses", error),
         error => error.to_string(),
     }
 }
@@ -38,21 +39,21 @@ pub fn unplayed(error: &play::Error) -> String {
 /// What the dialog of the import has.
 fn control(remedy: Remedy) -> &'static str {
     match remedy {
-        Remedy::Height => "“Height” sets another height",
-        Remedy::Unit => "“Unit” sets another, “Height” the size",
-        Remedy::Threshold => "“Ink from” sets another level",
-        Remedy::Opacity => "“Ink from” 1 counts all that shows",
-        Remedy::Background => "“Background” keeps it",
-        Remedy::DropBackground => "“Background” leaves it out",
-        Remedy::Holes => "“Holes” makes a solid body of it",
-        Remedy::KeepHoles => "“Holes” keeps them",
-        Remedy::Gap => "“Gaps up to” sets how wide they may be",
-        Remedy::Join => "“Join ends up to” sets how far apart they may be",
-        Remedy::Smooth => "“Smooth” sets how far",
-        Remedy::Layers => "“Layers” names those that count",
-        Remedy::Blocks => "“Blocks” names those that count",
-        Remedy::MinWidth => "“Least width” widens them",
-        Remedy::Pieces => "choose “Largest piece only”, or join them in the drawing",
+        Remedy::Height => t("“Height” sets another height"),
+        Remedy::Unit => t("“Unit” sets another, “Height” the size"),
+        Remedy::Threshold => t("“Ink from” sets another level"),
+        Remedy::Opacity => t("“Ink from” 1 counts all that shows"),
+        Remedy::Background => t("“Background” keeps it"),
+        Remedy::DropBackground => t("“Background” leaves it out"),
+        Remedy::Holes => t("“Holes” makes a solid body of it"),
+        Remedy::KeepHoles => t("“Holes” keeps them"),
+        Remedy::Gap => t("“Gaps up to” sets how wide they may be"),
+        Remedy::Join => t("“Join ends up to” sets how far apart they may be"),
+        Remedy::Smooth => t("“Smooth” sets how far"),
+        Remedy::Layers => t("“Layers” names those that count"),
+        Remedy::Blocks => t("“Blocks” names those that count"),
+        Remedy::MinWidth => t("“Least width” widens them"),
+        Remedy::Pieces => t("choose “Largest piece only”, or join them in the drawing"),
     }
 }
 
@@ -74,14 +75,14 @@ pub fn unshown(error: &preview::Error) -> String {
 
 /// Fibres besides those asked for, of an import or of a new body.
 pub fn more_fibers(MoreFibers { asked, count }: MoreFibers) -> String {
-    format!("The outline needs more than {asked} fibres; it has {count}.")
+    tf!("The outline needs more than {asked} fibres; it has {count}.", asked, count)
 }
 
 /// Why a design was not given another body.
 pub fn unshaped(error: &reshape::Error) -> String {
     match error {
         reshape::Error::Outline(OutlineError::Pieces { .. }) => {
-            format!("{error}: join them, or delete what is too much")
+            tf!("{error}: join them, or delete what is too much", error)
         }
         reshape::Error::Outline(_)
         | reshape::Error::Mesh(_)
@@ -99,9 +100,9 @@ pub fn unmeshed(error: &remesh::Error) -> String {
 pub fn unkeyed(error: &key::Error) -> String {
     match error {
         key::Error::NoNetworks => {
-            "Without networks there is nothing to animate: propose and accept one first.".to_owned()
+            t("Without networks there is nothing to animate: propose and accept one first.").to_owned()
         }
-        error => format!("Add keyframe: {error}"),
+        error => tf!("Add keyframe: {error}", error),
     }
 }
 
@@ -109,32 +110,39 @@ pub fn unkeyed(error: &key::Error) -> String {
 pub fn progress(step: &Progress) -> String {
     match step {
         Progress::Rig(rigging::Progress::Candidates { winch, count }) => {
-            format!("Winch {}: trying {count} networks", winch + 1)
+            tf!("Winch {number}: trying {count} networks", number = winch + 1, count)
         }
         Progress::Rig(rigging::Progress::Accepted { winch, errors, .. }) => {
             let worst = errors.iter().map(|(_, error)| *error).fold(0.0, f64::max);
-            format!("Winch {}: {:.1} % off at most", winch + 1, 100.0 * worst)
+            tf!("Winch {number}: {percent:.1} % off at most", number = winch + 1, percent = 100.0 * worst)
         }
         Progress::Rig(rigging::Progress::Round { round, rounds, worst, .. }) => {
-            format!("Round {} of {rounds}: the worst pose misses {:.1} % of its way", round + 1, 100.0 * worst)
+            tf!(
+                "Round {round} of {rounds}: the worst pose misses {percent:.1} % of its way",
+                round = round + 1,
+                rounds,
+                percent = 100.0 * worst
+            )
         }
         Progress::Rig(rigging::Progress::Found { winches, tendons, .. }) => {
-            format!("{winches} winches with {tendons} tendons")
+            tf!("{winches} winches with {tendons} tendons", winches, tendons)
         }
-        Progress::Proposals(list) => format!("{} networks so far", list.len()),
-        Progress::Picture { done, of } => format!("Picture {} of {of}", done + 1),
-        Progress::Part { done, of } => format!("Part {} of {of}", done + 1),
+        Progress::Proposals(list) => tf!("{count} networks so far", count = list.len()),
+        Progress::Picture { done, of } => tf!("Picture {number} of {of}", number = done + 1, of),
+        Progress::Part { done, of } => tf!("Part {number} of {of}", number = done + 1, of),
     }
 }
 
 /// Why there is no rig.
 pub fn unrigged(error: &rig::Error) -> String {
     match error {
-        rig::Error::Rig(RigError::NoTargets) => "No pose has a target yet: drag a point of the body first.".to_owned(),
-        rig::Error::Rig(RigError::NothingFound) => {
-            "No network brings any pose closer to its targets. Try more winches or tendons.".to_owned()
+        rig::Error::Rig(RigError::NoTargets) => {
+            t("No pose has a target yet: drag a point of the body first.").to_owned()
         }
-        error => format!("Rig: {error}"),
+        rig::Error::Rig(RigError::NothingFound) => {
+            t("No network brings any pose closer to its targets. Try more winches or tendons.").to_owned()
+        }
+        error => tf!("Rig: {error}", error),
     }
 }
 
@@ -145,20 +153,24 @@ pub fn remarks(remarks: &[String]) -> Option<String> {
     let told: Vec<String> = remarks.iter().take(IN_FULL).map(|remark| format!("\n- {remark}")).collect();
     let rest = match remarks.len().saturating_sub(IN_FULL) {
         0 => String::new(),
-        more => format!("\n{more} more are in its README.txt."),
+        more => tf!("\n{more} more are in its README.txt.", more),
     };
-    (!remarks.is_empty()).then(|| format!("Mind of the blueprint:{}{rest}", told.concat()))
+    (!remarks.is_empty()).then(|| tf!("Mind of the blueprint:{remarks}{rest}", remarks = told.concat(), rest))
 }
 
 /// Why there is no blueprint.
 pub fn unexported(error: &ExportError) -> String {
     match error {
-        ExportError::NoNetworks => format!("{error}: propose and accept one first"),
+        ExportError::NoNetworks => tf!("{error}: propose and accept one first", error),
         ExportError::Motion(MotionError::TooFast { .. }) => {
-            format!("{error}; move the keyframes apart, or choose “{STRETCH}” in the dialog of the export")
+            tf!(
+                "{error}; move the keyframes apart, or choose “{choice}” in the dialog of the export",
+                error,
+                choice = t(STRETCH)
+            )
         }
         ExportError::WinchesCollide { .. } => {
-            format!("{error}; move one of them with the tendon tool, or take a smaller spool in the settings")
+            tf!("{error}; move one of them with the tendon tool, or take a smaller spool in the settings", error)
         }
         error => error.to_string(),
     }

@@ -17,8 +17,11 @@ mod files;
 mod friction;
 mod hostile;
 mod import;
+#[cfg(feature = "studio")]
+mod languages;
 mod layers;
 mod live;
+mod makers;
 mod mesh;
 mod minimum;
 mod mistakes;

@@ -22,8 +22,14 @@ const MAX_SPLIT: usize = 8;
 const FRAME: f64 = 0.25;
 /// What lies on a sheet covers this part of it: less is a detail of a body, more is the outline of the body itself.
 const COVERS: std::ops::RangeInclusive<f64> = 0.03..=0.92;
+/// The middle of a line around a sheet runs along the sheet's rim: it surrounds as much as that, within this part of it.
+const BORDER: f64 = 0.06;
 /// Part of what lies on a sheet that must be in one piece, as a figure is and the letters on a button are not.
 const FIGURE: f64 = 0.6;
+/// Of the room within a frame: frames lie within frames.
+const FILLED: f64 = 0.97;
+/// Part of the room that paper leaves for a figure which that fills.
+const FILLS: f64 = 0.8;
 /// How far a figure may reach beyond the sheet that it lies on, as a part of the sheet's side, and how much of it.
 const BEYOND: f64 = 0.05;
 const BEYOND_AREA: f64 = 0.02;
@@ -58,6 +64,11 @@ pub(super) fn part(
     let mut drop = |figure: &mut Vec<Mark>, range: std::ops::Range<usize>| {
         below.extend(figure.drain(range).flat_map(|mark| mark.area));
     };
+    if let Some(k) = page.map(|page| surrounding(&figure, page)).transpose()?.flatten() {
+        notes.push(Note::Background(Ground::Page));
+        drop(&mut figure, k..k + 1);
+        return Ok((figure, below, notes));
+    }
     let mut pages = 0;
     while let Some(count) = page.and_then(|page| covering(&figure, page)) {
         pages += count;
@@ -69,15 +80,51 @@ pub(super) fn part(
         _ => notes.push(Note::Background(Ground::Shapes(pages))),
     }
     for _ in 0..MAX_GROUNDS {
-        let Some((at, ground, sure)) = ground(&figure, page)? else { break };
+        let Some(Found { marks, ground, sure }) = ground(&figure, page)? else { break };
         if !sure && choice == Background::Found {
             notes.push(Note::GroundCounts(ground));
             break;
         }
         notes.push(Note::Background(ground));
-        drop(&mut figure, at..at + 1);
+        marks.into_iter().rev().for_each(|at| drop(&mut figure, at..at + 1));
     }
     Ok((figure, below, notes))
+}
+
+/// The mark that covers the page but for the figure, which the others are: so do programs that trace pictures draw paper.
+fn surrounding(marks: &[Mark], page: [Point; 2]) -> Result<Option<usize>, OutlineError> {
+    let [low, high] = page;
+    let slack = [0, 1].map(|axis| PAGE_FRACTION * (high[axis] - low[axis]));
+    for (k, mark) in marks.iter().enumerate().filter(|_| marks.len() > 1) {
+        let (from, to) = regions::bounding_box(&mark.area);
+        let reaches = (0..2).all(|axis| from[axis] <= low[axis] + slack[axis] && to[axis] >= high[axis] - slack[axis]);
+        if !reaches {
+            continue;
+        }
+        let whole = filled(&mark.area);
+        let room = regions::difference(&whole, &mark.area);
+        let covers = regions::area(&whole);
+        let like_page = covers >= SHARP * (to[0] - from[0]) * (to[1] - from[1]);
+        if !like_page || !COVERS.contains(&(regions::area(&room) / covers)) {
+            continue;
+        }
+        let rest = marks.iter().enumerate().filter(|(i, _)| *i != k).flat_map(|(_, mark)| mark.area.iter().cloned());
+        let rest = filled(&regions::union(rest.collect())?);
+        let covered = regions::area(&rest);
+        let fills = regions::area(&regions::intersection(&rest, &room)) >= FILLS * regions::area(&room);
+        let hidden = k > 0 && regions::area(&regions::intersection(&rest, &mark.area)) > BEYOND_AREA * covered;
+        let largest = rest.iter().max_by(|a, b| regions::piece_area(a).total_cmp(&regions::piece_area(b)));
+        let is_figure = largest.is_some_and(|rings| {
+            let (from, to) = polygon::bounding_box(&rings[0]);
+            let area = regions::piece_area(rings);
+            // What fills a rectangle in a frame may be a picture on a wall.
+            area >= FIGURE * covered && (mark.white || area < ROUND * (to[0] - from[0]) * (to[1] - from[1]))
+        });
+        if fills && !hidden && is_figure {
+            return Ok(Some(k));
+        }
+    }
+    Ok(None)
 }
 
 /// How many marks from the lowest on cover the page together, as long as others lie on them.
@@ -109,8 +156,17 @@ fn covering(marks: &[Mark], page: [Point; 2]) -> Option<usize> {
     None
 }
 
-/// The mark that all others lie on or within, what it is, and whether it is surely no part of the figure.
-fn ground(marks: &[Mark], page: Option<[Point; 2]>) -> Result<Option<(usize, Ground, bool)>, OutlineError> {
+/// What all other marks lie on or within.
+struct Found {
+    /// It and the line around it, in order.
+    marks: Vec<usize>,
+    ground: Ground,
+    /// Whether it is surely no part of the figure.
+    sure: bool,
+}
+
+/// The mark that all others lie on or within.
+fn ground(marks: &[Mark], page: Option<[Point; 2]>) -> Result<Option<Found>, OutlineError> {
     if marks.len() < 2 {
         return Ok(None);
     }
@@ -128,11 +184,15 @@ fn ground(marks: &[Mark], page: Option<[Point; 2]>) -> Result<Option<(usize, Gro
         if !holds || outer.len() != 1 || fills.is_nan() || fills < ROUND || (k > 0 && !frame) {
             continue;
         }
-        let rest = marks.iter().enumerate().filter(|(i, _)| *i != k).flat_map(|(_, mark)| mark.area.iter().cloned());
+        let border = if frame { Vec::new() } else { borders(marks, k, whole) };
+        let is_rest = |i: &usize| *i != k && !border.contains(i);
+        let rest = (0..marks.len()).filter(is_rest).flat_map(|i| marks[i].area.iter().cloned());
         let rest = filled(&regions::union(rest.collect())?);
         let covered: f64 = regions::area(&rest);
         let largest = rest.iter().map(|rings| regions::piece_area(rings)).fold(0.0, f64::max);
-        if !COVERS.contains(&(covered / whole)) || largest < FIGURE * covered {
+        // What fills a line up to its inner edge has it for its own outline.
+        let (room, most) = if frame { (whole - regions::area(&mark.area), FILLED) } else { (whole, *COVERS.end()) };
+        if !(*COVERS.start()..=most).contains(&(covered / room)) || largest < FIGURE * covered {
             continue;
         }
         if regions::area(&regions::difference(&rest, &outer)) > BEYOND_AREA * covered {
@@ -147,9 +207,23 @@ fn ground(marks: &[Mark], page: Option<[Point; 2]>) -> Result<Option<(usize, Gro
             (false, false) => Ground::Card,
         };
         let signs = [mark.white, sharp, like_page].into_iter().filter(|sign| *sign).count();
-        return Ok(Some((k, ground, frame || signs >= SIGNS)));
+        // With a line around it, it may be drawn as a thing: a letter, a tile.
+        let sure = frame || (signs >= SIGNS && (border.is_empty() || like_page));
+        let mut marks = [vec![k], border].concat();
+        marks.sort_unstable();
+        return Ok(Some(Found { marks, ground, sure }));
     }
     Ok(None)
+}
+
+/// The lines along the rim of a mark that covers so much.
+fn borders(marks: &[Mark], k: usize, whole: f64) -> Vec<usize> {
+    let is_border = |i: &usize| {
+        let around = regions::area(&filled(&marks[*i].area));
+        let line = regions::area(&marks[*i].area);
+        *i != k && line < FRAME * around && ((around - 0.5 * line) / whole - 1.0).abs() < BORDER
+    };
+    (0..marks.len()).filter(is_border).collect()
 }
 
 /// Without holes; what lay in one is part of it.
@@ -210,6 +284,25 @@ mod tests {
     }
 
     #[test]
+    fn paper_that_a_figure_is_cut_out_of_is_background_wherever_it_is_painted() {
+        let paper = |white| mark(vec![square(0.0, 100.0), diamond(30.0).into_iter().rev().collect()], white);
+        let halves = [[50.0, 80.0], [50.0, 20.0]].map(|tip| mark(vec![vec![[20.0, 50.0], tip, [80.0, 50.0]]], false));
+        let halves = halves.map(|mut half| {
+            half.area = regions::union(half.area).unwrap();
+            half
+        });
+        let found = (2, vec![Note::Background(Ground::Page)]);
+        for white in [true, false] {
+            assert_eq!(parted([vec![paper(white)], halves.to_vec()].concat(), Background::Found), found);
+            assert_eq!(parted([halves.to_vec(), vec![paper(white)]].concat(), Background::Found), found);
+        }
+        // A picture in its frame, and a page with a hole.
+        let frame = mark(vec![square(0.0, 100.0), square(20.0, 80.0).into_iter().rev().collect()], false);
+        assert_eq!(parted(vec![mark(vec![square(20.0, 80.0)], false), frame], Background::Found).0, 2);
+        assert_eq!(parted(vec![paper(true)], Background::Found), (1, vec![]));
+    }
+
+    #[test]
     fn a_sheet_is_left_out_where_it_is_white_or_a_frame_and_told_elsewhere() {
         let figure = mark(vec![diamond(15.0)], false);
         let sheet = |white| mark(vec![square(20.0, 80.0)], white);
@@ -220,6 +313,13 @@ mod tests {
         assert_eq!(parted(vec![sheet(false), figure.clone()], Background::Drop).0, 1);
         let line = mark(vec![square(20.0, 80.0), square(21.0, 79.0).into_iter().rev().collect()], false);
         assert_eq!(parted(vec![figure.clone(), line], found), (1, vec![Note::Background(Ground::Frame)]));
+        // A tile with a line around it is a thing, unless it is as large as the page; a line is no frame of what fills it.
+        let tile = |low: f64, high: f64| {
+            let line = vec![square(low - 1.0, high + 1.0), square(low + 1.0, high - 1.0).into_iter().rev().collect()];
+            vec![mark(vec![square(low, high)], true), figure.clone(), mark(line, false)]
+        };
+        assert_eq!(parted(tile(20.0, 80.0), found), (3, vec![Note::GroundCounts(Ground::Sheet)]));
+        assert_eq!(parted(tile(3.0, 97.0), found), (1, vec![Note::Background(Ground::Sheet)]));
         // Letters on a button are no figure, and the line around a body is no figure on it.
         let dot = |x: f64| mark(vec![rectangle([x, 40.0], [x + 5.0, 60.0])], false);
         assert_eq!(parted(vec![sheet(true), dot(30.0), dot(50.0)], found), (3, vec![]));

@@ -21,8 +21,8 @@ pub(super) use reader::Painting;
 pub use reader::{OutlineReader, ReadingOption};
 
 /// All readers; the first that can read a file does. A new one is a file and its two lines here.
-const READERS: [&dyn OutlineReader; 7] =
-    [&picture::Picture, &pdf::Pdf, &dxf::Dxf, &svg::Svg, &drawing::OfParts, &flat::Obj, &flat::Stl];
+const READERS: [&dyn OutlineReader; 8] =
+    [&picture::Picture, &pdf::Pdf, &dxf::Dxf, &svg::Svg, &drawing::OfParts, &flat::Obj, &flat::Stl, &flat::Threemf];
 
 /// The reader of a file, whatever it is called; `None` where it is no outline.
 pub fn reader_of(bytes: &[u8]) -> Option<&'static dyn OutlineReader> {

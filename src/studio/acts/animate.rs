@@ -7,6 +7,7 @@ use crate::operations::Context;
 use crate::operations::key::{self, Error, Keyed, Note, Options};
 use crate::studio::change::{Change, Made};
 use crate::studio::jobs::{Outcome, Running};
+use crate::studio::language::{mark, t, tf};
 use crate::studio::session::{Mode, Session};
 use crate::studio::words;
 
@@ -14,7 +15,7 @@ use crate::studio::words;
 pub fn play(session: &mut Session) {
     let end = animation::duration_s(session.design());
     if end <= 0.0 {
-        session.messages.info("Put at least two keyframes on the timeline to play an animation.");
+        session.messages.info(t("Put at least two keyframes on the timeline to play an animation."));
         return;
     }
     if session.playback.time_s >= end {
@@ -71,10 +72,9 @@ fn start_keying(session: &mut Session, time_s: f64) {
     let design = session.acting().clone();
     let pose = session.picked.pose.and_then(|pose| design.poses.get(pose)).map(|pose| pose.name.clone());
     let options = Options { pose, time_s, ..Options::default() };
-    session.keying =
-        Some(session.jobs.start("The keyframe", move |cancel| {
-            Outcome::Keyed(key::prepare(&design, &options, &Context::new(cancel)))
-        }));
+    session.keying = Some(session.jobs.start(mark("The keyframe"), move |cancel| {
+        Outcome::Keyed(key::prepare(&design, &options, &Context::new(cancel)))
+    }));
 }
 
 /// The keyframe is worked out.
@@ -89,9 +89,9 @@ pub fn take_key(session: &mut Session, serial: u64, keyed: Result<Keyed, Error>)
     };
     let time_s = keyed.keyframe.time_s;
     for Note::Unbalanced(unbalanced) in &keyed.notes {
-        session.messages.warning(format!("The keyframe at {time_s:.2} s: {unbalanced}"));
+        session.messages.warning(tf!("The keyframe at {time_s:.2} s: {unbalanced}", time_s, unbalanced));
     }
-    match session.document.history.edit("Set keyframe", |design| keyed.apply(design)) {
+    match session.document.history.edit(mark("Set keyframe"), |design| keyed.apply(design)) {
         Ok(index) => {
             edit::pick_out(session, Made::Keyframe(index));
             session.playback.time_s = time_s;

@@ -4,6 +4,7 @@ use super::edit;
 use crate::rigging::{Proposal, ProposeOptions};
 use crate::studio::change::Change;
 use crate::studio::jobs::{Outcome, Running};
+use crate::studio::language::{mark, t};
 use crate::studio::session::Session;
 use std::sync::Arc;
 
@@ -19,7 +20,7 @@ pub fn start_propose(session: &mut Session) {
     let options = session.discovery.options.clone();
     let propose = session.services.propose.clone();
     let (coming, wake) = (session.discovery.coming.clone(), session.jobs.wake());
-    session.discovery.running = Some(session.jobs.start("Network discovery", move |cancel| {
+    session.discovery.running = Some(session.jobs.start(mark("Network discovery"), move |cancel| {
         let mut found = |list: &[Arc<Proposal>]| {
             if let Ok(mut coming) = coming.lock() {
                 *coming = Some(list.to_vec());
@@ -61,8 +62,8 @@ pub fn take_proposals(session: &mut Session, serial: u64, proposals: Vec<Arc<Pro
     session.discovery.running = None;
     if proposals.is_empty() {
         session.messages.warning(match session.discovery.options.rules {
-            true => "No network that can be sewn was found for this pose. Try more tendons, or lift the rules.",
-            false => "No network was found for this pose. Try more tendons.",
+            true => t("No network that can be sewn was found for this pose. Try more tendons, or lift the rules."),
+            false => t("No network was found for this pose. Try more tendons."),
         });
     }
     session.discovery.take(proposals);

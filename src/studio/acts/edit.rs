@@ -6,6 +6,7 @@ use crate::operations::arrange::Handle;
 use crate::operations::network::{self, Part};
 use crate::outline::Point;
 use crate::studio::change::{Change, Made};
+use crate::studio::language::t;
 use crate::studio::session::{Mode, Renamed, Selection, Session};
 
 /// One step of undo.
@@ -13,7 +14,7 @@ pub fn change(session: &mut Session, change: Change) {
     let label = change.label();
     match session.document.history.edit(label, |design| change.apply(design)) {
         Ok(made) => pick_out(session, made),
-        Err(error) => session.messages.error(format!("{label}: {error}")),
+        Err(error) => session.messages.error(format!("{}: {error}", t(label))),
     }
 }
 
@@ -30,7 +31,7 @@ pub fn live(session: &mut Session, change: Change) {
         Err(EditError::TimeTaken(_)) => {}
         // A hole on top of the one before it.
         Err(EditError::Invalid(_)) if of_networks => {}
-        Err(error) => session.messages.error(format!("{label}: {error}")),
+        Err(error) => session.messages.error(format!("{}: {error}", t(label))),
     }
 }
 
@@ -44,7 +45,7 @@ pub fn again(session: &mut Session, change: Change) {
         Ok(made) => pick_out(session, made),
         // On the way over another keyframe: the last place stays.
         Err(EditError::TimeTaken(_) | EditError::Invalid(_)) => {}
-        Err(error) => session.messages.error(format!("{label}: {error}")),
+        Err(error) => session.messages.error(format!("{}: {error}", t(label))),
     }
 }
 
@@ -131,16 +132,16 @@ pub fn pick_out(session: &mut Session, made: Made) {
 }
 
 pub fn undo(session: &mut Session) {
-    travel(session, "Undone", History::undo);
+    travel(session, t("Undone"), History::undo);
 }
 
 pub fn redo(session: &mut Session) {
-    travel(session, "Redone", History::redo);
+    travel(session, t("Redone"), History::redo);
 }
 
 fn travel(session: &mut Session, done: &str, step: impl FnOnce(&mut History) -> Option<String>) {
     if let Some(label) = step(&mut session.document.history) {
-        session.messages.info(format!("{done}: {label}"));
+        session.messages.info(format!("{done}: {}", t(&label)));
     }
     session.discovery.shown = None;
     super::follow::travelled(session);

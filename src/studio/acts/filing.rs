@@ -10,6 +10,7 @@ use crate::files;
 use crate::operations::{Context, Progress, export};
 use crate::studio::action::Sketch;
 use crate::studio::jobs::{self, New, Outcome, Refused};
+use crate::studio::language::{mark, t, tf};
 use crate::studio::session::{Dialog, Done, FREEHAND, FileAction, PathDialog, Picking, Purpose, Resolution, Session};
 use crate::studio::words;
 use std::path::{Path, PathBuf};
@@ -54,7 +55,7 @@ fn go_on(session: &mut Session, action: FileAction) {
         }
         FileAction::SaveAs => paths::ask_path(session, Purpose::SaveAs),
         FileAction::Export if session.design().networks.is_empty() => {
-            session.messages.warning("There is nothing to export yet: propose and accept a network first.");
+            session.messages.warning(t("There is nothing to export yet: propose and accept a network first."));
         }
         FileAction::Film => paths::show_path_dialog(session, Purpose::Film),
         FileAction::FilmPath { path, options } => film::start(session, path, options),
@@ -68,7 +69,7 @@ fn go_on(session: &mut Session, action: FileAction) {
         FileAction::ImportPath { path, choice } => import::import(session, path, *choice),
         FileAction::Dropped(path) if session.files.dialog.is_some() => {
             let path = files::shown(&path);
-            session.messages.warning(format!("{path} was not opened: answer the dialog first."));
+            session.messages.warning(tf!("{path} was not opened: answer the dialog first.", path));
         }
         FileAction::Dropped(path) => ask(session, FileAction::OpenPath(path)),
         FileAction::OpenImported => import::open_imported(session),
@@ -127,7 +128,7 @@ pub fn take_path(session: &mut Session, serial: u64, path: Option<PathBuf>, at_o
         (None, dialog) if at_once => {
             session.files.native_dialogs = false;
             match (dialog, &session.files.dialog) {
-                (Some(_), _) => session.messages.info("This desktop has no file dialogs; type the path instead."),
+                (Some(_), _) => session.messages.info(t("This desktop has no file dialogs; type the path instead.")),
                 (None, None) if wanted => paths::show_path_dialog(session, purpose),
                 _ => session.files.take_back(),
             }
@@ -138,7 +139,7 @@ pub fn take_path(session: &mut Session, serial: u64, path: Option<PathBuf>, at_o
         (Some(path), None) => {
             session.files.take_back();
             let path = files::shown(&path);
-            session.messages.warning(format!("Nothing was saved to {path}: another plushie is open by now."));
+            session.messages.warning(tf!("Nothing was saved to {path}: another plushie is open by now.", path));
         }
     }
 }
@@ -170,22 +171,22 @@ pub fn take_import(session: &mut Session, result: Result<Box<New>, Box<Refused>>
 pub fn take_export(session: &mut Session, folder: &Path, result: Result<Vec<String>, String>) {
     match result {
         Ok(remarks) => {
-            session.messages.info(format!("The blueprint is in {}", files::shown(folder)));
+            session.messages.info(tf!("The blueprint is in {path}", path = files::shown(folder)));
             if let Some(text) = words::remarks(&remarks) {
                 session.messages.warning(text);
             }
         }
-        Err(why) => session.messages.error(format!("No blueprint was written: {why}")),
+        Err(why) => session.messages.error(tf!("No blueprint was written: {why}", why)),
     }
 }
 
 fn export(session: &mut Session, folder: PathBuf, options: export::Options) {
     session.files.dialog = None;
-    session.files.working = Some("Exporting the blueprint");
+    session.files.working = Some(t("Exporting the blueprint"));
     let (design, export) = (session.design().clone(), session.services.export.clone());
     let (done, wake) = (Done::default(), session.jobs.wake());
     session.files.done = done.clone();
-    session.files.running = Some(session.jobs.start("Export", move |cancel| {
+    session.files.running = Some(session.jobs.start(mark("job|Export"), move |cancel| {
         let mut progress = |step: &Progress| {
             if let Progress::Part { done: now, of } = step {
                 done.say(*now, *of);
@@ -201,7 +202,7 @@ fn export(session: &mut Session, folder: PathBuf, options: export::Options) {
 pub fn stop(session: &mut Session) {
     if let Some(running) = &session.files.running {
         running.cancel();
-        session.files.working = Some("Stopping");
+        session.files.working = Some(t("Stopping"));
     } else if session.rigging.running.is_some() || session.rigging.curve.running.is_some() {
         session.rigging.cancel();
     } else if session.keying.is_some() {

@@ -5,6 +5,7 @@ use crate::operations::film::{self, Kind, Options};
 use crate::operations::render::Error;
 use crate::operations::{Context, Progress};
 use crate::studio::jobs::{Outcome, Running};
+use crate::studio::language::{mark, t, tf};
 use crate::studio::session::{Dialog, Done, Session};
 use std::path::{Path, PathBuf};
 
@@ -25,13 +26,13 @@ pub fn start(session: &mut Session, path: PathBuf, options: Options) {
     }
     session.files.dialog = None;
     if session.filming.running.is_some() {
-        return session.messages.info("A film is being made already: wait for it, or cancel it first.");
+        return session.messages.info(t("A film is being made already: wait for it, or cancel it first."));
     }
     let design = session.acting().clone();
     let from = session.document.origin.clone().unwrap_or_default();
     let (done, wake) = (Done::default(), session.jobs.wake());
     session.filming.done = done.clone();
-    session.filming.running = Some(session.jobs.start("The film", move |cancel| {
+    session.filming.running = Some(session.jobs.start(mark("The film"), move |cancel| {
         let mut progress = |step: &Progress| {
             if let Progress::Picture { done: now, of } = step {
                 done.say(*now, *of);
@@ -41,7 +42,7 @@ pub fn start(session: &mut Session, path: PathBuf, options: Options) {
         let filmed = film::run(&design, &from, &options, &mut Context::telling(cancel, &mut progress));
         let result = match filmed {
             Ok(filmed) => filmed.film.write(&path).map(|()| filmed.pictures),
-            Err(Error::Cancelled(_)) => Err("it was cancelled".to_owned()),
+            Err(Error::Cancelled(_)) => Err(t("it was cancelled").to_owned()),
             Err(error) => Err(error.to_string()),
         };
         Outcome::Filmed { path, result }
@@ -55,7 +56,7 @@ pub fn take(session: &mut Session, serial: u64, path: &Path, result: Result<usiz
     }
     session.filming.running = None;
     match result {
-        Ok(pictures) => session.messages.info(format!("{pictures} pictures are in {}", shown(path))),
-        Err(why) => session.messages.error(format!("No film was written: {why}")),
+        Ok(pictures) => session.messages.info(tf!("{pictures} pictures are in {path}", pictures, path = shown(path))),
+        Err(why) => session.messages.error(tf!("No film was written: {why}", why)),
     }
 }

@@ -3,6 +3,7 @@
 use crate::operations::Context;
 use crate::operations::key::{self, Error, Keyed, Note};
 use crate::studio::jobs::{Outcome, Running};
+use crate::studio::language::{mark, tf, tn};
 use crate::studio::session::Session;
 use crate::studio::words;
 
@@ -22,7 +23,7 @@ pub fn follow(session: &mut Session, hands_off: bool) {
     }
     session.following.cancel();
     let of = design.clone();
-    let running = session.jobs.start("Keyframes of poses", move |cancel| {
+    let running = session.jobs.start(mark("Keyframes of poses"), move |cancel| {
         Outcome::Followed(key::again(&design, &poses, &Context::new(cancel)))
     });
     session.following.running = Some((running, of));
@@ -40,7 +41,7 @@ pub fn take(session: &mut Session, serial: u64, keyed: Result<Vec<Keyed>, Error>
     let keyed = match keyed {
         Ok(keyed) => keyed,
         Err(error) => {
-            session.messages.warning(format!("Keyframes do not follow their poses: {}", words::unkeyed(&error)));
+            session.messages.warning(tf!("Keyframes do not follow their poses: {why}", why = words::unkeyed(&error)));
             return session.following.settle(&of);
         }
     };
@@ -51,11 +52,12 @@ pub fn take(session: &mut Session, serial: u64, keyed: Result<Vec<Keyed>, Error>
     let followed =
         session.document.history.amend(|design| keyed.into_iter().try_for_each(|keyed| keyed.apply(design).map(drop)));
     match followed {
-        Ok(()) => session.messages.info(match count {
-            1 => "A keyframe follows its pose".into(),
-            _ => format!("{count} keyframes follow their poses"),
-        }),
-        Err(error) => session.messages.warning(format!("Keyframes do not follow their poses: {error}")),
+        Ok(()) => session.messages.info(tn!(
+            count,
+            "{count} keyframe follows its pose",
+            "{count} keyframes follow their poses"
+        )),
+        Err(error) => session.messages.warning(tf!("Keyframes do not follow their poses: {error}", error)),
     }
     let design = session.document.design().clone();
     session.following.settle(&design);

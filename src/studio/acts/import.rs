@@ -8,6 +8,7 @@ use crate::operations::preview;
 use crate::outline;
 use crate::studio::jobs::{New, Outcome, Refused};
 use crate::studio::keeping::Kept;
+use crate::studio::language::{mark, t, tf};
 use crate::studio::session::{Dialog, ImportChoice, PathDialog, Purpose, Session};
 use crate::studio::words;
 use std::path::{Path, PathBuf};
@@ -16,9 +17,9 @@ use std::sync::atomic::AtomicBool;
 /// Begins to read and mesh an outline.
 pub fn import(session: &mut Session, path: PathBuf, choice: ImportChoice) {
     session.files.dialog = None;
-    session.files.working = Some("Meshing the outline");
+    session.files.working = Some(t("Meshing the outline"));
     let within = session.safety.folder().map(Path::to_path_buf);
-    session.files.running = Some(session.jobs.start("Import", move |cancel| {
+    session.files.running = Some(session.jobs.start(mark("Import"), move |cancel| {
         let made = made(&path, &choice.options(&path), within.as_deref(), cancel);
         Outcome::Imported(made.map(Box::new).map_err(|why| Box::new(Refused { path, choice, why })))
     }));
@@ -66,7 +67,7 @@ pub fn follow(session: &mut Session) {
         return session.files.preview.forget();
     }
     let Some((path, import)) = session.files.preview.wanted(&dialog.path, &dialog.import) else { return };
-    let running = session.jobs.start("Preview", move |cancel| {
+    let running = session.jobs.start(mark("Preview"), move |cancel| {
         let result = previewed(&path, &import, cancel);
         Outcome::Previewed { path, import: Box::new(import), result }
     });
@@ -76,7 +77,7 @@ pub fn follow(session: &mut Session) {
 fn previewed(path: &Path, import: &outline::Import, cancel: &AtomicBool) -> Result<Box<preview::Previewed>, String> {
     /// Sides of the picture, pixels: twice what is shown, for screens of many pixels.
     const SIZE: (u32, u32) = (440, 440);
-    let bytes = files::read(path, outline::MAX_FILE_BYTES as u64).map_err(|e| format!("it cannot be opened: {e}"))?;
+    let bytes = files::read(path, outline::MAX_FILE_BYTES as u64).map_err(|e| tf!("it cannot be opened: {e}", e))?;
     let previewed =
         preview::run(&bytes, import, SIZE, &Context::new(cancel)).map_err(|error| words::unshown(&error))?;
     Ok(Box::new(previewed))
@@ -84,10 +85,10 @@ fn previewed(path: &Path, import: &outline::Import, cancel: &AtomicBool) -> Resu
 
 fn made(path: &Path, options: &Options, within: Option<&Path>, cancel: &AtomicBool) -> Result<New, String> {
     // A pipe would keep the thread waiting for ever.
-    let bytes = files::read(path, outline::MAX_FILE_BYTES as u64).map_err(|e| format!("it cannot be opened: {e}"))?;
+    let bytes = files::read(path, outline::MAX_FILE_BYTES as u64).map_err(|e| tf!("it cannot be opened: {e}", e))?;
     let made = new_design::run(&bytes, options, &Context::new(cancel)).map_err(|error| words::unmade(&error))?;
     let Made { mut design, changes, texture, notes } = made;
     let texture = texture.map(|png| Kept::new(&mut design, &png, within)).transpose();
-    let texture = texture.map_err(|e| format!("the texture cannot be kept: {e}"))?;
+    let texture = texture.map_err(|e| tf!("the texture cannot be kept: {e}", e))?;
     Ok(New { design, changes, notes, texture })
 }

@@ -3,6 +3,7 @@
 use crate::design::Design;
 use crate::engine::{Effort, Quality, Request, Setpoint, Solver};
 use crate::studio::jobs::Outcome;
+use crate::studio::language::mark;
 use crate::studio::session::{Judgement, Session};
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -20,7 +21,7 @@ pub fn follow(session: &mut Session, hands_off: bool) {
     }
     if let Some(design) = session.judging.take_due() {
         let trackers = session.judging.trackers.clone();
-        let running = session.jobs.start("Judging the design", move |cancel| {
+        let running = session.jobs.start(mark("Judging the design"), move |cancel| {
             let errors = {
                 let mut trackers = trackers.lock().unwrap_or_else(PoisonError::into_inner);
                 trackers.retain(|name, _| design.poses.iter().any(|pose| pose.name == *name));
@@ -37,7 +38,7 @@ pub fn follow(session: &mut Session, hands_off: bool) {
     if let Some((design, pose)) = session.judging.next_pose(session.pose()) {
         let of = (design.clone(), pose);
         let trackers = session.judging.trackers.clone();
-        let running = session.jobs.start("Judging a pose", move |cancel| {
+        let running = session.jobs.start(mark("Judging a pose"), move |cancel| {
             // From rest, as `check` does; what follows the hand later goes on from there.
             let mut solver = Solver::default();
             let request = request(&design, pose, Quality::Accurate);

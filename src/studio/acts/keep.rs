@@ -7,6 +7,7 @@ use crate::picture::layers::look;
 use crate::picture::palette::Theme;
 use crate::studio::canvas::Plushie;
 use crate::studio::keeper::{Abandoned, Keeper, Kept, Revision, Sources, Work};
+use crate::studio::language::{self, Language, tf};
 use crate::studio::session::{Dialog, Session, Views};
 use crate::studio::store::{Scribe, Settings, Store};
 use std::path::Path;
@@ -18,18 +19,21 @@ pub static ENDING: AtomicBool = AtomicBool::new(false);
 
 /// From now on work is kept in a state folder; what was left there is offered.
 pub fn keep_in(session: &mut Session, store: Store) {
+    session.safety.settings = store.settings();
+    take_settings(session);
+    language::speak(session.look.language.language());
     let (abandoned, unreadable) = Abandoned::find(&store);
     for path in unreadable {
-        session.messages.warning(format!("Work that was not saved cannot be read; it stays in {}", shown(&path)));
+        session
+            .messages
+            .warning(tf!("Work that was not saved cannot be read; it stays in {path}", path = shown(&path)));
     }
     session.safety.keeper = Keeper::new(&store)
-        .inspect_err(|error| session.messages.warning(format!("Work that is not saved cannot be kept: {error}")))
+        .inspect_err(|error| session.messages.warning(tf!("Work that is not saved cannot be kept: {error}", error)))
         .ok();
-    session.safety.settings = store.settings();
     session.safety.scribe = Some(Scribe::new(store.clone(), session.safety.settings.clone()));
     session.safety.store = Some(store);
     session.safety.abandoned = abandoned;
-    take_settings(session);
     if let Some(path) = session.document.path.clone() {
         opened(session, &path);
     }
@@ -44,9 +48,9 @@ pub fn opened(session: &mut Session, path: &Path) {
     let Some(store) = &session.safety.store else { return };
     match store.claim(path) {
         Ok(Some(claim)) => session.safety.claim = Some(claim),
-        Ok(None) => session.messages.warning(format!(
-            "{} is open in another window too. Whoever saves second is asked before the other’s work is replaced.",
-            shown(path)
+        Ok(None) => session.messages.warning(tf!(
+            "{path} is open in another window too. Whoever saves second is asked before the other’s work is replaced.",
+            path = shown(path)
         )),
         // It is a help; without it the file is watched all the same.
         Err(_) => {}
@@ -68,7 +72,7 @@ pub fn keep(session: &mut Session, drawing: Option<Drawing>) {
         Kept::All => {}
         Kept::Due(after) => session.safety.due = Some(after),
         Kept::Failed(why) => {
-            session.messages.warning(format!("Work that is not saved cannot be kept: {why}. Save it soon."))
+            session.messages.warning(tf!("Work that is not saved cannot be kept: {why}. Save it soon.", why))
         }
     }
 }
@@ -130,7 +134,7 @@ pub fn recover(session: &mut Session) {
     session.document.mark_unsaved();
     if !session.safety.abandoned.is_empty() {
         let others = session.safety.abandoned.len();
-        session.messages.info(format!("{others} more that were not saved are offered at the next start."));
+        session.messages.info(tf!("{others} more that were not saved are offered at the next start.", others));
     }
     // Nobody holds them any more, so that the next window finds them.
     session.safety.abandoned.clear();
@@ -163,6 +167,7 @@ pub fn remember(session: &mut Session) {
     let now = &session.look;
     let settings = Settings {
         dark: Some(now.theme == Theme::Dark),
+        language: now.language.chosen.map(|language| language.code.to_owned()),
         quality: Some(format!("{:?}", session.solver.quality)),
         idealized: Some(now.views.shows(Plushie::Idealized)),
         realizable: Some(now.views.shows(Plushie::Realizable)),
@@ -186,6 +191,7 @@ pub fn remember(session: &mut Session) {
 fn take_settings(session: &mut Session) {
     let settings = &session.safety.settings;
     session.look.theme = settings.theme().unwrap_or(session.look.theme);
+    session.look.language.chosen = settings.language.as_deref().and_then(Language::of);
     session.look.shown = settings.layers.clone();
     session.look.views = settings.views();
     session.look.body = settings.look.as_deref().and_then(look).map_or(session.look.body, |look| look.name);

@@ -4,6 +4,7 @@ use crate::mesh::Size;
 use crate::operations::Context;
 use crate::operations::remesh::{self, Error, Options, Remeshed, Report};
 use crate::studio::jobs::Outcome;
+use crate::studio::language::{mark, tf};
 use crate::studio::session::{Resolution, Session};
 use crate::studio::words;
 
@@ -15,7 +16,7 @@ pub fn start_remesh(session: &mut Session) {
     let Resolution { fibers, finer } = session.resolution();
     let options = Options { size: Size::Fibers(fibers), finer, ..Options::default() };
     let design = session.design().clone();
-    session.meshing.running = Some(session.jobs.start("Meshing", move |cancel| {
+    session.meshing.running = Some(session.jobs.start(mark("Meshing"), move |cancel| {
         Outcome::Remeshed(remesh::prepare(&design, &options, &Context::new(cancel)).map(Box::new))
     }));
 }
@@ -25,13 +26,13 @@ pub fn take_mesh(session: &mut Session, serial: u64, made: Result<Box<Remeshed>,
     if !session.meshing.take(serial) {
         return;
     }
-    let made = made.and_then(|made| Ok(session.document.history.edit("Remesh", |design| made.apply(design))?));
+    let made = made.and_then(|made| Ok(session.document.history.edit(mark("Remesh"), |design| made.apply(design))?));
     match made {
         Ok(report) => {
             session.meshing.wanted = None;
             tell_carried(session, &report);
         }
-        Err(error) => session.messages.error(format!("Meshing: {}", words::unmeshed(&error))),
+        Err(error) => session.messages.error(tf!("Meshing: {why}", why = words::unmeshed(&error))),
     }
 }
 
@@ -40,14 +41,21 @@ pub fn tell_carried(session: &mut Session, report: &Report) {
     let [before, after] = report.fibers;
     let farthest = report.farthest_mm();
     let text = if report.moved.is_empty() {
-        format!("The body has {after} fibres.")
+        tf!("The body has {after} fibres.", after)
     } else {
-        format!("{before} fibres became {after}; pins, targets and tendons moved by up to {farthest:.1} mm.")
+        tf!(
+            "{before} fibres became {after}; pins, targets and tendons moved by up to {farthest:.1} mm.",
+            before,
+            after,
+            farthest
+        )
     };
     match report.lost_tendons.len() {
         0 => session.messages.info(text),
-        lost => {
-            session.messages.warning(format!("{text} Too short for this mesh, and one edge long now: {lost} tendons."))
-        }
+        lost => session.messages.warning(tf!(
+            "{text} Too short for this mesh, and one edge long now: {lost} tendons.",
+            text,
+            lost
+        )),
     }
 }

@@ -3,6 +3,7 @@
 use crate::live::{Order, Status};
 use crate::motion::{Machine, Trajectory};
 use crate::operations::play;
+use crate::studio::language::tf;
 use crate::studio::session::{Mode, Session};
 use crate::studio::words;
 
@@ -60,9 +61,9 @@ pub fn follow(session: &mut Session) {
         Status::Ended { why, wanted } => {
             session.motors.remote = None;
             if wanted {
-                session.messages.info(format!("Motors: {why}."));
+                session.messages.info(tf!("Motors: {why}.", why));
             } else {
-                session.messages.error(format!("Motors: {why}."));
+                session.messages.error(tf!("Motors: {why}.", why));
             }
         }
         Status::Connecting | Status::Ready(_) | Status::Homing => {}

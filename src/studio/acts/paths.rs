@@ -2,6 +2,7 @@
 
 use crate::outline;
 use crate::studio::jobs::Outcome;
+use crate::studio::language::{mark, t};
 use crate::studio::session::{Dialog, PathDialog, Picking, Purpose, Session};
 use std::time::{Duration, Instant};
 
@@ -37,18 +38,18 @@ pub fn pick(session: &mut Session, purpose: Purpose) {
         if open.purpose != purpose || !open.wanted {
             session.files.take_back();
         }
-        return session.messages.info("A file dialog is open already: answer or close that one first.");
+        return session.messages.info(t("A file dialog is open already: answer or close that one first."));
     }
     let (folder, name) = (session.document.folder(), session.document.file_name());
-    let running = session.jobs.start("The file dialog", move |_| {
+    let running = session.jobs.start(mark("The file dialog"), move |_| {
         let started = Instant::now();
         let dialog = rfd::FileDialog::new().set_title(purpose.title()).set_directory(folder);
         let path = match purpose {
-            Purpose::Open => dialog.add_filter("Plushies", &["plush"]).pick_file(),
-            Purpose::Import => dialog.add_filter("Outlines", &outline::extensions()).pick_file(),
-            Purpose::SaveAs => dialog.add_filter("Plushies", &["plush"]).set_file_name(name).save_file(),
+            Purpose::Open => dialog.add_filter(t("Plushies"), &["plush"]).pick_file(),
+            Purpose::Import => dialog.add_filter(t("Outlines"), &outline::extensions()).pick_file(),
+            Purpose::SaveAs => dialog.add_filter(t("Plushies"), &["plush"]).set_file_name(name).save_file(),
             Purpose::Export => dialog.pick_folder(),
-            Purpose::Film => dialog.add_filter("Films", &["gif", "html"]).save_file(),
+            Purpose::Film => dialog.add_filter(t("Films"), &["gif", "html"]).save_file(),
         };
         Outcome::Picked { path, at_once: started.elapsed() < AT_ONCE }
     });

@@ -4,6 +4,7 @@ use crate::operations::explore::{self, Point};
 use crate::operations::rig::{self, Error, Rigged};
 use crate::operations::{Context, Progress};
 use crate::studio::jobs::{Outcome, Running};
+use crate::studio::language::{mark, t, tf, tn};
 use crate::studio::session::Session;
 use crate::studio::words;
 use std::sync::{Arc, Mutex};
@@ -15,12 +16,12 @@ pub fn start_rig(session: &mut Session) {
     }
     let options = match session.rigging.choice.options(&session.discovery.options.parameters) {
         Ok(options) => options,
-        Err(error) => return session.messages.warning(format!("Tendons of each winch: {error}")),
+        Err(error) => return session.messages.warning(tf!("Tendons of each winch: {error}", error)),
     };
     let design = session.design().clone();
     let (step, wake) = (Arc::new(Mutex::new(String::new())), session.jobs.wake());
     session.rigging.step = step.clone();
-    session.rigging.running = Some(session.jobs.start("Rigging", move |cancel| {
+    session.rigging.running = Some(session.jobs.start(mark("Rigging"), move |cancel| {
         let mut progress = |done: &Progress| {
             if let Ok(mut step) = step.lock() {
                 *step = words::progress(done);
@@ -39,12 +40,12 @@ pub fn start_curve(session: &mut Session) {
     }
     let options = match session.rigging.choice.options(&session.discovery.options.parameters) {
         Ok(options) => options,
-        Err(error) => return session.messages.warning(format!("Tendons of each winch: {error}")),
+        Err(error) => return session.messages.warning(tf!("Tendons of each winch: {error}", error)),
     };
     let design = session.design().clone();
     session.rigging.curve.begin(&design);
     let (coming, wake) = (session.rigging.curve.coming.clone(), session.jobs.wake());
-    session.rigging.curve.running = Some(session.jobs.start("The curve of winches", move |cancel| {
+    session.rigging.curve.running = Some(session.jobs.start(mark("The curve of winches"), move |cancel| {
         let mut found = |list: &[Arc<Point>]| {
             if let Ok(mut coming) = coming.lock() {
                 *coming = Some(list.to_vec());
@@ -90,15 +91,15 @@ pub fn take_rig(session: &mut Session, serial: u64, rigged: Result<Box<Rigged>, 
 /// Puts a rig into the design, where that is still the one that it was found for.
 fn put(session: &mut Session, rigged: Rigged) {
     if rigged.is_stale(session.design()) {
-        let text = "The body or its networks were changed meanwhile, so what was found does not fit any more.";
+        let text = t("The body or its networks were changed meanwhile, so what was found does not fit any more.");
         return session.messages.warning(text);
     }
     for note in &rigged.notes {
-        session.messages.warning(format!("Rig: {note}"));
+        session.messages.warning(tf!("Rig: {note}", note));
     }
     let found = rigged.networks.len();
-    match session.document.history.edit("Rig", |design| rigged.apply(design)) {
-        Ok(()) => session.messages.info(format!("{found} winch{} found.", if found == 1 { "" } else { "es" })),
+    match session.document.history.edit(mark("Rig"), |design| rigged.apply(design)) {
+        Ok(()) => session.messages.info(tn!(found, "{found} winch found.", "{found} winches found.")),
         Err(error) => session.messages.error(words::unrigged(&error.into())),
     }
 }

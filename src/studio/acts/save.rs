@@ -3,6 +3,7 @@
 use super::keep;
 use crate::design::{FileError, file};
 use crate::files::{self, Hold};
+use crate::studio::language::tf;
 use crate::studio::session::{Dialog, Session, Why};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -18,7 +19,9 @@ pub fn save(session: &mut Session, path: PathBuf, replace: bool) -> bool {
     if let Some(path) = [&path, &full].into_iter().find(|&path| is_special(path)) {
         // A pipe or a device keeps nothing: it would count as saved.
         session.files.after_save = None;
-        session.messages.error(format!("{} is not a regular file; nothing would be kept there", files::shown(path)));
+        session
+            .messages
+            .error(tf!("{path} is not a regular file; nothing would be kept there", path = files::shown(path)));
         return false;
     }
     let path = full;
@@ -35,7 +38,7 @@ pub fn save(session: &mut Session, path: PathBuf, replace: bool) -> bool {
     match saved {
         Ok(seen) => {
             session.document.mark_saved();
-            session.messages.info(format!("Saved {}", files::shown(&path)));
+            session.messages.info(tf!("Saved {path}", path = files::shown(&path)));
             keep::opened(session, &path);
             session.safety.seen = Some(seen);
             session.document.path = Some(path);

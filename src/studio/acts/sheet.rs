@@ -12,6 +12,7 @@ use crate::outline::{Drawing, Point};
 use crate::studio::action::Sketch;
 use crate::studio::change::Change;
 use crate::studio::jobs::Outcome;
+use crate::studio::language::{mark, tf};
 use crate::studio::session::{Mode, Session};
 use crate::studio::{blank as cushion, words};
 
@@ -43,12 +44,13 @@ pub fn sketch(session: &mut Session, sketch: Sketch) {
 pub fn delete_drawn(session: &mut Session) {
     let Some(item) = session.sketching.item.filter(|&item| session.drawing().has(item)) else { return };
     let thinner = session.sketching.point.and_then(|point| session.drawing().without_point(item, point));
+    let is_point = thinner.is_some();
     let (what, drawing) = match (thinner, item) {
-        (Some(drawing), _) => ("Delete point", drawing),
-        (None, Item::Part(_)) => ("Delete part", session.drawing().without(item)),
-        (None, Item::Track(_)) => ("Delete track", session.drawing().without(item)),
+        (Some(drawing), _) => (mark("Delete point"), drawing),
+        (None, Item::Part(_)) => (mark("Delete part"), session.drawing().without(item)),
+        (None, Item::Track(_)) => (mark("Delete track"), session.drawing().without(item)),
     };
-    if what != "Delete point" {
+    if !is_point {
         session.sketching.item = None;
     }
     session.sketching.point = None;
@@ -69,7 +71,7 @@ fn start_body(session: &mut Session) {
     let (design, drawing) = (session.design().clone(), session.drawing().clone());
     session.meshing.drawn = drawing.clone();
     session.meshing.made = None;
-    session.meshing.running = Some(session.jobs.start("Meshing", move |cancel| {
+    session.meshing.running = Some(session.jobs.start(mark("Meshing"), move |cancel| {
         let made = reshape::prepare(&design, Source::Drawing(&drawing), &options, &Context::new(cancel));
         Outcome::Reshaped(made.map(Box::new))
     }));
@@ -98,7 +100,7 @@ pub fn give_body(session: &mut Session, hands_off: bool) {
     let since = session.design().drawing.clone().filter(|drawing| *drawing != drawn);
     let goes_on = since.is_some();
     let mut by = [0.0; 2];
-    let given = session.document.history.edit("New body", |design| {
+    let given = session.document.history.edit(mark("New body"), |design| {
         let report = made.apply(design)?;
         by = design.drawing.as_ref().map_or(by, |laid| moved(&drawn, laid));
         since.map_or(Ok(()), |drawing| set_drawing(design, Some(drawing.moved(by)))).map(|()| report)
@@ -125,7 +127,7 @@ pub fn give_body(session: &mut Session, hands_off: bool) {
 }
 
 fn refuse(session: &mut Session, error: &Error) {
-    session.messages.error(format!("New body: {}", words::unshaped(error)));
+    session.messages.error(tf!("New body: {why}", why = words::unshaped(error)));
 }
 
 /// How far a drawing was moved with its body, whose lower left corner is the origin.

@@ -4,6 +4,7 @@ use crate::design::{file, texture};
 use crate::files::shown;
 use crate::picture::Texture;
 use crate::studio::jobs::Outcome;
+use crate::studio::language::{mark, tf};
 use crate::studio::session::{Found, Session, Texturing};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -19,7 +20,7 @@ pub fn follow_texture(session: &mut Session) {
     session.texturing = Texturing { path: path.clone(), found: Found::Nothing };
     if let Some(path) = path {
         let design = session.design().clone();
-        session.jobs.start("The texture", move |_| {
+        session.jobs.start(mark("The texture"), move |_| {
             let may = texture::find(&design, &from).map_err(|error| error.to_string());
             let texture = may.and_then(|_| Texture::read(&path).map(Arc::new).map_err(|error| error.to_string()));
             Outcome::Textured { path, texture }
@@ -35,7 +36,7 @@ pub fn take_texture(session: &mut Session, path: PathBuf, texture: Result<Arc<Te
     session.texturing.found = match texture {
         Ok(texture) => Found::Picture(texture),
         Err(why) => {
-            session.messages.warning(format!("The texture {} cannot be shown: {why}", shown(&path)));
+            session.messages.warning(tf!("The texture {path} cannot be shown: {why}", path = shown(&path), why));
             Found::Trouble
         }
     };

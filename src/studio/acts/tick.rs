@@ -5,6 +5,7 @@ use crate::design::animation;
 use crate::engine::Setpoint;
 use crate::studio::canvas::Plushie;
 use crate::studio::jobs::{Finished, Outcome, Running};
+use crate::studio::language::{t, tf};
 use crate::studio::session::{Done, Mode, ONION, Session};
 use std::sync::Arc;
 
@@ -17,9 +18,9 @@ pub fn tick(session: &mut Session, now_s: f64, passed_s: f64, hands_off: bool) {
     }
     motors::follow(session);
     if session.solver.revive() {
-        session.messages.error(
+        session.messages.error(t(
             "The solver broke down and was started again. Your work is as it was; the last good shapes are shown",
-        );
+        ));
     }
     session.solver.take(session.design().mesh.nodes.len());
     if hands_off {
@@ -89,7 +90,7 @@ fn take(session: &mut Session, Finished { serial, outcome }: Finished) {
         Outcome::Told { owner, told } => session.tasks.finish(owner, serial, told),
         Outcome::Broken { job, why } => {
             break_off(session, serial);
-            session.messages.error(format!("{job} failed: {why}"));
+            session.messages.error(tf!("{job} failed: {why}", job = t(job), why));
         }
     }
 }

@@ -4,6 +4,7 @@ use super::edit;
 use crate::design::Keyframe;
 use crate::operations::retime::{copied, fitted};
 use crate::studio::change::Change;
+use crate::studio::language::{t, tf, tn};
 use crate::studio::session::{Mode, Session};
 
 /// Copies what is picked out, for this window and as text for others.
@@ -12,7 +13,7 @@ pub fn copy(session: &mut Session) {
     session.clipboard = ron::ser::to_string(&copies).ok();
     let count = copies.len();
     session.timing.copies = copies;
-    session.messages.info(if count == 1 { "1 keyframe copied".into() } else { format!("{count} keyframes copied") });
+    session.messages.info(tn!(count, "{count} keyframe copied", "{count} keyframes copied"));
 }
 
 /// Text from the clipboard: keyframes that were copied in another window.
@@ -26,7 +27,7 @@ pub fn paste_text(session: &mut Session, text: &str) {
 /// Puts the copies on the timeline, the first at the playhead.
 pub fn paste(session: &mut Session) {
     if session.timing.copies.is_empty() {
-        return session.messages.info("Nothing was copied: select keyframes and copy them first.");
+        return session.messages.info(t("Nothing was copied: select keyframes and copy them first."));
     }
     let (copies, time_s) = (session.timing.copies.clone(), session.playback.time_s);
     edit::change(session, Change::PasteKeyframes { copies, time_s });
@@ -42,7 +43,7 @@ pub fn nudge(session: &mut Session, by_s: f64) {
 pub fn fit(session: &mut Session) {
     match fitted(session.design()) {
         Ok(times) => edit::change(session, Change::RetimeKeyframes(times)),
-        Err(error) => session.messages.error(format!("The animation cannot be fitted: {error}")),
+        Err(error) => session.messages.error(tf!("The animation cannot be fitted: {error}", error)),
     }
 }
 

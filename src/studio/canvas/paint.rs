@@ -6,6 +6,7 @@ use super::surface::Surface;
 use crate::outline::Point;
 use crate::outline::drawing::{Item, Primitive};
 use crate::picture::palette::Palette;
+use crate::studio::language::{t, tf};
 use crate::studio::style;
 use eframe::egui::epaint::{Mesh, Vertex, WHITE_UV};
 use eframe::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Ui, vec2};
@@ -80,7 +81,7 @@ fn grid(painter: &Painter, canvas: &Canvas<'_>, ink: Color32) {
     for i in lines(low[1], high[1]) {
         painter.hline(rect.x_range(), camera.to_screen(rect, [0.0, i as f64 * step]).y, stroke(i));
     }
-    let text = format!("grid {step:.0} mm");
+    let text = tf!("grid {step:.0} mm", step);
     let at = rect.left_bottom() + vec2(14.0, -12.0);
     painter.text(at, Align2::LEFT_BOTTOM, text, FontId::proportional(11.0), ink);
 }
@@ -127,12 +128,12 @@ pub fn captions(ui: &Ui, canvas: &Canvas<'_>, hint: &str, busy: bool) {
     let painter = ui.painter_at(rect);
     let corner = rect.left_top() + vec2(14.0, 10.0);
     let strong = ui.visuals().strong_text_color();
-    let title = painter.text(corner, Align2::LEFT_TOP, "Outline", FontId::proportional(15.0), strong);
+    let title = painter.text(corner, Align2::LEFT_TOP, t("Outline"), FontId::proportional(15.0), strong);
     let weak = ui.visuals().weak_text_color();
     let at = title.right_bottom() + vec2(8.0, -1.5);
     painter.text(at, Align2::LEFT_BOTTOM, hint, FontId::proportional(12.0), weak);
     if session.drawing().parts.is_empty() && !busy {
-        let text = "An empty sheet: draw the silhouette of a plushie";
+        let text = t("An empty sheet: draw the silhouette of a plushie");
         painter.text(rect.center(), Align2::CENTER_CENTER, text, FontId::proportional(14.0), weak);
     }
 }

@@ -7,6 +7,7 @@ use crate::outline::{Drawing, Point, polygon};
 use crate::studio::action::Action;
 use crate::studio::action::Actions;
 use crate::studio::action::Sketch;
+use crate::studio::language::t;
 use crate::studio::session::Session;
 use crate::studio::tools::Tool;
 use eframe::egui::{Rect, Role, Sense, Ui, WidgetInfo};
@@ -31,7 +32,7 @@ impl State {
 pub fn show(ui: &mut Ui, session: &Session, state: &mut State, tool: &mut dyn Tool, hint: &str, actions: &mut Actions) {
     let rect = ui.available_rect_before_wrap();
     let response = ui.interact(rect, ui.scope_id().with("drawing sheet"), Sense::click_and_drag());
-    response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, "Drawing sheet"));
+    response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, t("Drawing sheet")));
     if rect.width() < 2.0 || rect.height() < 2.0 {
         return;
     }

@@ -5,6 +5,7 @@ use crate::studio::action::FileAction;
 use crate::studio::acts;
 use crate::studio::icons::Icon;
 use crate::studio::jobs;
+use crate::studio::language::{mark, t};
 use crate::studio::session::Session;
 use eframe::egui::Key;
 
@@ -29,7 +30,7 @@ pub static ALL: [&Command; 16] = [
 
 /// A step of keyframes by the keys, s.
 const STEP_S: f64 = 0.05;
-const NO_KEYFRAME: &str = "Select a keyframe first";
+const NO_KEYFRAME: &str = mark("Select a keyframe first");
 
 pub static PLAY: Command = Command {
     icon: Some(Icon::Play),
@@ -102,7 +103,7 @@ pub static LATER: Command = Command {
 pub static ALL_KEYFRAMES: Command = Command {
     keys: &[Keys::ctrl_shift(Key::A)],
     scope: Scope::Views,
-    why_not: &|session, _| session.design().keyframes.is_empty().then_some("There are no keyframes"),
+    why_not: &|session, _| session.design().keyframes.is_empty().then_some(t("There are no keyframes")),
     run: &|session, _| {
         let keys = (0..session.design().keyframes.len()).collect();
         acts::edit::gather_keys(session, keys);
@@ -142,7 +143,9 @@ pub static PASTE: Command = Command {
 
 pub static FIT: Command = Command {
     scope: Scope::Views,
-    why_not: &|session, _| session.timing().doubts().is_empty().then_some("The motors follow the animation as it is"),
+    why_not: &|session, _| {
+        session.timing().doubts().is_empty().then_some(t("The motors follow the animation as it is"))
+    },
     run: &|session, _| acts::timing::fit(session),
     ..Command::new("animation.fit", "Make it fit", "Give the animation the time that its motors need")
 };
@@ -161,7 +164,9 @@ pub static DRIVES: Command = Command {
 
 pub static FILM: Command = Command {
     scope: Scope::Views,
-    why_not: &|session, _| (session.design().keyframes.len() < 2).then_some("Put two keyframes on the timeline first"),
+    why_not: &|session, _| {
+        (session.design().keyframes.len() < 2).then_some(t("Put two keyframes on the timeline first"))
+    },
     run: &|session, _| acts::filing::ask(session, FileAction::Film),
     ..Command::new(
         "animation.film",
@@ -171,7 +176,7 @@ pub static FILM: Command = Command {
 };
 
 pub static CANCEL_FILM: Command = Command {
-    why_not: &|session, _| session.filming().running.is_none().then_some("No film is being made"),
+    why_not: &|session, _| session.filming().running.is_none().then_some(t("No film is being made")),
     run: &|session, _| jobs::cancel(&mut session.filming.running),
     ..Command::new("animation.film.cancel", "Cancel film", "Stop drawing the animation; nothing is written")
 };
@@ -184,5 +189,5 @@ pub static REMOVE: Command = Command {
 };
 
 fn none_picked(session: &Session) -> Option<&'static str> {
-    session.keys().is_empty().then_some(NO_KEYFRAME)
+    session.keys().is_empty().then_some(t(NO_KEYFRAME))
 }

@@ -2,6 +2,7 @@
 
 use crate::studio::canvas::Hit;
 use crate::studio::icons::Icon;
+use crate::studio::language::t;
 use crate::studio::session::Session;
 use eframe::egui::{Key, Modifiers};
 use std::fmt;
@@ -116,13 +117,13 @@ impl Command {
     pub fn refused(&self, session: &Session, at: Hit) -> Option<&'static str> {
         match (self.applies(session), self.scope) {
             (true, _) => (self.why_not)(session, at),
-            (false, Scope::Outline) => Some("The outline is not being drawn"),
-            (false, _) => Some("The outline is being drawn"),
+            (false, Scope::Outline) => Some(t("The outline is not being drawn")),
+            (false, _) => Some(t("The outline is being drawn")),
         }
     }
 
     pub fn label(&self, session: &Session) -> &'static str {
-        self.face(session).map_or(self.label, |face| face.1)
+        t(self.face(session).map_or(self.label, |face| face.1))
     }
 
     pub fn icon(&self, session: &Session) -> Option<Icon> {
@@ -132,7 +133,7 @@ impl Command {
     /// The sentence about it, with its keys.
     pub fn tip(&self, session: &Session) -> String {
         let tip = self.face(session).map_or(self.tip, |face| face.2);
-        self.hint(&(self.detail)(session).unwrap_or_else(|| tip.to_owned()))
+        self.hint(&(self.detail)(session).unwrap_or_else(|| t(tip).to_owned()))
     }
 
     /// Words with the keys of this command behind them.
@@ -142,7 +143,7 @@ impl Command {
 
     /// `Ctrl+Shift+Z or Ctrl+Y`.
     pub fn keys_text(&self) -> String {
-        self.keys.iter().map(|keys| keys.text()).collect::<Vec<_>>().join(" or ")
+        self.keys.iter().map(|keys| keys.text()).collect::<Vec<_>>().join(t(" or "))
     }
 
     pub fn stands(&self, place: Place) -> bool {
@@ -185,13 +186,20 @@ impl Keys {
     }
 
     pub fn text(self) -> String {
-        let ctrl = if cfg!(target_os = "macos") { "Cmd+" } else { "Ctrl+" };
-        let held = [(self.modifiers.command, ctrl), (self.modifiers.shift, "Shift+")];
+        let ctrl = if cfg!(target_os = "macos") { "Cmd+" } else { t("Ctrl+") };
+        let held = [(self.modifiers.command, ctrl), (self.modifiers.shift, t("Shift+"))];
         let held: String = held.into_iter().filter(|(is, _)| *is).map(|(_, name)| name).collect();
         let name = match self.key {
-            Key::Plus => "Plus",
-            Key::Minus => "Minus",
+            Key::Plus => t("Plus"),
+            Key::Minus => t("Minus"),
             Key::Equals => "=",
+            Key::Escape => t("Escape"),
+            Key::Enter => t("Enter"),
+            Key::Delete => t("Delete"),
+            Key::Backspace => t("Backspace"),
+            Key::Space => t("Space"),
+            Key::PageUp => t("PageUp"),
+            Key::PageDown => t("PageDown"),
             key => key.name(),
         };
         held + name

@@ -3,6 +3,7 @@
 use super::command::{Command, Keys, Scope};
 use crate::studio::acts;
 use crate::studio::jobs;
+use crate::studio::language::t;
 use crate::studio::session::Session;
 use eframe::egui::{Key, Modifiers};
 
@@ -21,7 +22,7 @@ pub static PROPOSE_AGAIN: Command = Command {
     scope: Scope::Views,
     why_not: &|session, _| match session.discovery().is_stale() {
         true => session.cannot_propose(),
-        false => Some("What was proposed is for this body and pose"),
+        false => Some(t("What was proposed is for this body and pose")),
     },
     run: &|session, _| acts::discover::start_propose(session),
     ..Command::new("discovery.again", "Propose again", "Look for networks for the body and the pose as they are now")
@@ -29,7 +30,7 @@ pub static PROPOSE_AGAIN: Command = Command {
 
 pub static CANCEL: Command = Command {
     scope: Scope::Views,
-    why_not: &|session, _| session.discovery().running.is_none().then_some("No networks are being looked for"),
+    why_not: &|session, _| session.discovery().running.is_none().then_some(t("No networks are being looked for")),
     run: &|session, _| session.discovery.cancel(),
     ..Command::new("discovery.cancel", "Stop looking", "Stop looking for networks")
 };
@@ -62,7 +63,7 @@ pub static RIG: Command = Command {
 };
 
 pub static CANCEL_RIG: Command = Command {
-    why_not: &|session, _| session.rigging().running.is_none().then_some("No rig is being looked for"),
+    why_not: &|session, _| session.rigging().running.is_none().then_some(t("No rig is being looked for")),
     run: &|session, _| session.rigging.cancel(),
     ..Command::new("rig.cancel", "Cancel rigging", "Stop looking for winches and tendons; the plushie stays as it is")
 };
@@ -79,14 +80,14 @@ pub static CURVE: Command = Command {
 };
 
 pub static CANCEL_CURVE: Command = Command {
-    why_not: &|session, _| session.rigging().curve.running.is_none().then_some("No rigs are being compared"),
+    why_not: &|session, _| session.rigging().curve.running.is_none().then_some(t("No rigs are being compared")),
     run: &|session, _| jobs::cancel(&mut session.rigging.curve.running),
     ..Command::new("rig.curve.cancel", "Stop comparing", "Stop looking for more rigs; those that were found stay")
 };
 
 fn none_shown(session: &Session) -> Option<&'static str> {
     if session.discovery().is_stale() {
-        return Some("What was proposed is for another body or pose: propose again");
+        return Some(t("What was proposed is for another body or pose: propose again"));
     }
-    session.shown_proposal().is_none().then_some("No proposal is shown")
+    session.shown_proposal().is_none().then_some(t("No proposal is shown"))
 }

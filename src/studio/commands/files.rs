@@ -3,6 +3,7 @@
 use super::command::{Command, Group, Keys, Place};
 use crate::studio::action::FileAction;
 use crate::studio::acts;
+use crate::studio::language::t;
 use crate::studio::session::Overlay;
 use eframe::egui::Key;
 
@@ -91,7 +92,7 @@ pub static LOG: Command = Command {
 };
 
 pub static STOP: Command = Command {
-    why_not: &|session, _| (!session.can_stop()).then_some("Nothing is at work that can be stopped"),
+    why_not: &|session, _| (!session.can_stop()).then_some(t("Nothing is at work that can be stopped")),
     run: &|session, _| acts::filing::stop(session),
     ..Command::new("work.stop", "Stop work", "Stop what the window is busy with; nothing of it is kept")
 };

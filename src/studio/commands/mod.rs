@@ -7,6 +7,7 @@ pub mod command;
 pub mod discovery;
 pub mod document;
 pub mod files;
+pub mod languages;
 pub mod layers;
 pub mod looks;
 pub mod motors;
@@ -19,24 +20,26 @@ pub mod view;
 
 pub use command::{Command, Group, Place};
 
+use crate::studio::language::mark;
 use std::sync::LazyLock;
 
 /// The commands by subject, in the order of the page of shortcuts.
 pub static ALL: LazyLock<Vec<(&str, Vec<&Command>)>> = LazyLock::new(|| {
     vec![
-        ("Files", files::ALL.to_vec()),
-        ("Document", document::ALL.to_vec()),
-        ("Posing", posing::ALL.to_vec()),
-        ("Tools", tools::ALL.iter().collect()),
-        ("View", view::ALL.to_vec()),
-        ("Layers", layers::ALL.iter().collect()),
-        ("Looks", looks::ALL.iter().collect()),
-        ("Networks", discovery::ALL.to_vec()),
-        ("Winches and tendons", networks::ALL.to_vec()),
-        ("Animation", animation::ALL.to_vec()),
-        ("Motors", motors::ALL.to_vec()),
-        ("Panels", panels::ALL.iter().collect()),
-        ("Outline", outline::ALL.to_vec()),
+        (mark("Files"), files::ALL.to_vec()),
+        (mark("Document"), document::ALL.to_vec()),
+        (mark("Posing"), posing::ALL.to_vec()),
+        (mark("Tools"), tools::ALL.iter().collect()),
+        (mark("View"), view::ALL.to_vec()),
+        (mark("Layers"), layers::ALL.iter().collect()),
+        (mark("Looks"), looks::ALL.iter().collect()),
+        (mark("Language"), languages::all().collect()),
+        (mark("Networks"), discovery::ALL.to_vec()),
+        (mark("Winches and tendons"), networks::ALL.to_vec()),
+        (mark("Animation"), animation::ALL.to_vec()),
+        (mark("Motors"), motors::ALL.to_vec()),
+        (mark("Panels"), panels::ALL.iter().collect()),
+        (mark("Outline"), outline::ALL.to_vec()),
     ]
 });
 

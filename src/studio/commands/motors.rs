@@ -3,6 +3,7 @@
 use super::command::{Command, Scope};
 use crate::live::Order;
 use crate::studio::acts;
+use crate::studio::language::t;
 use crate::studio::session::Session;
 
 pub static ALL: [&Command; 5] = [&CONNECT, &SET_ZERO, &PLAY, &HOME, &STOP];
@@ -10,8 +11,8 @@ pub static ALL: [&Command; 5] = [&CONNECT, &SET_ZERO, &PLAY, &HOME, &STOP];
 pub static CONNECT: Command = Command {
     scope: Scope::Views,
     why_not: &|session, _| match session.motors().remote.is_some() {
-        true => Some("The line is open; stop first"),
-        false => session.design().networks.is_empty().then_some("The design has no winches yet"),
+        true => Some(t("The line is open; stop first")),
+        false => session.design().networks.is_empty().then_some(t("The design has no winches yet")),
     },
     run: &|session, _| acts::motors::connect(session),
     ..Command::new("motors.connect", "Connect", "Open the line to the motor controllers; no motor moves")
@@ -52,7 +53,7 @@ pub static HOME: Command = Command {
 
 pub static STOP: Command = Command {
     scope: Scope::Views,
-    why_not: &|session, _| session.motors().remote.is_none().then_some("No line to motors is open"),
+    why_not: &|session, _| session.motors().remote.is_none().then_some(t("No line to motors is open")),
     run: &|session, _| acts::motors::stop(session),
     ..Command::new("motors.stop", "Stop motors", "Switch all motors off at once and close the line; Escape does it too")
 };
@@ -60,10 +61,10 @@ pub static STOP: Command = Command {
 fn not_ready(session: &Session) -> Option<&'static str> {
     let motors = session.motors();
     if motors.remote.is_none() {
-        Some("Connect first")
+        Some(t("Connect first"))
     } else if motors.is_stale(session.design()) {
-        Some("The motion has changed since the line was opened: stop, and connect again")
+        Some(t("The motion has changed since the line was opened: stop, and connect again"))
     } else {
-        (!motors.is_ready()).then_some("The motors are busy")
+        (!motors.is_ready()).then_some(t("The motors are busy"))
     }
 }

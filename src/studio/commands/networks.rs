@@ -7,18 +7,19 @@ use crate::studio::acts;
 use crate::studio::canvas::Hit;
 use crate::studio::change::Change;
 use crate::studio::icons::Icon;
+use crate::studio::language::{mark, t};
 use crate::studio::session::Session;
 
 pub static ALL: [&Command; 11] =
     [&ADD_HOLE, &REMOVE_HOLE, &ADD_TENDON, &SPLIT, &REMOVE_TENDON, &REMOVE_WINCH, &MUTE, &SOLO, &UP, &DOWN, &SLACKEN];
 
-const NO_TENDON: &str = "Select a tendon first, or point at one";
+const NO_TENDON: &str = mark("Select a tendon first, or point at one");
 
 pub static ADD_HOLE: Command = Command {
     icon: Some(Icon::Plus),
     scope: Scope::Views,
     places: &[Place::ContextMenu],
-    why_not: &|_, at| (!matches!(at, Hit::Part(Part::Piece(..)))).then_some("Point at a piece of cable first"),
+    why_not: &|_, at| (!matches!(at, Hit::Part(Part::Piece(..)))).then_some(t("Point at a piece of cable first")),
     run: &|session, at| {
         if let Hit::Part(part @ Part::Piece(winch, tendon, piece)) = at
             && let Some(at) = part.place(session.design())
@@ -32,7 +33,7 @@ pub static ADD_HOLE: Command = Command {
 pub static REMOVE_HOLE: Command = Command {
     scope: Scope::Views,
     places: &[Place::ContextMenu],
-    why_not: &|_, at| (!matches!(at, Hit::Part(Part::Hole(..)))).then_some("Select a hole or an end first"),
+    why_not: &|_, at| (!matches!(at, Hit::Part(Part::Hole(..)))).then_some(t("Select a hole or an end first")),
     run: &|session, at| remove(session, at),
     ..Command::new("network.remove-hole", "Remove hole", "Take out the hole or the end that is selected or pointed at")
 };
@@ -40,7 +41,7 @@ pub static REMOVE_HOLE: Command = Command {
 pub static ADD_TENDON: Command = Command {
     scope: Scope::Views,
     places: &[Place::ContextMenu],
-    why_not: &|session, at| new_end(session, at).is_none().then_some("Select a winch first, and point at the body"),
+    why_not: &|session, at| new_end(session, at).is_none().then_some(t("Select a winch first, and point at the body")),
     run: &|session, at| {
         if let Some((winch, end)) = new_end(session, at) {
             change(session, Edit::AddTendon { winch, through: vec![end] });
@@ -53,10 +54,10 @@ pub static SPLIT: Command = Command {
     scope: Scope::Views,
     places: &[Place::ContextMenu],
     why_not: &|session, at| match tendon(at) {
-        None => Some(NO_TENDON),
+        None => Some(t(NO_TENDON)),
         Some((winch, _)) => {
             let alone = session.design().networks.get(winch).is_none_or(|network| network.tendons.len() < 2);
-            alone.then_some("The winch has no other tendon")
+            alone.then_some(t("The winch has no other tendon"))
         }
     },
     run: &|session, at| {
@@ -70,7 +71,7 @@ pub static SPLIT: Command = Command {
 pub static REMOVE_TENDON: Command = Command {
     scope: Scope::Views,
     places: &[Place::ContextMenu],
-    why_not: &|_, at| tendon(at).is_none().then_some(NO_TENDON),
+    why_not: &|_, at| tendon(at).is_none().then_some(t(NO_TENDON)),
     run: &|session, at| {
         if let Some((winch, tendon)) = tendon(at) {
             change(session, Edit::Remove(Part::Tendon(winch, tendon)));
@@ -83,7 +84,7 @@ pub static REMOVE_WINCH: Command = Command {
     icon: Some(Icon::Trash),
     scope: Scope::Views,
     places: &[Place::ContextMenu],
-    why_not: &|_, at| (!matches!(at, Hit::Part(Part::Winch(_)))).then_some("Select a winch first"),
+    why_not: &|_, at| (!matches!(at, Hit::Part(Part::Winch(_)))).then_some(t("Select a winch first")),
     run: &|session, at| remove(session, at),
     ..Command::new(
         "network.remove",
@@ -97,7 +98,7 @@ pub static MUTE: Command = Command {
     places: &[Place::ContextMenu],
     on: Some(&|session| selected(session).is_some_and(|winch| session.design().networks[winch].muted)),
     face_on: Some((Icon::Check, "Switch on", "Let the winch pull again")),
-    why_not: &|session, at| network(session, at).is_none().then_some(NO_WINCH),
+    why_not: &|session, at| network(session, at).is_none().then_some(t(NO_WINCH)),
     run: &|session, at| {
         if let Some(winch) = network(session, at) {
             let muted = !session.design().networks[winch].muted;
@@ -117,7 +118,7 @@ pub static SOLO: Command = Command {
         let name = selected(session).map(|winch| session.design().networks[winch].name.as_str());
         name.is_some() && session.solo().name() == name
     }),
-    why_not: &|session, at| (network(session, at).is_none() && session.solo().name().is_none()).then_some(NO_WINCH),
+    why_not: &|session, at| (network(session, at).is_none() && session.solo().name().is_none()).then_some(t(NO_WINCH)),
     run: &|session, at| {
         let name = network(session, at).map(|winch| session.design().networks[winch].name.clone());
         session.solo.toggle(name);
@@ -132,8 +133,8 @@ pub static SOLO: Command = Command {
 pub static UP: Command = Command {
     scope: Scope::Views,
     why_not: &|session, at| match network(session, at) {
-        None => Some(NO_WINCH),
-        Some(0) => Some("It is the first one"),
+        None => Some(t(NO_WINCH)),
+        Some(0) => Some(t("It is the first one")),
         Some(_) => None,
     },
     run: &|session, at| {
@@ -147,8 +148,8 @@ pub static UP: Command = Command {
 pub static DOWN: Command = Command {
     scope: Scope::Views,
     why_not: &|session, at| match network(session, at) {
-        None => Some(NO_WINCH),
-        Some(winch) => (winch + 1 >= session.design().networks.len()).then_some("It is the last one"),
+        None => Some(t(NO_WINCH)),
+        Some(winch) => (winch + 1 >= session.design().networks.len()).then_some(t("It is the last one")),
     },
     run: &|session, at| {
         if let Some(winch) = network(session, at) {
@@ -160,12 +161,12 @@ pub static DOWN: Command = Command {
 
 pub static SLACKEN: Command = Command {
     scope: Scope::Views,
-    why_not: &|session, _| session.design().networks.is_empty().then_some("There are no winches"),
+    why_not: &|session, _| session.design().networks.is_empty().then_some(t("There are no winches")),
     run: &|session, _| acts::wind::slacken(session),
     ..Command::new("network.slacken", "All slack", "Wind nothing, by hand")
 };
 
-const NO_WINCH: &str = "Select a winch first";
+const NO_WINCH: &str = mark("Select a winch first");
 
 /// The network that is selected.
 fn selected(session: &Session) -> Option<usize> {

@@ -7,6 +7,7 @@ use crate::studio::action::Sketch;
 use crate::studio::acts;
 use crate::studio::change::Change;
 use crate::studio::icons::Icon;
+use crate::studio::language::{mark, t};
 use crate::studio::session::Session;
 use eframe::egui::Key;
 
@@ -37,7 +38,7 @@ pub static CUT: Command = Command {
 pub static CORNER: Command = Command {
     keys: &[Keys::plain(Key::K)],
     scope: Scope::Outline,
-    why_not: &|session, _| sharpened(session).is_none().then_some("Pick out a point of a path first"),
+    why_not: &|session, _| sharpened(session).is_none().then_some(t("Pick out a point of a path first")),
     run: &|session, _| {
         if let Some(change) = sharpened(session) {
             acts::edit::change(session, change);
@@ -50,7 +51,7 @@ pub static DELETE: Command = Command {
     icon: Some(Icon::Trash),
     keys: &[Keys::plain(Key::Delete), Keys::plain(Key::Backspace)],
     scope: Scope::Outline,
-    why_not: &|session, _| session.sketching().item.is_none().then_some("Pick out a part, a track or a point first"),
+    why_not: &|session, _| session.sketching().item.is_none().then_some(t("Pick out a part, a track or a point first")),
     run: &|session, _| acts::sheet::delete_drawn(session),
     ..Command::new(
         "outline.delete",
@@ -61,11 +62,11 @@ pub static DELETE: Command = Command {
 
 pub static TRACE: Command = Command {
     scope: Scope::Outline,
-    why_not: &|session, _| session.design().drawing.is_none().then_some("The present body is what is drawn"),
+    why_not: &|session, _| session.design().drawing.is_none().then_some(t("The present body is what is drawn")),
     run: &|session, _| {
         let tracks = session.drawing().tracks.clone();
         let drawing = Drawing { tracks, ..Drawing::of(&session.design().outline) };
-        acts::edit::change(session, Change::Draw { what: "Trace the body", drawing });
+        acts::edit::change(session, Change::Draw { what: mark("Trace the body"), drawing });
     },
     ..Command::new(
         "outline.trace",
@@ -77,7 +78,7 @@ pub static TRACE: Command = Command {
 pub static MAKE_BODY: Command = Command {
     scope: Scope::Outline,
     ends_drawing: true,
-    why_not: &|session, _| session.meshing().running.is_some().then_some("A body is being made"),
+    why_not: &|session, _| session.meshing().running.is_some().then_some(t("A body is being made")),
     run: &|session, _| acts::sheet::sketch(session, Sketch::MakeBody),
     ..Command::new(
         "outline.body",
@@ -103,6 +104,6 @@ fn sharpened(session: &Session) -> Option<Change> {
     let Primitive::Path { points } = &*primitive else { return None };
     let corner = !points.get(point)?.corner;
     *primitive = primitive.with_corner(point, corner);
-    let what = if corner { "Sharpen point" } else { "Round point" };
+    let what = if corner { mark("Sharpen point") } else { mark("Round point") };
     Some(Change::Draw { what, drawing })
 }

@@ -8,6 +8,7 @@ use crate::outline::polygon;
 use crate::studio::acts;
 use crate::studio::canvas::Hit;
 use crate::studio::change::Change;
+use crate::studio::language::{mark, t};
 use crate::studio::session::{Selection, Session};
 use eframe::egui::Key;
 
@@ -32,14 +33,14 @@ pub static BEGIN: Command = Command {
     ..Command::new("pose.begin", "Pins and a first pose", "Hold the middle of the body, and let its tip wave")
 };
 
-const NO_AXIS: &str = "The outline of this plushie is not its own mirror image";
-const NO_PIN: &str = "Select a pin first, or point at one";
+const NO_AXIS: &str = mark("The outline of this plushie is not its own mirror image");
+const NO_PIN: &str = mark("Select a pin first, or point at one");
 
 pub static SYMMETRIC: Command = Command {
     keys: &[Keys::shift(Key::M)],
     scope: Scope::Views,
     on: Some(&|session| session.posing.symmetric),
-    why_not: &|session, _| session.posing.axis().is_none().then_some(NO_AXIS),
+    why_not: &|session, _| session.posing.axis().is_none().then_some(t(NO_AXIS)),
     run: &|session, _| session.posing.symmetric = !session.posing.symmetric,
     ..Command::new("pose.symmetric", "Symmetric", "What is dragged is dragged on the other side of the body's axis too")
 };
@@ -60,8 +61,8 @@ pub static MIRROR: Command = Command {
     scope: Scope::Views,
     places: &[Place::ContextMenu],
     why_not: &|session, at| match (session.posing.axis(), chosen(session, at).is_empty()) {
-        (None, _) => Some(NO_AXIS),
-        (_, true) => Some("Select targets or pins first"),
+        (None, _) => Some(t(NO_AXIS)),
+        (_, true) => Some(t("Select targets or pins first")),
         _ => None,
     },
     run: &|session, at| {
@@ -80,8 +81,8 @@ pub static MIRROR: Command = Command {
 pub static MIRROR_POSE: Command = Command {
     scope: Scope::Views,
     why_not: &|session, _| match (session.posing.axis(), session.pose()) {
-        (None, _) => Some(NO_AXIS),
-        (_, None) => Some("Choose a pose first"),
+        (None, _) => Some(t(NO_AXIS)),
+        (_, None) => Some(t("Choose a pose first")),
         _ => None,
     },
     run: &|session, _| {
@@ -97,7 +98,7 @@ pub static MIRROR_POSE: Command = Command {
 pub static SELECT_ALL: Command = Command {
     keys: &[Keys::ctrl(Key::A)],
     scope: Scope::Views,
-    why_not: &|session, _| all(session).is_empty().then_some("There are no targets and pins"),
+    why_not: &|session, _| all(session).is_empty().then_some(t("There are no targets and pins")),
     run: &|session, _| {
         let handles = all(session);
         acts::edit::gather(session, handles);
@@ -140,8 +141,8 @@ pub static PIN_HOME: Command = Command {
     scope: Scope::Views,
     places: &[Place::ContextMenu],
     why_not: &|session, at| match pin(session, at) {
-        None => Some(NO_PIN),
-        Some((_, pin)) => pin.position.is_none().then_some("The pin is where the body is at rest"),
+        None => Some(t(NO_PIN)),
+        Some((_, pin)) => pin.position.is_none().then_some(t("The pin is where the body is at rest")),
     },
     run: &|session, at| {
         if let Some((index, _)) = pin(session, at) {
@@ -153,7 +154,7 @@ pub static PIN_HOME: Command = Command {
 
 pub static CLEAR_STARCH: Command = Command {
     scope: Scope::Views,
-    why_not: &|session, _| session.design().stiffness_map.is_none().then_some("Nothing is starched"),
+    why_not: &|session, _| session.design().stiffness_map.is_none().then_some(t("Nothing is starched")),
     run: &|session, _| acts::edit::change(session, Change::ClearStarch),
     ..Command::new("starch.clear", "Clear starch", "Make all of the body as stiff as its material again")
 };
@@ -202,8 +203,8 @@ fn pin(session: &Session, at: Hit) -> Option<(usize, Pin)> {
 
 fn kind_refused(session: &Session, at: Hit, is: fn(&Hold) -> bool) -> Option<&'static str> {
     match pin(session, at) {
-        None => Some(NO_PIN),
-        Some((_, pin)) => is(&pin.hold).then_some("The pin is of that kind"),
+        None => Some(t(NO_PIN)),
+        Some((_, pin)) => is(&pin.hold).then_some(t("The pin is of that kind")),
     }
 }
 

@@ -5,6 +5,7 @@ use crate::picture::palette::Theme;
 use crate::studio::acts::frame;
 use crate::studio::canvas::Plushie;
 use crate::studio::icons::Icon;
+use crate::studio::language::t;
 use crate::studio::session::Views;
 use eframe::egui::Key;
 
@@ -109,7 +110,7 @@ pub static ONION: Command = Command {
     places: &[Place::ViewMenu],
     on: Some(&|session| session.look.onion.on),
     why_not: &|session, _| {
-        session.design().keyframes.is_empty().then_some("There are no keyframes whose neighbours could be shown")
+        session.design().keyframes.is_empty().then_some(t("There are no keyframes whose neighbours could be shown"))
     },
     run: &|session, _| session.look.onion.on = !session.look.onion.on,
     ..Command::new(

@@ -3,23 +3,24 @@
 use crate::engine::Quality;
 use crate::studio::action::{Action, Actions};
 use crate::studio::commands::view::QUALITY;
+use crate::studio::language::{t, tf};
 use crate::studio::session::Session;
 use eframe::egui::{Button, ComboBox, RichText, Ui, vec2};
 
 pub fn name(quality: Quality) -> &'static str {
     match quality {
-        Quality::Draft => "Draft",
-        Quality::Balanced => "Balanced",
-        Quality::Accurate => "Accurate",
+        Quality::Draft => t("Draft"),
+        Quality::Balanced => t("Balanced"),
+        Quality::Accurate => t("Accurate"),
     }
 }
 
 /// What it costs and what it does.
 fn explain(quality: Quality) -> &'static str {
     match quality {
-        Quality::Draft => "a part of the work of Balanced; least delay, trails fast moves",
-        Quality::Balanced => "a bounded amount of work a frame; follows the hand",
-        Quality::Accurate => "until nothing moves any more; large bodies may jerk",
+        Quality::Draft => t("a part of the work of Balanced; least delay, trails fast moves"),
+        Quality::Balanced => t("a bounded amount of work a frame; follows the hand"),
+        Quality::Accurate => t("until nothing moves any more; large bodies may jerk"),
     }
 }
 
@@ -29,7 +30,7 @@ const WIDTH: f32 = 400.0;
 /// The selector, for the toolbar.
 pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     let mut quality = session.solver.quality;
-    let label = ui.label(RichText::new("Quality").weak());
+    let label = ui.label(RichText::new(t("Quality")).weak());
     ui.add_space(3.0);
     let combo = ComboBox::from_id_salt("quality").selected_text(name(quality)).width(84.0).show_ui(ui, |ui| {
         for choice in Quality::ALL {
@@ -41,11 +42,11 @@ pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
         }
     });
     let choices = Quality::ALL.map(|choice| format!("{}: {}", name(choice), explain(choice)));
-    let tip = format!(
-        "Quality: how much work a frame may take while the hand moves ({} for the next)\n\n{}\n\nWhen the hand rests, the \
+    let tip = tf!(
+        "Quality: how much work a frame may take while the hand moves ({keys} for the next)\n\n{choices}\n\nWhen the hand rests, the \
          shape is refined to equilibrium with any of them.",
-        QUALITY.keys_text(),
-        choices.join("\n")
+        keys = QUALITY.keys_text(),
+        choices = choices.join("\n")
     );
     combo.response.labelled_by(label.id).on_hover_text(tip);
     if quality != session.solver.quality {

@@ -3,21 +3,22 @@
 use crate::fabrication::piece::Corners;
 use crate::fabrication::{Cutter, Topic};
 use crate::operations::export;
+use crate::studio::language::{mark, t};
 use eframe::egui::{DragValue, Ui};
 
 /// The parts of a blueprint, their names and what is in them.
 const PARTS: [(Topic, &str, &str); 6] = [
-    (Topic::Laser, "Patterns to cut", "SVG and DXF for machines, and the body as it is when it is stuffed"),
-    (Topic::Print, "Patterns to print", "PDF at their size, and on A4 and Letter pages"),
-    (Topic::Routing, "Routing", "The ways of the threads, front and back"),
-    (Topic::Winches, "Winches", "Spools and housings to print, and which motors fit"),
-    (Topic::Motors, "Motors", "Tracks and programs for controllers"),
-    (Topic::Guide, "Assembly guide", "Parts list, steps and pictures"),
+    (Topic::Laser, mark("Patterns to cut"), mark("SVG and DXF for machines, and the body as it is when it is stuffed")),
+    (Topic::Print, mark("Patterns to print"), mark("PDF at their size, and on A4 and Letter pages")),
+    (Topic::Routing, mark("Routing"), mark("The ways of the threads, front and back")),
+    (Topic::Winches, mark("Winches"), mark("Spools and housings to print, and which motors fit")),
+    (Topic::Motors, mark("Motors"), mark("Tracks and programs for controllers")),
+    (Topic::Guide, mark("Assembly guide"), mark("Parts list, steps and pictures")),
 ];
 const CUTTERS: [(Cutter, &str, &str); 3] = [
-    (Cutter::Laser, "Laser", "Red hairlines are cut, blue ones are stitches, green ones are marks"),
-    (Cutter::Lightburn, "LightBurn", "The colours of LightBurn's first layers"),
-    (Cutter::Plotter, "Plotter", "Black hairlines are cut by a blade"),
+    (Cutter::Laser, mark("Laser"), mark("Red hairlines are cut, blue ones are stitches, green ones are marks")),
+    (Cutter::Lightburn, mark("LightBurn"), mark("The colours of LightBurn's first layers")),
+    (Cutter::Plotter, mark("Plotter"), mark("Black hairlines are cut by a blade")),
 ];
 /// Smallest and largest sides of sheets, and kerfs, mm.
 const SHEET_MM: [f64; 2] = [150.0, 10_000.0];
@@ -25,36 +26,36 @@ const KERF_MM: [f64; 2] = [0.0, 5.0];
 
 /// Asks for the parts and sheets of a blueprint.
 pub(super) fn parts_and_sheets(ui: &mut Ui, options: &mut export::Options) {
-    ui.checkbox(&mut options.compensate, "Compensate for stuffing")
-        .on_hover_text("Widen the pattern so that the stuffed body is as drawn, where that can be done");
-    ui.collapsing("Parts and sheets", |ui| {
-        ui.label("Write these parts");
+    ui.checkbox(&mut options.compensate, t("Compensate for stuffing"))
+        .on_hover_text(t("Widen the pattern so that the stuffed body is as drawn, where that can be done"));
+    ui.collapsing(t("Parts and sheets"), |ui| {
+        ui.label(t("Write these parts"));
         for (topic, label, tip) in PARTS {
             let mut wanted = options.only.has(topic);
-            ui.checkbox(&mut wanted, label).on_hover_text(tip);
+            ui.checkbox(&mut wanted, t(label)).on_hover_text(t(tip));
             options.only.set(topic, wanted);
         }
         ui.horizontal(|ui| {
-            ui.label("Cutter");
+            ui.label(t("Cutter"));
             for (cutter, label, tip) in CUTTERS {
-                ui.radio_value(&mut options.cutter, cutter, label).on_hover_text(tip);
+                ui.radio_value(&mut options.cutter, cutter, t(label)).on_hover_text(t(tip));
             }
         });
         ui.horizontal(|ui| {
             let [width, height] = &mut options.sheet.size_mm;
-            figure(ui, "Sheet width", width, SHEET_MM, "Sheets that the machine cuts");
-            figure(ui, "Sheet height", height, SHEET_MM, "Sheets that the machine cuts");
+            figure(ui, t("Sheet width"), width, SHEET_MM, t("Sheets that the machine cuts"));
+            figure(ui, t("Sheet height"), height, SHEET_MM, t("Sheets that the machine cuts"));
             figure(
                 ui,
-                "Kerf",
+                t("Kerf"),
                 &mut options.cutting.kerf_mm,
                 KERF_MM,
-                "Width that the machine burns away; lines move by half of it",
+                t("Width that the machine burns away; lines move by half of it"),
             );
         });
         let mut mitred = options.cutting.corners == Corners::Mitred;
-        ui.checkbox(&mut mitred, "Mitred corners")
-            .on_hover_text("Points at the corners of the allowance, as a ruler draws them");
+        ui.checkbox(&mut mitred, t("Mitred corners"))
+            .on_hover_text(t("Points at the corners of the allowance, as a ruler draws them"));
         options.cutting.corners = if mitred { Corners::Mitred } else { Corners::Round };
     });
 }

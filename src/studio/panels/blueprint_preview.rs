@@ -7,6 +7,7 @@ use crate::picture::preview::Preview;
 use crate::picture::sheet;
 use crate::studio::action::{Action, Actions, FileAction};
 use crate::studio::jobs::Told;
+use crate::studio::language::{mark, t, tf};
 use crate::studio::pictures::Pictures;
 use crate::studio::session::{Done, Session, Task};
 use crate::studio::words;
@@ -51,7 +52,7 @@ const HEIGHT: f32 = 250.0;
 /// Height of the remarks, logical pixels: others are scrolled to.
 const REMARKS: f32 = 120.0;
 /// What the button beside a remark does.
-const SHOW: &str = "Close this, and look at the place on the body";
+const SHOW: &str = mark("Close this, and look at the place on the body");
 /// Lines of a table or a program that are shown, and files of each kind.
 const LINES: usize = 40;
 const FILES: usize = 24;
@@ -69,14 +70,18 @@ pub fn show(ui: &mut Ui, session: &Session, options: &export::Options, state: &m
     if running && state.asked.as_ref().is_some_and(|(of, asked)| is(of, asked)) {
         ui.horizontal(|ui| {
             ui.add(Spinner::new());
-            let at = state.done.get().map_or_else(String::new, |[done, of]| format!(", part {} of {of}", done + 1));
-            ui.label(format!("Making the preview{at}"));
-            if ui.button("Cancel preview").on_hover_text("Stop making it").clicked() {
+            let at = state
+                .done
+                .get()
+                .map_or_else(String::new, |[done, of]| tf!(", part {number} of {of}", number = done + 1, of));
+            ui.label(tf!("Making the preview{at}", at));
+            if ui.button(t("Cancel preview")).on_hover_text(t("Stop making it")).clicked() {
                 state.asked = None;
                 actions.push(Action::Stop(OWNER));
             }
         });
-    } else if ui.button("Preview").on_hover_text("Sheets as they will be cut, motor files and remarks").clicked() {
+    } else if ui.button(t("Preview")).on_hover_text(t("Sheets as they will be cut, motor files and remarks")).clicked()
+    {
         state.page = 0;
         (state.asked, state.done) = (Some((design.clone(), options.clone())), Done::default());
         let (of, options, done, wake) = (design.clone(), options.clone(), state.done.clone(), session.jobs.wake());
@@ -88,7 +93,7 @@ pub fn show(ui: &mut Ui, session: &Session, options: &export::Options, state: &m
             };
             Arc::new(made_of(&of, &options, cancel, &mut watch))
         });
-        actions.push(Action::Start(Task { owner: OWNER, name: "The preview of the blueprint", work }));
+        actions.push(Action::Start(Task { owner: OWNER, name: mark("The preview of the blueprint"), work }));
     }
 }
 
@@ -103,20 +108,20 @@ fn pages(ui: &mut Ui, made: &Made, state: &mut State, actions: &mut Actions) {
     let last = pages.len().saturating_sub(1);
     state.page = state.page.min(last);
     ui.horizontal(|ui| {
-        if ui.add_enabled(state.page > 0, Button::new("Back")).clicked() {
+        if ui.add_enabled(state.page > 0, Button::new(t("Back"))).clicked() {
             state.page -= 1;
         }
-        if ui.add_enabled(state.page < last, Button::new("Next page")).clicked() {
+        if ui.add_enabled(state.page < last, Button::new(t("Next page"))).clicked() {
             state.page += 1;
         }
         let name = pages.get(state.page).map_or("", |page| &page.name);
-        ui.label(format!("{} of {}: {name}", state.page + 1, pages.len()));
+        ui.label(tf!("{page} of {pages}: {name}", page = state.page + 1, pages = pages.len(), name));
     });
     let size = vec2(ui.available_width(), HEIGHT);
     match pages.get(state.page).map(|page| &page.content) {
         Some(Content::Sheet(picture)) => {
             let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
-            response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Sheet"));
+            response.widget_info(|| WidgetInfo::labeled(Role::Image, true, t("Sheet")));
             state.pictures.paint(ui, picture, rect);
         }
         Some(Content::Text(text)) => {
@@ -137,7 +142,7 @@ fn remarks(ui: &mut Ui, made: &Made, actions: &mut Actions) {
         for remark in &made.remarks {
             ui.horizontal_top(|ui| {
                 let words = RichText::new(&remark.text).small();
-                if !remark.places.is_empty() && ui.small_button("Show me").on_hover_text(SHOW).clicked() {
+                if !remark.places.is_empty() && ui.small_button(t("Show me")).on_hover_text(t(SHOW)).clicked() {
                     actions.push(Action::File(FileAction::CloseDialog));
                     actions.push(Action::ShowPlaces(remark.places.clone()));
                 }

@@ -6,6 +6,7 @@ use crate::studio::canvas::Hit;
 use crate::studio::commands::command::Command;
 use crate::studio::commands::document::CANCEL_MESHING;
 use crate::studio::icons;
+use crate::studio::language::t;
 use crate::studio::session::Session;
 use eframe::egui::{Button, Response, RichText, Spinner, Ui};
 
@@ -76,7 +77,7 @@ pub fn ticked(ui: &mut Ui, session: &Session, command: &'static Command, at: Hit
     let button = Button::selectable(command.is_on(session), command.label(session));
     let button = button.shortcut_text(RichText::new(keys).weak());
     let response = ui.add_enabled(refused.is_none(), button).accessible_name(command.label(session));
-    let why = command.hint(refused.unwrap_or(command.tip));
+    let why = command.hint(refused.unwrap_or(t(command.tip)));
     if response.on_hover_text(command.tip(session)).on_disabled_hover_text(why).clicked() {
         actions.push(Action::Run(command, at));
         ui.close();
@@ -94,7 +95,7 @@ fn square(ui: &mut Ui, session: &Session, command: &'static Command, side: f32, 
 pub fn meshing(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     ui.horizontal(|ui| {
         ui.add(Spinner::new());
-        ui.label("Meshing");
+        ui.label(t("Meshing"));
         text(ui, session, &CANCEL_MESHING, actions);
     });
 }
@@ -111,7 +112,7 @@ fn show(
     let refused = command.refused(session, at);
     // Only where it must be: what is in a part of its own does not go to the next line with the rest.
     let response = if refused.is_none() { add(ui) } else { ui.add_enabled_ui(false, add).inner };
-    let why = command.hint(refused.unwrap_or(command.tip));
+    let why = command.hint(refused.unwrap_or(t(command.tip)));
     if response.on_hover_text(command.tip(session)).on_disabled_hover_text(why).clicked() {
         actions.push(Action::Run(command, at));
     }

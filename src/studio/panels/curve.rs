@@ -6,6 +6,7 @@ use crate::operations::explore::Point;
 use crate::picture::palette::Palette;
 use crate::studio::action::{Action, Actions};
 use crate::studio::commands::discovery::{CANCEL_CURVE, CURVE};
+use crate::studio::language::{t, tf, tn};
 use crate::studio::session::{Curve, Session};
 use crate::studio::style;
 use eframe::egui::{
@@ -24,7 +25,11 @@ pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
         Some(running) => {
             ui.horizontal(|ui| {
                 ui.add(Spinner::new());
-                ui.label(format!("{} s, {} rigs", running.started.elapsed().as_secs(), curve.points.len()));
+                ui.label(tf!(
+                    "{seconds} s, {rigs} rigs",
+                    seconds = running.started.elapsed().as_secs(),
+                    rigs = curve.points.len()
+                ));
                 buttons::text(ui, session, &CANCEL_CURVE, actions);
             });
             ui.ctx().request_repaint_after(std::time::Duration::from_millis(200));
@@ -38,8 +43,10 @@ pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
         return;
     }
     let words = match curve.stale {
-        true => RichText::new("Found for another body: none of these can be taken").color(ui.visuals().warn_fg_color),
-        false => RichText::new("Worst pose, % of its error at rest. Click to take a rig").weak(),
+        true => {
+            RichText::new(t("Found for another body: none of these can be taken")).color(ui.visuals().warn_fg_color)
+        }
+        false => RichText::new(t("Worst pose, % of its error at rest. Click to take a rig")).weak(),
     };
     ui.label(words.small());
     ui.add_enabled_ui(!curve.stale, |ui| chart(ui, session, curve, actions));
@@ -93,7 +100,7 @@ fn axes(ui: &Ui, rect: Rect, tendons: [usize; 2], worst: f64) {
     text(rect.left_top() - vec2(4.0, 0.0), Align2::RIGHT_CENTER, format!("{:.0}", 100.0 * worst));
     text(rect.left_bottom() - vec2(4.0, 0.0), Align2::RIGHT_CENTER, "0".to_owned());
     text(rect.left_bottom() + vec2(0.0, 3.0), Align2::LEFT_TOP, tendons[0].to_string());
-    text(rect.center_bottom() + vec2(0.0, 3.0), Align2::CENTER_TOP, "tendons of each winch".to_owned());
+    text(rect.center_bottom() + vec2(0.0, 3.0), Align2::CENTER_TOP, t("tendons of each winch").to_owned());
     if tendons[1] > tendons[0] {
         text(rect.right_bottom() + vec2(0.0, 3.0), Align2::RIGHT_TOP, tendons[1].to_string());
     }
@@ -102,16 +109,29 @@ fn axes(ui: &Ui, rect: Rect, tendons: [usize; 2], worst: f64) {
 /// What a reader of the screen says.
 fn name(point: &Point) -> String {
     let Point { winches, tendons, .. } = point;
-    format!("Take up to {winches} winch{} of {tendons}", if *winches == 1 { "" } else { "es" })
+    tn!(
+        winches = *winches,
+        "Take up to {winches} winch of {tendons}",
+        "Take up to {winches} winches of {tendons}",
+        tendons
+    )
 }
 
 fn details(point: &Point) -> String {
     let Point { takes: [winches, tendons], holes, thread_mm, worst, poses, .. } = point;
     let mut lines = vec![
         name(point),
-        format!("{winches} winches, {tendons} tendons, {holes} holes, {thread_mm:.0} mm of cable"),
-        format!("Worst pose {:.1} % of its error at rest", 100.0 * worst),
+        tf!(
+            "{winches} winches, {tendons} tendons, {holes} holes, {thread_mm:.0} mm of cable",
+            winches,
+            tendons,
+            holes,
+            thread_mm
+        ),
+        tf!("Worst pose {percent:.1} % of its error at rest", percent = 100.0 * worst),
     ];
-    lines.extend(poses.iter().map(|p| format!("{}: {:.1} % to {:.1} %", p.name, 100.0 * p.rest, 100.0 * p.error)));
+    lines.extend(poses.iter().map(|p| {
+        tf!("{name}: {before:.1} % to {after:.1} %", name = p.name, before = 100.0 * p.rest, after = 100.0 * p.error)
+    }));
     lines.join("\n")
 }

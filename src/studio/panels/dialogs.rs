@@ -9,6 +9,7 @@ use crate::motion::{TooFast, families};
 use crate::operations::export;
 use crate::studio::action::{Action, Actions, FileAction};
 use crate::studio::keeper::Abandoned;
+use crate::studio::language::{t, tf, tn};
 use crate::studio::session::Session;
 use crate::studio::session::{Dialog, PathDialog, Purpose, Why};
 use crate::studio::words;
@@ -55,17 +56,17 @@ fn kind(dialog: &Dialog) -> u8 {
 }
 
 fn unsaved(ui: &mut Ui, session: &Session, actions: &mut Actions) {
-    ui.heading(format!("Save changes to “{}”?", session.design().name));
-    ui.label("Without saving they are lost.");
+    ui.heading(tf!("Save changes to “{name}”?", name = session.design().name));
+    ui.label(t("Without saving they are lost."));
     ui.add_space(10.0);
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-        if primary(ui, true, "Save changes", 120.0).clicked() {
+        if primary(ui, true, t("Save changes"), 120.0).clicked() {
             actions.push(Action::File(FileAction::SaveAndGoOn));
         }
-        if ui.button("Discard changes").clicked() {
+        if ui.button(t("Discard changes")).clicked() {
             actions.push(Action::File(FileAction::DiscardAndGoOn));
         }
-        if ui.button("Cancel").clicked() {
+        if ui.button(t("Cancel")).clicked() {
             actions.push(Action::File(FileAction::CloseDialog));
         }
     });
@@ -75,25 +76,27 @@ fn replace(ui: &mut Ui, path: &Path, why: Why, actions: &mut Actions) {
     let name = shown(path.file_name().map_or(path, Path::new));
     let (heading, text) = match why {
         Why::Exists => {
-            (format!("Replace “{name}”?"), "Another plushie has that name. What is in its file is lost then.")
+            (tf!("Replace “{name}”?", name), t("Another plushie has that name. What is in its file is lost then."))
         }
-        Why::Foreign => (format!("Replace “{name}”?"), "That file is no plushie. What is in it is lost then."),
+        Why::Foreign => (tf!("Replace “{name}”?", name), t("That file is no plushie. What is in it is lost then.")),
         Why::Changed => (
-            format!("“{name}” was changed by another program"),
-            "It is not what was opened here any more. Replacing it loses those changes; saving under another name keeps both.",
+            tf!("“{name}” was changed by another program", name),
+            t(
+                "It is not what was opened here any more. Replacing it loses those changes; saving under another name keeps both.",
+            ),
         ),
     };
     ui.heading(heading);
     ui.label(text);
     ui.add_space(10.0);
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-        if primary(ui, true, "Save under another name", 180.0).clicked() {
+        if primary(ui, true, t("Save under another name"), 180.0).clicked() {
             actions.push(Action::File(FileAction::SaveAs));
         }
-        if ui.button("Replace it").clicked() {
+        if ui.button(t("Replace it")).clicked() {
             actions.push(Action::File(FileAction::ReplacePath(path.to_owned())));
         }
-        if ui.button("Cancel").clicked() {
+        if ui.button(t("Cancel")).clicked() {
             actions.push(Action::File(FileAction::CloseDialog));
         }
     });
@@ -101,17 +104,17 @@ fn replace(ui: &mut Ui, path: &Path, why: Why, actions: &mut Actions) {
 
 fn recover(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     let Some(work) = session.offered() else { return };
-    ui.heading(format!("Recover “{}”?", work.design.name));
+    ui.heading(tf!("Recover “{name}”?", name = work.design.name));
     ui.label(left_behind(work));
     ui.add_space(10.0);
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-        if primary(ui, true, "Recover", 100.0).clicked() {
+        if primary(ui, true, t("Recover"), 100.0).clicked() {
             actions.push(Action::File(FileAction::Recover));
         }
-        if ui.button("Discard it").clicked() {
+        if ui.button(t("Discard it")).clicked() {
             actions.push(Action::File(FileAction::DiscardWork));
         }
-        if ui.button("Not now").clicked() {
+        if ui.button(t("Not now")).clicked() {
             actions.push(Action::File(FileAction::RecoverLater));
         }
     });
@@ -122,23 +125,22 @@ pub(super) fn left_behind(work: &Abandoned) -> String {
     let ago = work
         .at
         .elapsed()
-        .map_or_else(|_| String::new(), |ago| format!(" It was changed {} ago.", spoken(ago.as_secs())));
+        .map_or_else(|_| String::new(), |ago| tf!(" It was changed {ago} ago.", ago = spoken(ago.as_secs())));
     let from = work.facts.path.as_deref().map_or_else(
-        || "It has no file yet.".to_owned(),
-        |path| format!("It belongs to {}, which is as it was.", shown(path)),
+        || t("It has no file yet.").to_owned(),
+        |path| tf!("It belongs to {path}, which is as it was.", path = shown(path)),
     );
-    format!("Plushwright ended before this plushie was saved.{ago} {from}")
+    tf!("Plushwright ended before this plushie was saved.{ago} {from}", ago, from)
 }
 
 /// How long something took, in the largest unit that fits.
 fn spoken(seconds: u64) -> String {
-    let (count, unit) = match seconds {
-        0..=119 => (seconds, "second"),
-        120..=7199 => (seconds / 60, "minute"),
-        7200..=172_799 => (seconds / 3600, "hour"),
-        _ => (seconds / 86_400, "day"),
-    };
-    format!("{count} {unit}{}", if count == 1 { "" } else { "s" })
+    match seconds {
+        0..=119 => tn!(count = seconds, "{count} second", "{count} seconds"),
+        120..=7199 => tn!(count = seconds / 60, "{count} minute", "{count} minutes"),
+        7200..=172_799 => tn!(count = seconds / 3600, "{count} hour", "{count} hours"),
+        _ => tn!(count = seconds / 86_400, "{count} day", "{count} days"),
+    }
 }
 
 fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, state: &mut State, actions: &mut Actions) {
@@ -149,18 +151,18 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, state: &mut State, 
     ui.horizontal(|ui| {
         let width = ui.available_width() - if session.files.native_dialogs { 84.0 } else { 0.0 };
         let hint = match dialog.purpose {
-            Purpose::Open | Purpose::SaveAs => "Path of a .plush file",
-            Purpose::Import => "Path of a drawing (SVG, PDF, DXF), picture, flat mesh or drawing of parts",
-            Purpose::Export => "Path of a new folder",
-            Purpose::Film => "Path of a new *.gif, *.html or folder",
+            Purpose::Open | Purpose::SaveAs => t("Path of a .plush file"),
+            Purpose::Import => t("Path of a drawing (SVG, PDF, DXF), picture, flat mesh or drawing of parts"),
+            Purpose::Export => t("Path of a new folder"),
+            Purpose::Film => t("Path of a new *.gif, *.html or folder"),
         };
         let field = ui.add(TextEdit::singleline(&mut edited.path).hint_text(hint).desired_width(width));
-        let field = field.accessible_name("Path");
+        let field = field.accessible_name(t("Path"));
         confirmed = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
         if ui.memory(|m| m.focused().is_none()) {
             field.request_focus();
         }
-        if session.files.native_dialogs && ui.button("Browse…").clicked() {
+        if session.files.native_dialogs && ui.button(t("Browse…")).clicked() {
             actions.push(Action::File(FileAction::Browse));
         }
     });
@@ -179,12 +181,12 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, state: &mut State, 
     let is_wrong = !is_known && !path.is_dir() && !path.as_os_str().is_empty();
     let note = match dialog.purpose {
         Purpose::Export => {
-            "Patterns, routings, winches, programs for motors and a guide. The folder appears whole or not at all."
+            t("Patterns, routings, winches, programs for motors and a guide. The folder appears whole or not at all.")
         }
-        Purpose::SaveAs if path.is_file() && session.document.path.as_deref() != Some(path) => "This file exists.",
-        Purpose::Open | Purpose::Import if is_wrong => "There is no such file.",
-        Purpose::Film if path.is_file() => "This file exists and is replaced.",
-        Purpose::Import => "The filled shapes of the drawing are joined to one silhouette.",
+        Purpose::SaveAs if path.is_file() && session.document.path.as_deref() != Some(path) => t("This file exists."),
+        Purpose::Open | Purpose::Import if is_wrong => t("There is no such file."),
+        Purpose::Film if path.is_file() => t("This file exists and is replaced."),
+        Purpose::Import => t("The filled shapes of the drawing are joined to one silhouette."),
         _ => "",
     };
     ui.label(RichText::new(note).small().weak());
@@ -202,7 +204,7 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, state: &mut State, 
         if (primary(ui, ready, verb, 100.0).clicked() || confirmed) && ready {
             actions.push(Action::File(edited.confirm()));
         }
-        if ui.button("Cancel").clicked() {
+        if ui.button(t("Cancel")).clicked() {
             actions.push(Action::File(FileAction::CloseDialog));
         }
     });
@@ -215,16 +217,16 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, state: &mut State, 
 
 fn export_settings(ui: &mut Ui, options: &mut export::Options) {
     let mut stretch = options.too_fast == TooFast::Stretch;
-    let tip = "Give the animation more time where its motors are too slow for it; otherwise it is refused";
-    ui.checkbox(&mut stretch, words::STRETCH).on_hover_text(tip);
+    let tip = t("Give the animation more time where its motors are too slow for it; otherwise it is refused");
+    ui.checkbox(&mut stretch, t(words::STRETCH)).on_hover_text(tip);
     options.too_fast = if stretch { TooFast::Stretch } else { TooFast::Refuse };
     parts_and_sheets(ui, options);
-    ui.collapsing("Controllers", |ui| {
-        ui.label("Programs for these; none chosen: for all that can play the motion");
+    ui.collapsing(t("Controllers"), |ui| {
+        ui.label(t("Programs for these; none chosen: for all that can play the motion"));
         for family in families::ALL {
             let at = options.controllers.iter().position(|name| name == family.name);
             let mut chosen = at.is_some();
-            if ui.checkbox(&mut chosen, family.name).on_hover_text(family.title).changed() {
+            if ui.checkbox(&mut chosen, family.name).on_hover_text(t(family.title)).changed() {
                 match at {
                     Some(at) => drop(options.controllers.remove(at)),
                     None => options.controllers.push(family.name.into()),

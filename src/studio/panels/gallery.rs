@@ -9,6 +9,7 @@ use crate::picture::preview::Preview;
 use crate::rigging::Proposal;
 use crate::studio::action::{Action, Actions};
 use crate::studio::jobs::Told;
+use crate::studio::language::{mark, t};
 use crate::studio::pictures::Pictures;
 use crate::studio::session::{Order, Session, Task};
 use eframe::egui::{ComboBox, RichText, ScrollArea, Ui};
@@ -46,13 +47,13 @@ const SIZE: (u32, u32) = (224, 168);
 /// How long a pose is held while all are struck, s.
 const HELD_S: f64 = 0.8;
 const ORDERS: [(Order, &str); 7] = [
-    (Order::Found, "Best to make"),
-    (Order::Error, "This pose"),
-    (Order::Worst, "Worst pose"),
-    (Order::Sewn, "Sewn by hand"),
-    (Order::Force, "Least force"),
-    (Order::Thread, "Least cable"),
-    (Order::Holes, "Fewest holes"),
+    (Order::Found, mark("Best to make")),
+    (Order::Error, mark("This pose")),
+    (Order::Worst, mark("Worst pose")),
+    (Order::Sewn, mark("Sewn by hand")),
+    (Order::Force, mark("Least force")),
+    (Order::Thread, mark("Least cable")),
+    (Order::Holes, mark("Fewest holes")),
 ];
 
 /// The cards.
@@ -87,11 +88,11 @@ pub fn show(ui: &mut Ui, session: &Session, gallery: &mut Gallery, actions: &mut
 fn order(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     let mut order = session.discovery().order;
     ui.horizontal(|ui| {
-        let label = ui.label(RichText::new("Sorted by").weak());
-        let name = ORDERS.iter().find(|(of, _)| *of == order).map_or("", |(_, name)| name);
+        let label = ui.label(RichText::new(t("Sorted by")).weak());
+        let name = ORDERS.iter().find(|(of, _)| *of == order).map_or("", |(_, name)| t(name));
         let combo = ComboBox::from_id_salt("order of proposals").selected_text(name).show_ui(ui, |ui| {
             for (choice, name) in ORDERS {
-                ui.selectable_value(&mut order, choice, name);
+                ui.selectable_value(&mut order, choice, t(name));
             }
         });
         combo.response.labelled_by(label.id);
@@ -143,7 +144,7 @@ fn cards<'s>(session: &'s Session, gallery: &mut Gallery, theme: Theme, actions:
             let pictures = of.iter().take_while(go_on).filter_map(drawn).collect();
             Arc::new(Cards { of: of.clone(), theme, pictures })
         });
-        actions.push(Action::Start(Task { owner: CARDS, name: "Pictures of proposals", work }));
+        actions.push(Action::Start(Task { owner: CARDS, name: mark("Pictures of proposals"), work }));
     }
     known
 }
@@ -166,7 +167,7 @@ fn poses<'s>(
         let work = Arc::new(move |cancel: &AtomicBool| -> Told {
             Arc::new(Poses { of: of.clone(), struck: struck(&design, &of, theme, cancel) })
         });
-        actions.push(Action::Start(Task { owner: POSES, name: "A proposal in every pose", work }));
+        actions.push(Action::Start(Task { owner: POSES, name: mark("A proposal in every pose"), work }));
     }
     known
 }

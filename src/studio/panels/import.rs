@@ -6,6 +6,7 @@ use crate::operations::FiberCount;
 use crate::operations::preview::Previewed;
 use crate::outline::{Background, Holes, Import, Pieces, Remedy};
 use crate::picture::preview::Preview;
+use crate::studio::language::t;
 use crate::studio::session::{ImportChoice, PathDialog, Session};
 use crate::studio::words;
 use eframe::egui::load::SizedTexture;
@@ -27,36 +28,48 @@ const SHOWN_PX: f32 = 220.0;
 pub fn settings(ui: &mut Ui, session: &Session, edited: &mut PathDialog) {
     let ImportChoice { options, layers, blocks } = &mut *edited.import;
     ui.horizontal(|ui| {
-        let tip = "Of the silhouette; 0: the size that the file has";
+        let tip = t("Of the silhouette; 0: the size that the file has");
         let mut height = options.import.height_mm.unwrap_or(0.0);
-        or_usual(ui, ("Height", tip), &mut height, ("as in the file", " mm"), HEIGHTS_MM);
+        or_usual(ui, (t("Height"), tip), &mut height, (t("as in the file"), " mm"), HEIGHTS_MM);
         options.import.height_mm = (height > 0.0).then_some(height);
         ui.add_space(12.0);
-        let tip = "0: those of a file that brings its own mesh; otherwise 414, or more where the outline needs them";
+        let tip = t("0: those of a file that brings its own mesh; otherwise 414, or more where the outline needs them");
         let mut fibers = match options.fibers {
             FiberCount::Usual => 0.0,
             FiberCount::AtLeast(fibers) | FiberCount::Exactly(fibers) => fibers as f64,
         };
-        or_usual(ui, ("Muscle fibres", tip), &mut fibers, ("as usual", ""), FIBERS);
+        or_usual(ui, (t("Muscle fibres"), tip), &mut fibers, (t("as usual"), ""), FIBERS);
         let fibers = fibers.round() as usize;
         options.fibers = FiberCount::asked((fibers > 0).then_some(fibers));
     });
     ui.horizontal(|ui| {
         let mut largest = options.import.pieces == Pieces::Largest;
-        ui.checkbox(&mut largest, "Largest piece only")
-            .on_hover_text("Of a drawing in several pieces, which is refused otherwise");
+        ui.checkbox(&mut largest, t("Largest piece only"))
+            .on_hover_text(t("Of a drawing in several pieces, which is refused otherwise"));
         options.import.pieces = if largest { Pieces::Largest } else { Pieces::Refuse };
         ui.add_space(12.0);
-        let tip = "Holes of a drawing in thin lines alone are filled; or keep them, or fill all";
-        let holes = [(Holes::Found, "as found"), (Holes::Keep, "keep"), (Holes::Fill, "fill")];
-        choice(ui, ("Holes", tip), &mut options.import.holes, &holes);
+        let tip = t("Holes of a drawing in thin lines alone are filled; or keep them, or fill all");
+        let holes = [(Holes::Found, t("as found")), (Holes::Keep, t("keep")), (Holes::Fill, t("fill"))];
+        choice(ui, (t("Holes"), tip), &mut options.import.holes, &holes);
     });
     let tip =
-        "Show on the plushie what the drawing or picture shows; saving puts it beside the plushie, NAME.texture.png";
-    ui.checkbox(&mut options.texture, "Keep the picture as texture").on_hover_text(tip);
-    names(ui, "Layers", "Of an SVG or DXF drawing: the names of those that count, between commas", "all", layers);
-    names(ui, "Blocks", "Of a DXF drawing: the names of blocks to read in its place, between commas", "none", blocks);
-    CollapsingHeader::new("Reading and clean-up")
+        t("Show on the plushie what the drawing or picture shows; saving puts it beside the plushie, NAME.texture.png");
+    ui.checkbox(&mut options.texture, t("Keep the picture as texture")).on_hover_text(tip);
+    names(
+        ui,
+        t("Layers"),
+        t("Of an SVG or DXF drawing: the names of those that count, between commas"),
+        t("all"),
+        layers,
+    );
+    names(
+        ui,
+        t("Blocks"),
+        t("Of a DXF drawing: the names of blocks to read in its place, between commas"),
+        t("none"),
+        blocks,
+    );
+    CollapsingHeader::new(t("Reading and clean-up"))
         .id_salt("import details")
         .show(ui, |ui| details(ui, &mut options.import));
     shown(ui, session, edited);
@@ -78,7 +91,7 @@ fn shown(ui: &mut Ui, session: &Session, edited: &mut PathDialog) {
     ui.horizontal_top(|ui| {
         ui.set_min_height(SHOWN_PX);
         let Some((seen, fresh)) = session.files.preview.of(&edited.path, &edited.import) else {
-            ui.weak("What would be read is shown here.");
+            ui.weak(t("What would be read is shown here."));
             return;
         };
         // What was asked for last has its own line.
@@ -132,20 +145,20 @@ fn picture(ui: &mut Ui, serial: u64, picture: &Preview) {
         }
     };
     let sized = SizedTexture::new(texture.id(), [SHOWN_PX, SHOWN_PX]);
-    ui.add(Image::from_texture(sized)).accessible_name("What would be read");
+    ui.add(Image::from_texture(sized)).accessible_name(t("What would be read"));
 }
 
 /// The other answer to a guess, where one press gives it.
 fn switch(ui: &mut Ui, remedy: Option<Remedy>, import: &mut Import) {
     let (label, set): (&str, fn(&mut Import)) = match remedy {
-        Some(Remedy::Background) => ("Keep it", |import| import.background = Background::Keep),
-        Some(Remedy::DropBackground) => ("Leave it out", |import| import.background = Background::Drop),
-        Some(Remedy::Holes) => ("Fill the holes", |import| import.holes = Holes::Fill),
-        Some(Remedy::KeepHoles) => ("Keep the holes", |import| import.holes = Holes::Keep),
-        Some(Remedy::Opacity) => ("Count all that shows", |import| import.threshold = Some(1)),
-        Some(Remedy::Pieces) => ("Take the largest piece", |import| import.pieces = Pieces::Largest),
-        Some(Remedy::Smooth) => ("Leave it as it is", |import| import.smooth_mm = Some(0.0)),
-        Some(Remedy::Gap) => ("Leave them open", |import| import.gap_mm = Some(0.0)),
+        Some(Remedy::Background) => (t("Keep it"), |import| import.background = Background::Keep),
+        Some(Remedy::DropBackground) => (t("Leave it out"), |import| import.background = Background::Drop),
+        Some(Remedy::Holes) => (t("Fill the holes"), |import| import.holes = Holes::Fill),
+        Some(Remedy::KeepHoles) => (t("Keep the holes"), |import| import.holes = Holes::Keep),
+        Some(Remedy::Opacity) => (t("Count all that shows"), |import| import.threshold = Some(1)),
+        Some(Remedy::Pieces) => (t("Take the largest piece"), |import| import.pieces = Pieces::Largest),
+        Some(Remedy::Smooth) => (t("Leave it as it is"), |import| import.smooth_mm = Some(0.0)),
+        Some(Remedy::Gap) => (t("Leave them open"), |import| import.gap_mm = Some(0.0)),
         _ => return,
     };
     if ui.small_button(label).clicked() {
@@ -156,33 +169,33 @@ fn switch(ui: &mut Ui, remedy: Option<Remedy>, import: &mut Import) {
 /// What is seldom asked for.
 fn details(ui: &mut Ui, import: &mut Import) {
     ui.horizontal(|ui| {
-        let tip = "Paper, cards and frames that everything else lies on: what is surely one is left out; or leave out any, or keep it";
+        let tip = t("Paper, cards and frames that everything else lies on: what is surely one is left out; or leave out any, or keep it");
         let grounds =
-            [(Background::Found, "as found"), (Background::Drop, "leave out"), (Background::Keep, "keep")];
-        choice(ui, ("Background", tip), &mut import.background, &grounds);
+            [(Background::Found, t("as found")), (Background::Drop, t("leave out")), (Background::Keep, t("keep"))];
+        choice(ui, (t("Background"), tip), &mut import.background, &grounds);
     });
     Grid::new("import details").num_columns(2).spacing([8.0, 4.0]).show(ui, |ui| {
-        let tip = "How far smoothing may move the boundary; corners stay. -1: where it is finer than scissors follow; 0: not at all";
-        optional(ui, ("Smooth", tip), &mut import.smooth_mm);
+        let tip = t("How far smoothing may move the boundary; corners stay. -1: where it is finer than scissors follow; 0: not at all");
+        optional(ui, (t("Smooth"), tip), &mut import.smooth_mm);
         ui.end_row();
-        let tip = "Parts less than this apart are joined; -1: what scissors cannot part; 0: none";
-        optional(ui, ("Gaps up to", tip), &mut import.gap_mm);
+        let tip = t("Parts less than this apart are joined; -1: what scissors cannot part; 0: none");
+        optional(ui, (t("Gaps up to"), tip), &mut import.gap_mm);
         ui.end_row();
-        let tip = "Ends of lines less than this apart are joined; -1: a small part of the size; 0: none";
-        optional(ui, ("Join ends up to", tip), &mut import.join_mm);
+        let tip = t("Ends of lines less than this apart are joined; -1: a small part of the size; 0: none");
+        optional(ui, (t("Join ends up to"), tip), &mut import.join_mm);
         ui.end_row();
         // A least width of nothing widens nothing, which is not the usual.
-        let tip = "Parts thinner than this are widened; -1: hairlines alone, as long as that changes little; 0: none";
-        optional(ui, ("Least width", tip), &mut import.min_width_mm);
+        let tip = t("Parts thinner than this are widened; -1: hairlines alone, as long as that changes little; 0: none");
+        optional(ui, (t("Least width"), tip), &mut import.min_width_mm);
         ui.end_row();
-        let tip = "What a plain number of a DXF or OBJ file or a pixel measures; 0: what the file says";
+        let tip = t("What a plain number of a DXF or OBJ file or a pixel measures; 0: what the file says");
         let mut unit = import.unit_mm.unwrap_or(0.0);
-        or_usual(ui, ("Unit", tip), &mut unit, ("as in the file", " mm"), 0.0..=LARGEST_MM);
+        or_usual(ui, (t("Unit"), tip), &mut unit, (t("as in the file"), " mm"), 0.0..=LARGEST_MM);
         import.unit_mm = (unit > 0.0).then_some(unit);
         ui.end_row();
-        let tip = "Pictures: difference from the background, 0 to 255, from which a pixel is ink; -1: it is found";
+        let tip = t("Pictures: difference from the background, 0 to 255, from which a pixel is ink; -1: it is found");
         let mut level = import.threshold.map_or(-1.0, f64::from);
-        or_usual(ui, ("Ink from", tip), &mut level, ("as found", ""), -1.0..=255.0);
+        or_usual(ui, (t("Ink from"), tip), &mut level, (t("as found"), ""), -1.0..=255.0);
         import.threshold = (level >= 0.0).then_some(level as u8);
         ui.end_row();
     });
@@ -200,7 +213,7 @@ fn choice<T: PartialEq + Copy>(ui: &mut Ui, (name, tip): (&str, &str), value: &m
 /// A length that has a usual value, which -1 stands for.
 fn optional(ui: &mut Ui, label: (&str, &str), value: &mut Option<f64>) {
     let mut shown = value.unwrap_or(-1.0);
-    or_usual(ui, label, &mut shown, ("as usual", " mm"), -1.0..=LARGEST_MM);
+    or_usual(ui, label, &mut shown, (t("as usual"), " mm"), -1.0..=LARGEST_MM);
     *value = (shown >= 0.0).then_some(shown);
 }
 

@@ -5,6 +5,7 @@ use super::panel::{Entry, Panel};
 use crate::studio::action::{Action, Actions};
 use crate::studio::canvas::Hit;
 use crate::studio::commands;
+use crate::studio::language::t;
 use crate::studio::session::Session;
 use eframe::egui::Ui;
 
@@ -24,7 +25,7 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Act
     ui.horizontal(|ui| {
         for command in commands::panels::ALL.iter() {
             let Some(entry) = ALL.into_iter().find(|entry| entry.id == command.id) else { continue };
-            if ui.selectable_label(entry.id == open, entry.label).on_hover_text(entry.tip).clicked() {
+            if ui.selectable_label(entry.id == open, t(entry.label)).on_hover_text(t(entry.tip)).clicked() {
                 open = entry.id;
                 actions.push(Action::Run(command, Hit::Nothing));
             }

@@ -2,6 +2,7 @@
 
 use super::messages::color;
 use crate::studio::action::{Action, Actions};
+use crate::studio::language::t;
 use crate::studio::session::{Overlay, Session};
 use eframe::egui::{Context, Id, Label, Modal, RichText, ScrollArea, Ui};
 
@@ -11,12 +12,12 @@ pub fn show(ctx: &Context, session: &Session, actions: &mut Actions) {
     }
     let modal = Modal::new(Id::unique("log of messages")).show(ctx, |ui| {
         ui.set_width(520.0);
-        ui.heading("Messages");
+        ui.heading(t("Messages"));
         ui.add_space(6.0);
         let most = 0.6 * ui.ctx().content_rect().height();
         ScrollArea::vertical().max_height(most).auto_shrink([false, true]).show(ui, |ui| lines(ui, session));
         ui.add_space(6.0);
-        if ui.button("Close").clicked() {
+        if ui.button(t("Close")).clicked() {
             actions.push(Action::Overlay(None));
         }
     });
@@ -27,13 +28,13 @@ pub fn show(ctx: &Context, session: &Session, actions: &mut Actions) {
 
 fn lines(ui: &mut Ui, session: &Session) {
     if session.messages().log().next().is_none() {
-        ui.label(RichText::new("Nothing has been said yet").weak());
+        ui.label(RichText::new(t("Nothing has been said yet")).weak());
     }
     for (said_s, message) in session.messages().log().rev() {
         ui.horizontal_top(|ui| {
             let minutes = said_s / 60.0;
             let when = format!("{:>3.0}:{:02.0}", minutes.floor(), (said_s % 60.0).floor());
-            ui.label(RichText::new(when).monospace().weak()).on_hover_text("Minutes and seconds since the start");
+            ui.label(RichText::new(when).monospace().weak()).on_hover_text(t("Minutes and seconds since the start"));
             let text = RichText::new(&message.text).color(color(ui.visuals(), message.level));
             ui.add(Label::new(text).wrap().selectable(true));
         });

@@ -8,6 +8,7 @@ use crate::mesh::quality::{HISTOGRAM_BARS, HISTOGRAM_STEP_DEG, MeshQuality};
 use crate::mesh::{MAX_FIBERS, Mesh};
 use crate::studio::action::{Action, Actions};
 use crate::studio::commands::document::REMESH;
+use crate::studio::language::{t, tf};
 use crate::studio::session::FINEST;
 use crate::studio::session::Session;
 use crate::studio::style;
@@ -49,14 +50,14 @@ fn show(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Actions
         state.figures = Some((design.mesh.clone(), MeshFigures::of(design)));
     }
     ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
-        heading(ui, "Resolution");
+        heading(ui, t("Resolution"));
         resolution(ui, session, actions);
         ui.add_space(10.0);
         let Some((_, figures)) = &state.figures else { return };
-        heading(ui, "Smallest angles of the triangles");
+        heading(ui, t("Smallest angles of the triangles"));
         histogram(ui, &figures.quality);
         ui.add_space(10.0);
-        heading(ui, "Mesh");
+        heading(ui, t("Mesh"));
         Grid::new("mesh figures").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
             for (name, tip, value) in rows(figures) {
                 ui.label(RichText::new(name).weak()).on_hover_text(tip);
@@ -72,10 +73,15 @@ fn resolution(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     let mut wanted = before;
     Grid::new("resolution").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
         for (name, tip, value, range) in [
-            ("Muscle fibres", "How many edges the mesh of the fibres shall have", &mut wanted.fibers, 3..=MAX_FIBERS),
             (
-                "Finer body",
-                "Simulate on a mesh this many times finer than the fibres' own",
+                t("Muscle fibres"),
+                t("How many edges the mesh of the fibres shall have"),
+                &mut wanted.fibers,
+                3..=MAX_FIBERS,
+            ),
+            (
+                t("Finer body"),
+                t("Simulate on a mesh this many times finer than the fibres' own"),
                 &mut wanted.finer,
                 1..=FINEST,
             ),
@@ -104,7 +110,7 @@ fn resolution(ui: &mut Ui, session: &Session, actions: &mut Actions) {
 fn histogram(ui: &mut Ui, quality: &MeshQuality) {
     let size = vec2(ui.available_width(), HISTOGRAM_HEIGHT + LEGEND_HEIGHT);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
-    let text = format!("Histogram of smallest angles, least {:.1} degrees", quality.min_angle_deg);
+    let text = tf!("Histogram of smallest angles, least {degrees:.1} degrees", degrees = quality.min_angle_deg);
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &text));
     let bars = Rect::from_min_size(rect.min, vec2(rect.width(), HISTOGRAM_HEIGHT));
     let width = bars.width() / HISTOGRAM_BARS as f32;
@@ -134,10 +140,11 @@ fn histogram(ui: &mut Ui, quality: &MeshQuality) {
     if let Some(pointer) = response.hover_pos() {
         let k = (((pointer.x - bars.left()) / width) as usize).min(HISTOGRAM_BARS - 1);
         let from = k as f64 * HISTOGRAM_STEP_DEG;
-        response.on_hover_text(format!(
-            "{} triangles from {from:.0} to {:.0} degrees",
-            quality.histogram[k],
-            from + HISTOGRAM_STEP_DEG
+        response.on_hover_text(tf!(
+            "{count} triangles from {from:.0} to {to:.0} degrees",
+            count = quality.histogram[k],
+            from,
+            to = from + HISTOGRAM_STEP_DEG
         ));
     }
 }
@@ -147,20 +154,28 @@ fn rows(figures: &MeshFigures) -> [(&'static str, &'static str, String); 9] {
     let MeshFigures { quality: q, fit, .. } = figures;
     let percent = 100.0 * q.below_20_deg as f64 / q.triangles.max(1) as f64;
     let symmetric = match (figures.symmetric_outline, figures.symmetric_mesh) {
-        (true, true) => "outline and mesh",
-        (true, false) => "outline only",
-        (false, _) => "no",
+        (true, true) => t("outline and mesh"),
+        (true, false) => t("outline only"),
+        (false, _) => t("no"),
     };
     let boundary = format!("{:.2} mm, {:.2} %", fit.boundary_mm, 100.0 * fit.boundary_fraction);
     [
-        ("Nodes", "Corners of the triangles", q.nodes.to_string()),
-        ("Triangles", "Of the body that is simulated", q.triangles.to_string()),
-        ("Smallest angle", "Of any triangle", format!("{:.1}°, mean {:.1}°", q.min_angle_deg, q.mean_min_angle_deg)),
-        ("Below 20°", "Triangles with an angle that sharp", format!("{}, {percent:.2} %", q.below_20_deg)),
-        ("Edges", "Shortest and longest", format!("{:.1} to {:.1} mm", q.min_edge, q.max_edge)),
-        ("One triangle across", "Places where the body is too stiff, one triangle thick", q.bridges.to_string()),
-        ("Area off", "From that of the outline", format!("{:+.2} %", 100.0 * fit.area_error)),
-        ("Boundary off", "Farthest from the outline, and as a part of its height", boundary),
-        ("Symmetric", "Whether it is its own mirror image", symmetric.to_owned()),
+        (t("Nodes"), t("Corners of the triangles"), q.nodes.to_string()),
+        (t("Triangles"), t("Of the body that is simulated"), q.triangles.to_string()),
+        (
+            t("Smallest angle"),
+            t("Of any triangle"),
+            tf!("{least:.1}°, mean {mean:.1}°", least = q.min_angle_deg, mean = q.mean_min_angle_deg),
+        ),
+        (t("Below 20°"), t("Triangles with an angle that sharp"), format!("{}, {percent:.2} %", q.below_20_deg)),
+        (
+            t("Edges"),
+            t("Shortest and longest"),
+            tf!("{shortest:.1} to {longest:.1} mm", shortest = q.min_edge, longest = q.max_edge),
+        ),
+        (t("One triangle across"), t("Places where the body is too stiff, one triangle thick"), q.bridges.to_string()),
+        (t("Area off"), t("From that of the outline"), format!("{:+.2} %", 100.0 * fit.area_error)),
+        (t("Boundary off"), t("Farthest from the outline, and as a part of its height"), boundary),
+        (t("Symmetric"), t("Whether it is its own mirror image"), symmetric.to_owned()),
     ]
 }

@@ -4,6 +4,7 @@ use super::widgets::frame;
 use crate::studio::action::{Action, Actions};
 use crate::studio::commands::files::LOG;
 use crate::studio::icons::{self, Icon};
+use crate::studio::language::t;
 use crate::studio::messages::{Level, Message};
 use crate::studio::session::Session;
 use eframe::egui::{Color32, Frame, Label, Panel, RichText, ScrollArea, Sense, Ui, UiBuilder, Visuals, vec2};
@@ -37,7 +38,7 @@ fn foot(ui: &mut Ui, session: &Session, actions: &mut Actions) {
                     row(ui, message, actions);
                 }
             });
-        if ui.link("All messages").on_hover_text(LOG.tip).clicked() {
+        if ui.link(t("All messages")).on_hover_text(t(LOG.tip)).clicked() {
             actions.push(Action::Run(&LOG, session.selected()));
         }
     });
@@ -53,7 +54,7 @@ fn row(ui: &mut Ui, message: &Message, actions: &mut Actions) {
                 ui.set_width((ui.available_width() - CLOSE).max(1.0));
                 ui.add(Label::new(RichText::new(&message.text).small().color(color)).wrap());
             });
-            if icons::small_button(ui, Icon::Close, "Dismiss message", "Dismiss").clicked() {
+            if icons::small_button(ui, Icon::Close, t("Dismiss message"), t("Dismiss")).clicked() {
                 actions.push(Action::DismissMessage(message.id));
             }
         });

@@ -10,6 +10,7 @@ use crate::operations::play::{self, Options, SIMULATED};
 use crate::studio::action::{Action, Actions};
 use crate::studio::commands::motors::{CONNECT, HOME, PLAY, SET_ZERO, STOP};
 use crate::studio::jobs::Told;
+use crate::studio::language::{mark, t, tf};
 use crate::studio::session::{Session, Task};
 use crate::studio::words;
 use eframe::egui::{ComboBox, DragValue, Grid, RichText, ScrollArea, Slider, TextEdit, Ui};
@@ -36,7 +37,7 @@ type Forecasted = Result<Forecast, String>;
 impl Panel for Motors {
     fn show(&mut self, ui: &mut Ui, session: &Session, actions: &mut Actions) {
         ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
-            heading(ui, "Line");
+            heading(ui, t("Line"));
             ui.add_enabled_ui(session.motors().remote.is_none(), |ui| self.line(ui, session, actions));
             ui.horizontal_wrapped(|ui| {
                 for command in [&CONNECT, &SET_ZERO, &HOME] {
@@ -48,7 +49,7 @@ impl Panel for Motors {
                 buttons::wide(ui, session, &STOP, 110.0, actions);
             });
             let status = state(session.motors().status());
-            ui.label(status).on_hover_text("What the motors do");
+            ui.label(status).on_hover_text(t("What the motors do"));
             sliders(ui, session, actions);
             ui.separator();
             self.forecast(ui, session, actions);
@@ -60,7 +61,7 @@ impl Motors {
     fn line(&mut self, ui: &mut Ui, session: &Session, actions: &mut Actions) {
         let mut choice = session.motors().choice.clone();
         Grid::new("line").num_columns(2).spacing([8.0, 4.0]).show(ui, |ui| {
-            let label = ui.label("Port").on_hover_text("Path of a serial port, or “simulated”");
+            let label = ui.label(t("Port")).on_hover_text(t("Path of a serial port, or “simulated”"));
             ui.horizontal(|ui| {
                 let field = TextEdit::singleline(&mut choice.port).desired_width(110.0);
                 ui.add(field).labelled_by(label.id);
@@ -75,27 +76,27 @@ impl Motors {
                 if list.inner.is_none() {
                     self.ports.clear();
                 }
-                list.response.accessible_name("Ports").on_hover_text("Serial ports of this machine");
+                list.response.accessible_name(t("Ports")).on_hover_text(t("Serial ports of this machine"));
             });
             ui.end_row();
-            ui.label("Controllers");
+            ui.label(t("Controllers"));
             let list = ComboBox::from_id_salt("family").selected_text(&choice.family).width(120.0).show_ui(ui, |ui| {
                 for family in families::streams() {
                     ui.selectable_value(&mut choice.family, family.name.to_owned(), family.name)
-                        .on_hover_text(family.title);
+                        .on_hover_text(t(family.title));
                 }
             });
-            list.response.accessible_name("Controllers").on_hover_text("What tells the motors");
+            list.response.accessible_name(t("Controllers")).on_hover_text(t("What tells the motors"));
             ui.end_row();
-            let label = ui.label("Baud").on_hover_text("Speed of the line; 0: as usual for these controllers");
+            let label = ui.label(t("Baud")).on_hover_text(t("Speed of the line; 0: as usual for these controllers"));
             let mut baud = choice.baud.unwrap_or(0);
             ui.add(DragValue::new(&mut baud).range(0..=1_000_000).speed(100.0)).labelled_by(label.id);
             choice.baud = (baud > 0).then_some(baud);
             ui.end_row();
         });
         let mut stretch = choice.too_fast == TooFast::Stretch;
-        let tip = "Give the animation more time where its motors are too slow for it; otherwise it is refused";
-        ui.checkbox(&mut stretch, words::STRETCH).on_hover_text(tip);
+        let tip = t("Give the animation more time where its motors are too slow for it; otherwise it is refused");
+        ui.checkbox(&mut stretch, t(words::STRETCH)).on_hover_text(tip);
         choice.too_fast = if stretch { TooFast::Stretch } else { TooFast::Refuse };
         if choice != session.motors().choice {
             actions.push(Action::SetMotors(Box::new(choice)));
@@ -104,7 +105,7 @@ impl Motors {
 
     /// What simulated drives make of the motion, worked out on a thread whenever it has changed.
     fn forecast(&mut self, ui: &mut Ui, session: &Session, actions: &mut Actions) {
-        heading(ui, "Simulated drives");
+        heading(ui, t("Simulated drives"));
         let (design, choice) = (session.design(), &session.motors().choice);
         let same = |(of, with): &(Arc<Design>, Options)| Arc::ptr_eq(of, design) && with == choice;
         if !self.asked.as_ref().is_some_and(same) && !session.is_dragging() {
@@ -114,32 +115,36 @@ impl Motors {
                 let forecast: Forecasted = play::forecast(&design, &choice).map_err(|error| words::unplayed(&error));
                 Arc::new(forecast) as Told
             };
-            actions.push(Action::Start(Task { owner: ENTRY.id, name: "The simulated drives", work: Arc::new(work) }));
+            actions.push(Action::Start(Task {
+                owner: ENTRY.id,
+                name: mark("The simulated drives"),
+                work: Arc::new(work),
+            }));
         }
         match session.tasks().told::<Forecasted>(ENTRY.id) {
             None => ui.label(RichText::new("…").weak()),
             Some(Err(why)) => ui.label(RichText::new(why).color(ui.visuals().warn_fg_color)),
             Some(Ok(forecast)) => ui.label(said(forecast)).on_hover_text(
-                "Drives with trapezoids of speed: how far cables are from the animation, and how unevenly they run (rms)",
+                t("Drives with trapezoids of speed: how far cables are from the animation, and how unevenly they run (rms)"),
             ),
         };
     }
 }
 
 fn said(forecast: &Forecast) -> String {
-    let [file, live] =
-        [forecast.file, forecast.live].map(|[lag, ripple]| format!("lag {lag:.2} mm, ripple {:.1} %", 100.0 * ripple));
-    format!("From the files: {file}\nLive, a winch every {:.2} s: {live}", forecast.slot_s)
+    let [file, live] = [forecast.file, forecast.live]
+        .map(|[lag, ripple]| tf!("lag {lag:.2} mm, ripple {ripple:.1} %", lag, ripple = 100.0 * ripple));
+    tf!("From the files: {file}\nLive, a winch every {slot_s:.2} s: {live}", file, slot_s = forecast.slot_s, live)
 }
 
 /// What the motors do, in words.
 fn state(status: Option<Status>) -> String {
     match status {
-        None => "No line".into(),
-        Some(Status::Connecting) => "Looking for the controllers…".into(),
-        Some(Status::Ready(_)) => "Ready".into(),
-        Some(Status::Homing) => "Winding back to zero…".into(),
-        Some(Status::Playing { time_s, .. }) => format!("Playing, {time_s:.1} s"),
+        None => t("No line").into(),
+        Some(Status::Connecting) => t("Looking for the controllers…").into(),
+        Some(Status::Ready(_)) => t("Ready").into(),
+        Some(Status::Homing) => t("Winding back to zero…").into(),
+        Some(Status::Playing { time_s, .. }) => tf!("Playing, {time_s:.1} s", time_s),
         Some(Status::Ended { why, .. }) => why,
     }
 }
@@ -158,8 +163,8 @@ fn sliders(ui: &mut Ui, session: &Session, actions: &mut Actions) {
             let before = asked;
             let slider = Slider::new(&mut asked, 0.0..=travel_mm).suffix(" mm").fixed_decimals(1);
             ui.add(slider)
-                .accessible_name(format!("Motor of {name}"))
-                .on_hover_text("Winds this winch on the plushie itself");
+                .accessible_name(tf!("Motor of {name}", name))
+                .on_hover_text(t("Winds this winch on the plushie itself"));
             if asked != before {
                 actions.push(Action::WindMotor(winch, asked));
             }

@@ -15,6 +15,7 @@ use crate::studio::change::Change;
 use crate::studio::commands::document::DELETE;
 use crate::studio::commands::networks::{DOWN, MUTE, SOLO, UP};
 use crate::studio::icons::{self, Icon};
+use crate::studio::language::{t, tf, tn};
 use crate::studio::session::{Renamed, Selection, Session};
 use crate::studio::style;
 use crate::studio::style::plain_number;
@@ -49,11 +50,11 @@ impl Panel for Networks {
 }
 
 fn show(ui: &mut Ui, session: &Session, breaches: &[Breach], actions: &mut Actions) {
-    heading(ui, "Winch-tendon networks");
+    heading(ui, t("Winch-tendon networks"));
     sewable::body(ui, breaches);
     let design = session.design();
     if design.networks.is_empty() {
-        ui.label(RichText::new("None yet. Pose the plushie, then propose a network.").weak());
+        ui.label(RichText::new(t("None yet. Pose the plushie, then propose a network.")).weak());
         return;
     }
     ui.scope(|ui| {
@@ -65,7 +66,7 @@ fn show(ui: &mut Ui, session: &Session, breaches: &[Breach], actions: &mut Actio
 fn rows(ui: &mut Ui, session: &Session, breaches: &[Breach], actions: &mut Actions) {
     for (index, network) in session.design().networks.iter().enumerate() {
         if matches!(session.renaming(), Some((Renamed::Network(i), _)) if *i == index) {
-            if let Some(name) = name_field(ui, session, "Network name", actions) {
+            if let Some(name) = name_field(ui, session, t("Network name"), actions) {
                 actions.push(Action::Change(Change::Network(Edit::Rename { winch: index, name })));
             }
             continue;
@@ -73,7 +74,8 @@ fn rows(ui: &mut Ui, session: &Session, breaches: &[Breach], actions: &mut Actio
         ui.horizontal(|ui| {
             chip(ui, session, index, actions);
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                let (name, tip) = (format!("Delete network {}", network.name), DELETE.hint("Delete this network"));
+                let (name, tip) =
+                    (tf!("Delete network {name}", name = network.name), DELETE.hint(t("Delete this network")));
                 if icons::small_button(ui, Icon::Trash, &name, &tip).clicked() {
                     actions.push(Action::Change(Change::Network(Edit::Remove(Part::Winch(index)))));
                 }
@@ -84,17 +86,17 @@ fn rows(ui: &mut Ui, session: &Session, breaches: &[Breach], actions: &mut Actio
                 let newest = if views.shows(Plushie::Realizable) { &shapes.realizable } else { &shapes.idealized };
                 let wound = newest.as_ref().and_then(|s| s.activations_mm.get(index));
                 let wound = match network.muted {
-                    true => "off".to_owned(),
+                    true => t("off").to_owned(),
                     false => format!("{:>5} mm", plain_number(wound.copied().unwrap_or(0.0), 1)),
                 };
                 let tendons = network.tendons.len();
-                let detail = format!("{tendons} tendon{}  {wound}", if tendons == 1 { "" } else { "s" });
+                let detail = format!("{}  {wound}", tn!(tendons, "{tendons} tendon", "{tendons} tendons"));
                 let button = Button::selectable(session.selection().network() == Some(index), &network.name)
                     .right_text(RichText::new(detail).small().weak())
                     .truncate()
                     .min_size(vec2(ui.available_width(), 24.0));
-                let response = ui.add(button).accessible_name(format!("Network {}", network.name));
-                let response = response.on_hover_text("Cable wound now. Double-click to rename");
+                let response = ui.add(button).accessible_name(tf!("Network {name}", name = network.name));
+                let response = response.on_hover_text(t("Cable wound now. Double-click to rename"));
                 if response.double_clicked() {
                     actions.push(Action::Typed(Some((Renamed::Network(index), network.name.clone()))));
                 } else if response.clicked() {
@@ -114,7 +116,7 @@ fn chip(ui: &mut Ui, session: &Session, index: usize, actions: &mut Actions) {
     let network = &session.design().networks[index];
     let color = style::color32(Palette::of(session.look.theme).network(index, network));
     let (rect, response) = ui.allocate_exact_size(vec2(12.0, 24.0), Sense::click());
-    let name = format!("Colour of {}", network.name);
+    let name = tf!("Colour of {name}", name = network.name);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
     let radius = if response.hovered() || response.has_focus() { 6.5 } else { 5.0 };
     if network.muted {
@@ -122,7 +124,7 @@ fn chip(ui: &mut Ui, session: &Session, index: usize, actions: &mut Actions) {
     } else {
         ui.painter().circle_filled(rect.center(), radius, color);
     }
-    let response = response.on_hover_text("Colour of its cables in pictures");
+    let response = response.on_hover_text(t("Colour of its cables in pictures"));
     Popup::menu(&response).show(|ui| colors(ui, session, index, actions));
 }
 
@@ -146,7 +148,7 @@ fn colors(ui: &mut Ui, session: &Session, winch: usize, actions: &mut Actions) {
     ui.horizontal(|ui| {
         for (number, &Color(red, green, blue, _)) in Palette::of(session.look.theme).winches().iter().enumerate() {
             let (rect, response) = ui.allocate_exact_size(vec2(20.0, 20.0), Sense::click());
-            let name = format!("Colour {}", number + 1);
+            let name = tf!("Colour {number}", number = number + 1);
             response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
             let radius = if response.hovered() || response.has_focus() { 9.0 } else { 7.5 };
             ui.painter().circle_filled(rect.center(), radius, Color32::from_rgb(red, green, blue));
@@ -155,7 +157,7 @@ fn colors(ui: &mut Ui, session: &Session, winch: usize, actions: &mut Actions) {
             }
         }
     });
-    if ui.button("By its number").clicked() {
+    if ui.button(t("By its number")).clicked() {
         choose(ui, None);
     }
 }

@@ -9,6 +9,7 @@ use crate::studio::commands::discovery::{ACCEPT, PROPOSE, PROPOSE_AGAIN};
 use crate::studio::commands::files::EXPORT;
 use crate::studio::commands::posing::{BEGIN, PIN_MIDDLE};
 use crate::studio::commands::view::GUIDE;
+use crate::studio::language::{t, tf};
 use crate::studio::session::Session;
 use crate::studio::style;
 use eframe::egui::{Button, RichText, Stroke, Ui};
@@ -26,23 +27,23 @@ pub fn next(session: &Session) -> Option<(&'static Command, &'static str)> {
         return None;
     }
     Some(if !posed && design.pins.is_empty() {
-        (&BEGIN, "Pin and pose")
+        (&BEGIN, t("Pin and pose"))
     } else if design.pins.is_empty() {
-        (&PIN_MIDDLE, "Pin the body")
+        (&PIN_MIDDLE, t("Pin the body"))
     } else if !posed {
-        (&BEGIN, "Make a pose")
+        (&BEGIN, t("Make a pose"))
     } else if found.is_stale() {
-        (&PROPOSE_AGAIN, "Propose again")
+        (&PROPOSE_AGAIN, t("Propose again"))
     } else if session.shown_proposal().is_some() {
-        (&ACCEPT, "Accept a network")
+        (&ACCEPT, t("Accept a network"))
     } else if design.networks.is_empty() {
-        (&PROPOSE, "Propose networks")
+        (&PROPOSE, t("Propose networks"))
     } else if design.keyframes.len() < 2 {
-        (&ADD_KEYFRAME, "Add a keyframe")
+        (&ADD_KEYFRAME, t("Add a keyframe"))
     } else if session.timing().doubts().iter().any(|doubt| matches!(doubt.why, Why::TooFast { .. })) {
-        (&FIT, "Make it fit")
+        (&FIT, t("Make it fit"))
     } else {
-        (&EXPORT, "Export the blueprint")
+        (&EXPORT, t("Export the blueprint"))
     })
 }
 
@@ -51,12 +52,12 @@ pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
         return;
     };
     let accent = style::accent(session.look().theme);
-    let text = RichText::new(format!("Next: {words}")).color(accent);
+    let text = RichText::new(tf!("Next: {words}", words)).color(accent);
     let button = Button::new(text).stroke(Stroke::new(1.0, accent)).corner_radius(12);
-    let response = ui.add(button).accessible_name(format!("Next step: {words}"));
+    let response = ui.add(button).accessible_name(tf!("Next step: {words}", words));
     response.context_menu(|ui| super::buttons::entry(ui, session, &GUIDE, Hit::Nothing, actions));
-    let why = command.refused(session, session.selected()).unwrap_or(command.tip);
-    if response.on_hover_text(format!("{why}. Right-click to hide this")).clicked() {
+    let why = command.refused(session, session.selected()).unwrap_or(t(command.tip));
+    if response.on_hover_text(tf!("{why}. Right-click to hide this", why)).clicked() {
         actions.push(Action::Run(command, session.selected()));
     }
 }

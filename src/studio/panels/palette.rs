@@ -2,6 +2,7 @@
 
 use crate::studio::action::{Action, Actions};
 use crate::studio::commands::{self, Command};
+use crate::studio::language::t;
 use crate::studio::session::{Overlay, Session};
 use eframe::egui::{
     Button, Context, Id, Key, Modal, Modifiers, RichText, ScrollArea, TextEdit, Ui, accesskit::Role, vec2,
@@ -28,8 +29,9 @@ pub fn show(ctx: &Context, session: &Session, state: &mut State, actions: &mut A
     let (up, down, enter) = (step(Key::ArrowUp), step(Key::ArrowDown), step(Key::Enter));
     let modal = Modal::new(Id::unique("commands")).show(ctx, |ui| {
         ui.set_width(SIZE[0]);
-        let field = TextEdit::singleline(&mut state.words).hint_text("Look for a command").desired_width(f32::INFINITY);
-        let field = ui.add(field).accessible_name("Look for a command");
+        let field =
+            TextEdit::singleline(&mut state.words).hint_text(t("Look for a command")).desired_width(f32::INFINITY);
+        let field = ui.add(field).accessible_name(t("Look for a command"));
         if !field.has_focus() {
             field.request_focus();
         }
@@ -57,7 +59,7 @@ pub fn show(ctx: &Context, session: &Session, state: &mut State, actions: &mut A
 
 fn list(ui: &mut Ui, session: &Session, found: &[&'static Command], chosen: usize, moved: bool, actions: &mut Actions) {
     if found.is_empty() {
-        ui.label(RichText::new("No command is called that").weak());
+        ui.label(RichText::new(t("No command is called that")).weak());
     }
     ScrollArea::vertical().max_height(SIZE[1]).auto_shrink([false, true]).show(ui, |ui| {
         ui.spacing_mut().item_spacing.y = 1.0;
@@ -110,15 +112,16 @@ fn matches(session: &Session, words: &str) -> Vec<&'static Command> {
     found.into_iter().map(|(_, command)| command).collect()
 }
 
-/// How well a command fits, the best 0; none where a word is nowhere.
+/// How well a command fits, the best 0; none where a word is nowhere. What a page or a colleague calls it in English is found too.
 fn rank(session: &Session, command: &Command, words: &str) -> Option<u8> {
-    let label = command.label(session).to_lowercase();
-    let all = format!("{label} {} {}", command.tip.to_lowercase(), command.keys_text().to_lowercase());
+    let labels = [command.label(session), command.label].map(str::to_lowercase);
+    let tips = [&command.tip(session), t(command.tip), &command.keys_text()].join(" ").to_lowercase();
+    let all = format!("{} {tips}", labels.join(" "));
     if !words.split_whitespace().all(|word| all.contains(word)) {
         return None;
     }
-    let in_label = words.split_whitespace().all(|word| label.contains(word));
-    Some(match (label.starts_with(words.trim()), in_label) {
+    let in_label = |label: &String| words.split_whitespace().all(|word| label.contains(word));
+    Some(match (labels.iter().any(|label| label.starts_with(words.trim())), labels.iter().any(in_label)) {
         (true, _) => 0,
         (false, true) => 1,
         (false, false) => 2,

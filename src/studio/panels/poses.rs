@@ -7,6 +7,7 @@ use crate::studio::change::Change;
 use crate::studio::commands::animation::ADD_KEYFRAME;
 use crate::studio::commands::document::{ADD_POSE, CLEAR_TARGETS, DELETE_POSE, DUPLICATE_POSE, RENAME_POSE};
 use crate::studio::commands::posing::MIRROR_POSE;
+use crate::studio::language::{t, tf, tn};
 use crate::studio::session::{Mode, PoseError, Renamed, Session};
 use eframe::egui::{Align, Button, Color32, Layout, RichText, ScrollArea, Ui, vec2};
 
@@ -27,7 +28,7 @@ pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
 /// The plushie's name, which a double click edits.
 fn title(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     if matches!(session.renaming(), Some((Renamed::Plushie, _))) {
-        if let Some(name) = name_field(ui, session, "Plushie name", actions) {
+        if let Some(name) = name_field(ui, session, t("Plushie name"), actions) {
             actions.push(Action::Change(Change::Rename(name)));
         }
         return;
@@ -35,18 +36,18 @@ fn title(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     let name = &session.design().name;
     let label = RichText::new(name).size(19.0).strong();
     let response = ui.add(Button::new(label).frame(false).truncate());
-    let response = response.on_hover_text("Double-click to rename the plushie");
+    let response = response.on_hover_text(t("Double-click to rename the plushie"));
     if response.double_clicked() {
         actions.push(Action::Typed(Some((Renamed::Plushie, name.clone()))));
     }
     let figures = &session.document.figures;
-    let body = format!("{} fibres, {:.0} mm", figures.fibers, figures.body_length_mm);
+    let body = tf!("{fibers} fibres, {length_mm:.0} mm", fibers = figures.fibers, length_mm = figures.body_length_mm);
     ui.label(RichText::new(body).small().weak());
 }
 
 fn pose_buttons(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     ui.horizontal(|ui| {
-        heading(ui, "Poses");
+        heading(ui, t("Poses"));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.spacing_mut().item_spacing.x = 2.0;
             buttons::small_icon(ui, session, &ADD_POSE, actions);
@@ -70,21 +71,20 @@ fn list(ui: &mut Ui, session: &Session, actions: &mut Actions) {
         // Without the detail, which is for the eye.
         ui.add(button).accessible_name(name)
     };
-    let rest = row(ui, "Rest", ("", Color32::TRANSPARENT), in_pose && session.picked.pose.is_none());
-    if rest.on_hover_text("The body as it was cut").clicked() {
+    let rest = row(ui, t("Rest"), ("", Color32::TRANSPARENT), in_pose && session.picked.pose.is_none());
+    if rest.on_hover_text(t("The body as it was cut")).clicked() {
         actions.push(Action::SelectPose(None));
     }
     for (index, pose) in session.design().poses.iter().enumerate() {
         if matches!(session.renaming(), Some((Renamed::Pose(i), _)) if *i == index) {
-            if let Some(name) = name_field(ui, session, "Pose name", actions) {
+            if let Some(name) = name_field(ui, session, t("Pose name"), actions) {
                 actions.push(Action::Change(Change::RenamePose(index, name)));
             }
             continue;
         }
         let targets = match pose.targets.len() {
-            0 => "no targets".to_owned(),
-            1 => "1 target".to_owned(),
-            n => format!("{n} targets"),
+            0 => t("no targets").to_owned(),
+            count => tn!(count, "{count} target", "{count} targets"),
         };
         let error = session.judging().error(index);
         let (color, detail) = match error {
@@ -126,9 +126,14 @@ fn error_text(session: &Session, error: PoseError) -> String {
     let mm = error.error * session.design().body_length_mm();
     let percent = 100.0 * error.error;
     let how = match error {
-        PoseError { fresh: false, .. } => "of the design before; the new one is worked out",
-        PoseError { thorough: false, .. } => "at a first look; the best pose is looked for",
-        _ => "the best pose that winding from rest reaches",
+        PoseError { fresh: false, .. } => t("of the design before; the new one is worked out"),
+        PoseError { thorough: false, .. } => t("at a first look; the best pose is looked for"),
+        _ => t("the best pose that winding from rest reaches"),
     };
-    format!("The realizable plushie misses its targets by {mm:.2} mm, {percent:.2} % of the body length: {how}")
+    tf!(
+        "The realizable plushie misses its targets by {mm:.2} mm, {percent:.2} % of the body length: {how}",
+        mm,
+        percent,
+        how
+    )
 }

@@ -5,6 +5,7 @@ use crate::engine::Shape;
 use crate::picture::preview::Preview;
 use crate::rigging::{PoseServed, Proposal};
 use crate::studio::action::{Action, Actions};
+use crate::studio::language::{t, tf, tn};
 use crate::studio::pictures::Pictures;
 use crate::studio::session::Session;
 use crate::studio::style;
@@ -62,14 +63,15 @@ pub fn card(
 
 fn title(ui: &mut Ui, session: &Session, index: usize, proposal: &Proposal, actions: &mut Actions) {
     let tendons = proposal.network.tendons.len();
-    let name = format!("{}  {tendons} tendon{}", index + 1, plural(tendons));
-    let error = format!("{} to {}", percent(proposal.error_before()), percent(proposal.error_after()));
+    let name = format!("{}  {}", index + 1, tn!(tendons, "{tendons} tendon", "{tendons} tendons"));
+    let error =
+        tf!("{before} to {after}", before = percent(proposal.error_before()), after = percent(proposal.error_after()));
     let better = proposal.error_after() < proposal.error_before();
     let color = if better { ui.visuals().text_color() } else { ui.visuals().warn_fg_color };
     let button = Button::selectable(session.discovery.shown == Some(index), name)
         .right_text(RichText::new(error).small().color(color))
         .min_size(vec2(ui.available_width(), ROW));
-    let response = ui.add(button).accessible_name(format!("Proposal {}", index + 1));
+    let response = ui.add(button).accessible_name(tf!("Proposal {number}", number = index + 1));
     if response.on_hover_text(details(proposal)).clicked() {
         actions.push(Action::ShowProposal(Some(index)));
     }
@@ -81,7 +83,8 @@ fn figures(ui: &mut Ui, proposal: &Proposal) {
     ui.add(Label::new(RichText::new(costs(proposal)).small().weak()).wrap());
     ui.add(small(serves(proposal)));
     if !proposal.breaches.is_empty() {
-        let text = format!("Hard to sew in {} place{}", proposal.breaches.len(), plural(proposal.breaches.len()));
+        let text =
+            tn!(count = proposal.breaches.len(), "Hard to sew in {count} place", "Hard to sew in {count} places");
         ui.add(Label::new(RichText::new(text).small().color(ui.visuals().warn_fg_color)).truncate());
     }
 }
@@ -91,7 +94,7 @@ fn small(ui: &mut Ui, pictures: &mut Pictures, struck: &Struck) {
     ui.vertical(|ui| {
         ui.set_width(SMALL.x);
         let (rect, response) = ui.allocate_exact_size(SMALL, Sense::hover());
-        response.widget_info(|| WidgetInfo::labeled(Role::Image, true, format!("Strikes {}", struck.name)));
+        response.widget_info(|| WidgetInfo::labeled(Role::Image, true, tf!("Strikes {name}", name = struck.name)));
         pictures.paint(ui, &struck.picture, rect);
         ui.add(Label::new(RichText::new(&struck.name).small().weak()).truncate());
     });
@@ -100,47 +103,58 @@ fn small(ui: &mut Ui, pictures: &mut Pictures, struck: &Struck) {
 /// What it takes to make.
 fn costs(proposal: &Proposal) -> String {
     let Proposal { thread_mm, holes, force_n, .. } = proposal;
-    let sewn = proposal.sewn.map_or(String::new(), |sewn| format!(", sewn by hand {}", percent(sewn.median)));
-    format!("{thread_mm:.0} mm of cable, {holes} hole{}, {force_n:.1} N{sewn}", plural(*holes))
+    let sewn =
+        proposal.sewn.map_or(String::new(), |sewn| tf!(", sewn by hand {percent}", percent = percent(sewn.median)));
+    let holes = tn!(holes = *holes, "{holes} hole", "{holes} holes");
+    tf!("{thread_mm:.0} mm of cable, {holes}, {force_n:.1} N{sewn}", thread_mm, holes, force_n, sewn)
 }
 
 fn serves(proposal: &Proposal) -> String {
     let served: Vec<&str> = proposal.serves().collect();
-    if served.is_empty() { "serves no pose well".to_owned() } else { format!("serves {}", served.join(", ")) }
+    if served.is_empty() {
+        t("serves no pose well").to_owned()
+    } else {
+        tf!("serves {poses}", poses = served.join(", "))
+    }
 }
 
 /// Every figure, for the tip.
 fn details(proposal: &Proposal) -> String {
     let Proposal { turn_degrees, turning_degrees, .. } = proposal;
     let mut lines =
-        vec!["Error of the realizable plushie without and with it, in body lengths. Click to see it".to_owned()];
+        vec![t("Error of the realizable plushie without and with it, in body lengths. Click to see it").to_owned()];
     lines.extend(proposal.poses.iter().map(pose));
     if let Some(sewn) = proposal.sewn {
         let (median, worst) = (percent(sewn.median), percent(sewn.worst));
-        lines.push(format!("Sewn by hand, this pose: {median} as a rule, {worst} at worst"));
+        lines.push(tf!("Sewn by hand, this pose: {median} as a rule, {worst} at worst", median, worst));
     }
-    lines.push(format!("Largest turn at a hole {turn_degrees:.0} degrees, of a cable in all {turning_degrees:.0}"));
+    lines.push(tf!(
+        "Largest turn at a hole {turn_degrees:.0} degrees, of a cable in all {turning_degrees:.0}",
+        turn_degrees,
+        turning_degrees
+    ));
     if let Some((parameters, _)) = &proposal.paper {
         let Parameters { seed_num, join_depth, join_len, phi, .. } = parameters;
-        lines.push(format!(
-            "Found by Algorithm 2: {seed_num} seeds, {join_depth} rounds of {join_len} edges, phi {phi:.2}; moved since"
-        ));
+        lines.push(tf!("Found by Algorithm 2: {seed_num} seeds, {join_depth} rounds of {join_len} edges, phi {phi:.2}; moved since", seed_num, join_depth, join_len, phi));
     }
     lines.join("\n")
 }
 
 fn pose(pose: &PoseServed) -> String {
-    let name = pose.name.as_deref().unwrap_or("This pose");
-    let rubbed =
-        pose.with_friction.map(|[before, after]| format!(" (with friction {} to {})", percent(before), percent(after)));
-    format!("{name}: {} to {}{}", percent(pose.before), percent(pose.after), rubbed.unwrap_or_default())
+    let name = pose.name.as_deref().unwrap_or_else(|| t("This pose"));
+    let rubbed = pose.with_friction.map(|[before, after]| {
+        tf!(" (with friction {before} to {after})", before = percent(before), after = percent(after))
+    });
+    tf!(
+        "{name}: {before} to {after}{rubbed}",
+        name,
+        before = percent(pose.before),
+        after = percent(pose.after),
+        rubbed = rubbed.unwrap_or_default()
+    )
 }
 
 /// An error, where there is such a figure.
 fn percent(error: f64) -> String {
-    if error.is_finite() { format!("{:.1} %", 100.0 * error) } else { "no figure".to_owned() }
-}
-
-fn plural(count: usize) -> &'static str {
-    if count == 1 { "" } else { "s" }
+    if error.is_finite() { format!("{:.1} %", 100.0 * error) } else { t("no figure").to_owned() }
 }

@@ -5,6 +5,7 @@ use crate::design::Design;
 use crate::motion::winch_labels;
 use crate::sewing::{Breach, most_severe};
 use crate::studio::icons::{self, Icon};
+use crate::studio::language::tf;
 use eframe::egui::{Label, Rect, RichText, Role, Sense, Ui, Vec2, WidgetInfo, vec2};
 
 /// Breaches that a tip tells one by one.
@@ -18,13 +19,13 @@ pub fn mark(ui: &mut Ui, design: &Design, index: usize, breaches: &[Breach]) {
     let own: Vec<Breach> = breaches.iter().filter(|b| b.winches().any(|winch| winch == index)).copied().collect();
     passing(ui, !own.is_empty(), |ui| {
         let (rect, response) = ui.allocate_exact_size(vec2(MARK, ROW), Sense::hover());
-        let label = format!("Network {} is hard to sew", design.networks[index].name);
+        let label = tf!("Network {name} is hard to sew", name = design.networks[index].name);
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &label));
         let square = Rect::from_center_size(rect.center(), Vec2::splat(MARK));
         ui.painter().extend(icons::draw(Icon::Warning, square, ui.visuals().warn_fg_color));
         // Asked for while the pointer is there alone.
         response.on_hover_ui(|ui| {
-            ui.label(format!("Hard to sew:\n{}", lines(&own, &winch_labels(design))));
+            ui.label(tf!("Hard to sew:\n{breaches}", breaches = lines(&own, &winch_labels(design))));
         });
     });
 }
@@ -34,7 +35,9 @@ pub fn body(ui: &mut Ui, breaches: &[Breach]) {
     let thin = breaches.iter().find(|b| b.winches().next().is_none());
     passing(ui, thin.is_some(), |ui| {
         if let Some(thin) = thin {
-            ui.add(Label::new(RichText::new(format!("Hard to sew: {thin}.")).color(ui.visuals().warn_fg_color)).wrap());
+            ui.add(
+                Label::new(RichText::new(tf!("Hard to sew: {thin}.", thin)).color(ui.visuals().warn_fg_color)).wrap(),
+            );
         }
     });
 }
@@ -43,7 +46,7 @@ pub fn body(ui: &mut Ui, breaches: &[Breach]) {
 fn lines(breaches: &[Breach], names: &[String]) -> String {
     let mut lines: Vec<String> = most_severe(breaches, TOLD).iter().map(|b| b.words(names).to_string()).collect();
     if breaches.len() > TOLD {
-        lines.push(format!("and {} more", breaches.len() - TOLD));
+        lines.push(tf!("and {count} more", count = breaches.len() - TOLD));
     }
     lines.join("\n")
 }

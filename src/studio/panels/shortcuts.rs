@@ -3,11 +3,14 @@
 use super::widgets::heading;
 use crate::studio::action::{Action, Actions};
 use crate::studio::commands;
+use crate::studio::language::t;
 use crate::studio::session::{Overlay, Session};
 use eframe::egui::{Context, Grid, Id, Modal, RichText, ScrollArea};
 
 /// Logical pixels.
 const SIZE: [f32; 2] = [520.0, 480.0];
+/// Width of the keys, so that what they do stands in one column in every language, logical pixels.
+const KEYS: f32 = 210.0;
 
 pub fn show(ctx: &Context, session: &Session, actions: &mut Actions) {
     if session.overlay() != Some(Overlay::Shortcuts) {
@@ -15,22 +18,22 @@ pub fn show(ctx: &Context, session: &Session, actions: &mut Actions) {
     }
     let modal = Modal::new(Id::unique("shortcuts")).show(ctx, |ui| {
         ui.set_width(SIZE[0]);
-        ui.heading("Keyboard shortcuts");
+        ui.heading(t("Keyboard shortcuts"));
         ScrollArea::vertical().max_height(SIZE[1]).auto_shrink([false, true]).show(ui, |ui| {
             for (subject, list) in commands::ALL.iter() {
                 ui.add_space(6.0);
-                heading(ui, subject);
-                Grid::new(*subject).num_columns(2).min_col_width(150.0).spacing([12.0, 3.0]).show(ui, |ui| {
+                heading(ui, t(subject));
+                Grid::new(*subject).num_columns(2).min_col_width(KEYS).spacing([12.0, 3.0]).show(ui, |ui| {
                     for command in list.iter().filter(|command| !command.keys.is_empty()) {
                         ui.label(RichText::new(command.keys_text()).monospace());
-                        ui.label(command.label.trim_end_matches('…')).on_hover_text(command.tip);
+                        ui.label(t(command.label).trim_end_matches('…')).on_hover_text(t(command.tip));
                         ui.end_row();
                     }
                 });
             }
         });
         ui.add_space(6.0);
-        if ui.button("Close").clicked() {
+        if ui.button(t("Close")).clicked() {
             actions.push(Action::Overlay(None));
         }
     });

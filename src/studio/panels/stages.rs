@@ -2,6 +2,7 @@
 
 use crate::picture::Stage;
 use crate::studio::action::{Action, Actions};
+use crate::studio::language::t;
 use crate::studio::session::Session;
 use crate::studio::style;
 use crate::studio::viewport::thumbnail::Thumbnails;
@@ -14,10 +15,10 @@ const HEIGHT: f32 = 78.0;
 pub fn show(ui: &mut Ui, session: &Session, thumbnails: &mut Thumbnails, actions: &mut Actions) {
     const GAP: f32 = 4.0;
     let stages = [
-        (Stage::Activation, "Activity", "Activation graph: every fibre by its contraction"),
-        (Stage::Seeds, "Seeds", "The most contracted fibres; the starting component stands out"),
-        (Stage::Tree, "Tree", "Winch tree: components, and joining paths in blue"),
-        (Stage::Result, "Result", "The winch and its tendons"),
+        (Stage::Activation, t("Activity"), t("Activation graph: every fibre by its contraction")),
+        (Stage::Seeds, t("Seeds"), t("The most contracted fibres; the starting component stands out")),
+        (Stage::Tree, t("Tree"), t("Winch tree: components, and joining paths in blue")),
+        (Stage::Result, t("Result"), t("The winch and its tendons")),
     ];
     let width = ((ui.available_width() - 3.0 * GAP) / 4.0).floor();
     ui.horizontal(|ui| {

@@ -11,6 +11,7 @@ use crate::picture::preview::Preview;
 use crate::studio::action::{Action, Actions, FileAction};
 use crate::studio::commands::files::{NEW, NEW_DRAWING, OPEN};
 use crate::studio::jobs::Told;
+use crate::studio::language::{mark, t, tf};
 use crate::studio::pictures::Pictures;
 use crate::studio::session::{Overlay, Session, Task};
 use eframe::egui::{
@@ -73,7 +74,7 @@ pub fn show(ctx: &Context, session: &Session, state: &mut State, actions: &mut A
                 recent(ui, session, state, shots, actions);
             });
             ui.add_space(8.0);
-            if ui.button("Go on with what is open").clicked() {
+            if ui.button(t("Go on with what is open")).clicked() {
                 actions.push(Action::Overlay(None));
             }
         });
@@ -86,7 +87,7 @@ pub fn show(ctx: &Context, session: &Session, state: &mut State, actions: &mut A
 fn left_behind(ui: &mut Ui, session: &Session, state: &mut State, shots: Option<&Shots>, actions: &mut Actions) {
     let Some(work) = session.offered() else { return };
     ui.add_space(6.0);
-    heading(ui, "Not saved");
+    heading(ui, t("Not saved"));
     ui.horizontal(|ui| {
         let (rect, _) = ui.allocate_exact_size(vec2(CARD[0], CARD[1] - 28.0), Sense::hover());
         let found = shots.and_then(|shots| shots.work.as_ref()).filter(|(of, _)| of == work.folder());
@@ -98,11 +99,11 @@ fn left_behind(ui: &mut Ui, session: &Session, state: &mut State, shots: Option<
             ui.add(Label::new(dialogs::left_behind(work)).wrap());
             ui.add_space(4.0);
             ui.horizontal(|ui| {
-                if primary(ui, true, "Recover", 100.0).clicked() {
+                if primary(ui, true, t("Recover"), 100.0).clicked() {
                     actions.push(Action::Overlay(None));
                     actions.push(Action::File(FileAction::Recover));
                 }
-                if ui.button("Discard it").clicked() {
+                if ui.button(t("Discard it")).clicked() {
                     actions.push(Action::File(FileAction::DiscardWork));
                 }
             });
@@ -112,11 +113,11 @@ fn left_behind(ui: &mut Ui, session: &Session, state: &mut State, shots: Option<
 
 fn examples(ui: &mut Ui, state: &mut State, shots: Option<&Shots>, actions: &mut Actions) {
     ui.add_space(6.0);
-    heading(ui, "Examples");
+    heading(ui, t("Examples"));
     ui.horizontal_wrapped(|ui| {
         for (index, example) in bundled::ALL.iter().enumerate() {
             let picture = shots.and_then(|shots| shots.examples.get(index)?.as_ref());
-            if card(ui, state, picture, example.name, &format!("Open example {}", example.name)) {
+            if card(ui, state, picture, example.name, &tf!("Open example {name}", name = example.name)) {
                 actions.push(Action::Overlay(None));
                 actions.push(Action::File(FileAction::OpenExample(index)));
             }
@@ -129,13 +130,13 @@ fn recent(ui: &mut Ui, session: &Session, state: &mut State, shots: Option<&Shot
         return;
     }
     ui.add_space(6.0);
-    heading(ui, "Recent");
+    heading(ui, t("Recent"));
     ui.horizontal_wrapped(|ui| {
         for path in session.recent().iter().take(RECENT) {
             let found = shots.and_then(|shots| shots.recent.iter().find(|(of, _)| of == path));
             let picture = found.and_then(|(_, picture)| picture.as_ref());
             let name = shown(path.file_stem().map_or(path, Path::new));
-            if card(ui, state, picture, &name, &format!("Open {}", shown(path))) {
+            if card(ui, state, picture, &name, &tf!("Open {path}", path = shown(path))) {
                 actions.push(Action::Overlay(None));
                 actions.push(Action::File(FileAction::OpenPath(path.clone())));
             }
@@ -173,7 +174,7 @@ fn follow<'s>(session: &'s Session, state: &mut State, actions: &mut Actions) ->
         let left = session.offered().map(|work| (work.folder().to_owned(), Design::clone(&work.design)));
         let work =
             Arc::new(move |cancel: &AtomicBool| -> Told { Arc::new(drawn(theme, left.clone(), &recent, cancel)) });
-        actions.push(Action::Start(Task { owner: OWNER, name: "Pictures of designs", work }));
+        actions.push(Action::Start(Task { owner: OWNER, name: mark("Pictures of designs"), work }));
     }
     session.tasks().told::<Shots>(OWNER).filter(|shots| shots.theme == theme)
 }

@@ -6,6 +6,7 @@ use crate::studio::action::{Action, Actions};
 use crate::studio::canvas::{Hit, Plushie};
 use crate::studio::commands::command::Scope;
 use crate::studio::commands::files::STOP;
+use crate::studio::language::{t, tf};
 use crate::studio::session::{Mode, Session};
 use crate::studio::tools::{PULL, taken};
 use eframe::egui::{Align, Color32, FontId, Label, Layout, RichText, Ui, vec2};
@@ -19,7 +20,7 @@ pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     let weak = ui.visuals().weak_text_color();
     let warn = ui.visuals().warn_fg_color;
     let (text, color) = if let Some(working) = session.working() {
-        let at = session.working_at().map_or_else(String::new, |[done, of]| format!(", {done} of {of}"));
+        let at = session.working_at().map_or_else(String::new, |[done, of]| tf!(", {done} of {of}", done, of));
         (format!("{working}{at}…"), ui.visuals().strong_text_color())
     } else if let Some(warning) = session.solver_warning() {
         (warning.to_owned(), warn)
@@ -52,8 +53,8 @@ fn line(
             ui.set_min_width(place.x);
             let text = RichText::new(text).font(font).color(figures_color);
             ui.add(Label::new(text).extend()).on_hover_text(
-                "What a frame takes; rms distance of the targets in mm and in body lengths; how well forces balance: the \
-                 largest unbalanced force as a part of the forces at work. Under 1e-8 the body is in equilibrium",
+                t("What a frame takes; rms distance of the targets in mm and in body lengths; how well forces balance: the \
+                 largest unbalanced force as a part of the forces at work. Under 1e-8 the body is in equilibrium"),
             );
         });
         ui.add_space(12.0);
@@ -74,44 +75,44 @@ fn line(
 
 fn hint(session: &Session) -> &'static str {
     if session.sketching().open {
-        return "Scroll to zoom, drag beside the drawing or with the middle button to move the sheet";
+        return t("Scroll to zoom, drag beside the drawing or with the middle button to move the sheet");
     }
     match session.picked.mode {
-        Mode::Animation => "Showing the animation. Escape, or choosing a pose, returns to posing",
+        Mode::Animation => t("Showing the animation. Escape, or choosing a pose, returns to posing"),
         Mode::Winding if taken(session, Scope::Views).id != PULL => {
-            "The winches are wound by hand. K keys that; choosing a pose, or dragging the body, returns to posing"
+            t("The winches are wound by hand. K keys that; choosing a pose, or dragging the body, returns to posing")
         }
-        Mode::Pose | Mode::Winding => taken(session, Scope::Views).hint,
+        Mode::Pose | Mode::Winding => t(taken(session, Scope::Views).hint),
     }
 }
 
 /// What the solver is at.
 fn state(session: &Session) -> String {
     let what = if session.is_refining() {
-        "refining to equilibrium…"
+        t("refining to equilibrium…")
     } else if session.is_dragging() {
-        "following the hand"
+        t("following the hand")
     } else if session.playback.playing {
-        "playing"
+        t("playing")
     } else if !session.is_settled() {
-        "solving…"
+        t("solving…")
     } else {
-        "settled"
+        t("settled")
     };
-    format!("{} quality, {what}", accuracy::name(session.solver.quality))
+    tf!("{quality} quality, {what}", quality = accuracy::name(session.solver.quality), what)
 }
 
 /// Time, target error and balance of a view, in columns of fixed width; whether forces balance as far as can be seen.
 fn figures(session: &Session, plushie: Plushie) -> (String, bool) {
     let (name, shape) = match plushie {
-        Plushie::Idealized => ("Idealized", &session.solver.shapes.idealized),
-        Plushie::Realizable => ("Realizable", &session.solver.shapes.realizable),
+        Plushie::Idealized => (t("Idealized"), &session.solver.shapes.idealized),
+        Plushie::Realizable => (t("Realizable"), &session.solver.shapes.realizable),
     };
     let solved = session.request().is_none_or(|request| request.solves()[plushie as usize]);
     let text = match shape {
-        _ if !session.look.views.shows(plushie) && solved => "hidden, solved for its winches".to_owned(),
-        _ if !session.look.views.shows(plushie) => "hidden, not solved".to_owned(),
-        None => "not solved yet".to_owned(),
+        _ if !session.look.views.shows(plushie) && solved => t("hidden, solved for its winches").to_owned(),
+        _ if !session.look.views.shows(plushie) => t("hidden, not solved").to_owned(),
+        None => t("not solved yet").to_owned(),
         Some(shape) => {
             let (text, balanced) = shape_figures(session, shape);
             return (format!("{name:<NAME$} {text}"), balanced);
@@ -120,14 +121,14 @@ fn figures(session: &Session, plushie: Plushie) -> (String, bool) {
     (format!("{name:<NAME$} {text}"), true)
 }
 
-/// Characters of the longer name.
-const NAME: usize = 10;
+/// Characters of the longer name in any language.
+const NAME: usize = 11;
 /// Characters of [`shape_figures`].
 const WIDTH: usize = 55;
 
 fn shape_figures(session: &Session, shape: &Shape) -> (String, bool) {
     let error = if session.targets().is_empty() {
-        format!("{:>19}", "no targets")
+        format!("{:>19}", t("no targets"))
     } else {
         let (mm, percent) = (shape.target_error * session.design().body_length_mm(), 100.0 * shape.target_error);
         format!("{mm:>7.2} mm {percent:>6.2} %")
@@ -135,13 +136,13 @@ fn shape_figures(session: &Session, shape: &Shape) -> (String, bool) {
     let distance = shape.distance_from_equilibrium();
     let crumpled = shape.warning.as_ref().is_some_and(Warning::is_crumpled);
     let words = if crumpled {
-        "crumpled"
+        t("crumpled")
     } else if distance < EQUILIBRIUM && shape.converged {
-        "in equilibrium"
+        t("in equilibrium")
     } else if distance < NEAR_EQUILIBRIUM {
-        "near equilibrium"
+        t("near equilibrium")
     } else {
-        "off equilibrium"
+        t("off equilibrium")
     };
     let distance_text = if distance == 0.0 { "0".to_owned() } else { format!("{distance:.0e}") };
     let text = format!("{:>7.1} ms  {error}  {words:<16} {distance_text:>5}", shape.milliseconds);

@@ -12,14 +12,17 @@ use crate::studio::commands::command::Scope;
 use crate::studio::commands::document::{CLEAR_TARGETS, DELETE};
 use crate::studio::commands::posing::{self, CLEAR_STARCH, MIRROR, PIN_MIDDLE, SNAP, SYMMETRIC};
 use crate::studio::icons::{self, Icon};
+use crate::studio::language::{mark, t, tf};
 use crate::studio::session::{Brush, Mode, Selection, Session};
 use crate::studio::tools::{RADIUS_MM, STARCH, taken};
 use eframe::egui::{Align, Button, ComboBox, DragValue, Layout, RichText, Role, ScrollArea, Ui, WidgetInfo, vec2};
 
 /// A target that even the fibres miss by more than this part of the body length cannot be reached: what a maker sees.
 const OUT_OF_REACH: f64 = 0.02;
-const OUT_OF_REACH_TIP: &str = "Out of reach: even with all its fibres the body does not come nearer, as the other targets and the pins are. Move the goal \
-                                nearer, take a pin out, or give this target more weight";
+const OUT_OF_REACH_TIP: &str = mark(
+    "Out of reach: even with all its fibres the body does not come nearer, as the other targets and the pins are. Move the goal \
+                                nearer, take a pin out, or give this target more weight",
+);
 /// Weights that are offered.
 const WEIGHTS: std::ops::RangeInclusive<f64> = 0.01..=100.0;
 
@@ -49,16 +52,16 @@ fn ways(ui: &mut Ui, session: &Session, actions: &mut Actions) {
 
 fn targets(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     if session.picked.mode == Mode::Animation {
-        return hint(ui, "The views show the animation. Choose a pose, or drag the body, to go on posing.");
+        return hint(ui, t("The views show the animation. Choose a pose, or drag the body, to go on posing."));
     }
     if session.picked.mode == Mode::Winding {
-        return hint(ui, "The winches are wound by hand. Choose a pose, or drag the body, to go on posing.");
+        return hint(ui, t("The winches are wound by hand. Choose a pose, or drag the body, to go on posing."));
     }
     let Some(pose) = session.picked.pose else {
-        return hint(ui, "Drag any point of the body, in either view, to begin a pose.");
+        return hint(ui, t("Drag any point of the body, in either view, to begin a pose."));
     };
     ui.horizontal(|ui| {
-        heading(ui, "Targets");
+        heading(ui, t("Targets"));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if !session.targets().is_empty() {
                 buttons::small_icon(ui, session, &CLEAR_TARGETS, actions);
@@ -66,7 +69,7 @@ fn targets(ui: &mut Ui, session: &Session, actions: &mut Actions) {
         });
     });
     if session.targets().is_empty() {
-        hint(ui, "Drag any point of the body, in either view: the drag becomes a target.");
+        hint(ui, t("Drag any point of the body, in either view: the drag becomes a target."));
     }
     for (index, target) in session.targets().iter().enumerate() {
         row(ui, session, pose, index, target, actions);
@@ -79,30 +82,30 @@ fn row(ui: &mut Ui, session: &Session, pose: usize, index: usize, target: &Targe
     ui.horizontal(|ui| {
         let handle = Handle::Target(index);
         let selected = session.picked.selection == Selection::Target(index) || session.group().has(handle);
-        let name = format!("Target {}", index + 1);
+        let name = tf!("Target {number}", number = index + 1);
         // Text on the right, even none, moves the name to the left, in line with the poses above.
         let button = Button::selectable(selected, &name).right_text("").min_size(vec2(62.0, 24.0));
         let response =
-            ui.add(button).accessible_name(&name).on_hover_text("Click to select, with Ctrl or Shift beside others");
+            ui.add(button).accessible_name(&name).on_hover_text(t("Click to select, with Ctrl or Shift beside others"));
         if response.clicked() {
             actions.push(pick(ui, session, handle));
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let (name, tip) = (format!("Remove target {}", index + 1), DELETE.hint("Remove this target"));
+            let (name, tip) = (tf!("Remove target {number}", number = index + 1), DELETE.hint(t("Remove this target")));
             if icons::small_button(ui, Icon::Close, &name, &tip).clicked() {
                 actions.push(Action::Change(Change::RemoveTarget { pose, index }));
             }
             let mut weight = target.weight;
             let value = DragValue::new(&mut weight).range(WEIGHTS).speed(0.02).max_decimals(2);
-            let response = ui.add(value).accessible_name(format!("Weight of target {}", index + 1));
-            if response.on_hover_text("Weight: how much this target counts").changed() {
+            let response = ui.add(value).accessible_name(tf!("Weight of target {number}", number = index + 1));
+            if response.on_hover_text(t("Weight: how much this target counts")).changed() {
                 actions.push(Action::Live(Change::WeighTarget { pose, index, weight }));
             }
             // In the row, so that nothing moves away from under the pointer while the body settles.
             if let Some(missed) = missed {
                 let text = RichText::new(format!("{:.0} mm", missed.ceil())).small().color(ui.visuals().warn_fg_color);
-                let response = ui.label(text).on_hover_text(OUT_OF_REACH_TIP);
-                let spoken = format!("Out of reach by {:.0} mm", missed.ceil());
+                let response = ui.label(text).on_hover_text(t(OUT_OF_REACH_TIP));
+                let spoken = tf!("Out of reach by {missed_mm:.0} mm", missed_mm = missed.ceil());
                 response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &spoken));
             }
         });
@@ -143,10 +146,10 @@ fn group_weight(ui: &mut Ui, session: &Session, pose: usize, actions: &mut Actio
         return;
     };
     ui.horizontal(|ui| {
-        let label = ui.label(RichText::new(format!("{} targets, weight", group.len())).weak());
+        let label = ui.label(RichText::new(tf!("{count} targets, weight", count = group.len())).weak());
         let mut weight = first.weight;
         let value = DragValue::new(&mut weight).range(WEIGHTS).speed(0.02).max_decimals(2);
-        if ui.add(value).labelled_by(label.id).on_hover_text("Weight of all that are selected").changed() {
+        if ui.add(value).labelled_by(label.id).on_hover_text(t("Weight of all that are selected")).changed() {
             let handles = session.group().handles().to_vec();
             actions.push(Action::Live(Change::WeighTargets { pose, handles, weight }));
         }
@@ -155,23 +158,23 @@ fn group_weight(ui: &mut Ui, session: &Session, pose: usize, actions: &mut Actio
 
 fn pins(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     ui.add_space(8.0);
-    heading(ui, "Pins");
+    heading(ui, t("Pins"));
     let pins = &session.design().pins;
     if pins.is_empty() {
-        hint(ui, "Nothing holds the body: it rests where it lies, and drifts.");
+        hint(ui, t("Nothing holds the body: it rests where it lies, and drifts."));
         buttons::text(ui, session, &PIN_MIDDLE, actions);
     }
     for (index, pin) in pins.iter().enumerate() {
         let handle = Handle::Pin(index);
         let selected = session.picked.selection == Selection::Pin(index) || session.group().has(handle);
         ui.horizontal(|ui| {
-            let name = format!("Pin {}", index + 1);
+            let name = tf!("Pin {number}", number = index + 1);
             let button = Button::selectable(selected, &name).right_text("").min_size(vec2(60.0, 24.0));
             if ui.add(button).accessible_name(&name).clicked() {
                 actions.push(pick(ui, session, handle));
             }
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                let (name, tip) = (format!("Remove pin {}", index + 1), DELETE.hint("Remove this pin"));
+                let (name, tip) = (tf!("Remove pin {number}", number = index + 1), DELETE.hint(t("Remove this pin")));
                 if icons::small_button(ui, Icon::Close, &name, &tip).clicked() {
                     actions.push(Action::Change(Change::RemovePin(index)));
                 }
@@ -187,9 +190,9 @@ fn pins(ui: &mut Ui, session: &Session, actions: &mut Actions) {
 /// The choice between the kinds of pins.
 fn kind(ui: &mut Ui, session: &Session, index: usize, hold: Hold, actions: &mut Actions) {
     let name = |hold: Hold| match hold {
-        Hold::Point => "Point",
-        Hold::Line { .. } => "Line",
-        Hold::Region { .. } => "Region",
+        Hold::Point => t("Point"),
+        Hold::Line { .. } => t("pin|Line"),
+        Hold::Region { .. } => t("Region"),
     };
     let region = posing::region(session);
     let mut chosen = hold;
@@ -200,8 +203,8 @@ fn kind(ui: &mut Ui, session: &Session, index: usize, hold: Hold, actions: &mut 
             ui.selectable_value(&mut chosen, choice, name(choice));
         }
     });
-    let tip = "Point: the body may turn about it. Line: it slides along. Region: it cannot turn there";
-    combo.response.accessible_name(format!("Kind of pin {}", index + 1)).on_hover_text(tip);
+    let tip = t("Point: the body may turn about it. Line: it slides along. Region: it cannot turn there");
+    combo.response.accessible_name(tf!("Kind of pin {number}", number = index + 1)).on_hover_text(tip);
     if chosen != hold {
         actions.push(Action::Change(Change::HoldPin { index, hold: chosen }));
     }
@@ -213,14 +216,14 @@ fn figures(ui: &mut Ui, index: usize, hold: Hold, actions: &mut Actions) {
     ui.horizontal(|ui| {
         let angle = |ui: &mut Ui, degrees: &mut f64| {
             let value = DragValue::new(degrees).range(-360.0..=360.0).speed(0.5).max_decimals(1).suffix("°");
-            ui.add(value).accessible_name(format!("Angle of pin {}", index + 1));
+            ui.add(value).accessible_name(tf!("Angle of pin {number}", number = index + 1));
         };
         match &mut changed {
             Hold::Point => {}
             Hold::Line { degrees } => angle(ui, degrees),
             Hold::Region { radius_mm, degrees } => {
                 let value = DragValue::new(radius_mm).range(0.0..=1e4).speed(0.2).max_decimals(1).suffix(" mm");
-                ui.add(value).accessible_name(format!("Radius of pin {}", index + 1));
+                ui.add(value).accessible_name(tf!("Radius of pin {number}", number = index + 1));
                 angle(ui, degrees);
             }
         }
@@ -232,18 +235,18 @@ fn figures(ui: &mut Ui, index: usize, hold: Hold, actions: &mut Actions) {
 
 /// The size and the stiffness of the brush.
 fn brush(ui: &mut Ui, session: &Session, actions: &mut Actions) {
-    heading(ui, "Starch");
+    heading(ui, t("Starch"));
     let before = session.posing().brush;
     let mut brush = before;
     ui.horizontal(|ui| {
         let Brush { radius_mm, factor } = &mut brush;
         let size =
             DragValue::new(radius_mm).range(RADIUS_MM[0]..=RADIUS_MM[1]).speed(0.2).max_decimals(1).suffix(" mm");
-        ui.add(size).accessible_name("Radius of the brush").on_hover_text("Radius of the brush ([ and ])");
+        ui.add(size).accessible_name(t("Radius of the brush")).on_hover_text(t("Radius of the brush ([ and ])"));
         let strength = DragValue::new(factor).range(1e-2..=1e3).speed(0.05).max_decimals(2).prefix("× ");
         ui.add(strength)
-            .accessible_name("Stiffness of the brush")
-            .on_hover_text("Stiffness that it leaves, as a multiple of the material's: 1 clears, less softens");
+            .accessible_name(t("Stiffness of the brush"))
+            .on_hover_text(t("Stiffness that it leaves, as a multiple of the material's: 1 clears, less softens"));
     });
     if brush != before {
         actions.push(Action::SetBrush(brush));

@@ -6,6 +6,7 @@ use crate::files;
 use crate::studio::action::{Action, Actions, FileAction};
 use crate::studio::canvas::Hit;
 use crate::studio::commands::{self, Group, Place};
+use crate::studio::language::t;
 use crate::studio::session::Session;
 use eframe::egui::{Align, Layout, RichText, Ui, menu};
 use std::path::Path;
@@ -43,7 +44,7 @@ fn gap(ui: &mut Ui) {
 }
 
 fn file_menu(ui: &mut Ui, session: &Session, actions: &mut Actions) {
-    menu::MenuButton::new("File").ui(ui, |ui| {
+    menu::MenuButton::new(t("File")).ui(ui, |ui| {
         ui.set_min_width(190.0);
         for command in commands::at(Place::FileMenu) {
             buttons::entry(ui, session, command, Hit::Nothing, actions);
@@ -52,7 +53,7 @@ fn file_menu(ui: &mut Ui, session: &Session, actions: &mut Actions) {
             return;
         }
         ui.separator();
-        ui.label(RichText::new("Recent").weak());
+        ui.label(RichText::new(t("Recent")).weak());
         for path in session.recent() {
             let name = files::shown(path.file_name().map_or(path, Path::new));
             if ui.button(name).on_hover_text(files::shown(path)).clicked() {
@@ -66,7 +67,7 @@ fn examples_menu(ui: &mut Ui, actions: &mut Actions) {
     if bundled::ALL.is_empty() {
         return;
     }
-    menu::MenuButton::new("Examples").ui(ui, |ui| {
+    menu::MenuButton::new(t("Examples")).ui(ui, |ui| {
         ui.set_min_width(120.0);
         for (index, example) in bundled::ALL.iter().enumerate() {
             if ui.button(example.name).clicked() {

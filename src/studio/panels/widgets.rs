@@ -3,7 +3,7 @@
 use crate::studio::action::{Action, Actions};
 use crate::studio::session::Session;
 use crate::studio::style;
-use eframe::egui::{Button, Frame, Key, Margin, Response, RichText, TextEdit, Ui};
+use eframe::egui::{Button, Color32, Frame, Key, Margin, Response, RichText, TextEdit, TextStyle, Ui};
 
 /// Height of a button that takes the width of its panel, logical pixels.
 const WIDE: f32 = 30.0;
@@ -18,9 +18,12 @@ pub fn heading(ui: &mut Ui, text: &str) {
     ui.label(RichText::new(text).strong().size(13.5));
 }
 
-/// The one button of a panel or a dialog that matters most.
+/// The one button of a panel or a dialog that matters most: so wide, or as wide as its words are in this language.
 pub fn primary(ui: &mut Ui, enabled: bool, text: &str, width: f32) -> Response {
     let theme = style::theme_of(ui.visuals());
+    let font = TextStyle::Button.resolve(ui.style());
+    let words = ui.painter().layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER).size().x;
+    let width = width.max(words + 2.0 * ui.spacing().button_padding.x);
     let label = RichText::new(text).strong().color(style::on_accent(theme));
     let button = Button::new(label).fill(style::accent(theme));
     ui.add_enabled_ui(enabled, |ui| wide(ui, button, width)).inner

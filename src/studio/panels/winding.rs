@@ -6,6 +6,7 @@ use crate::motion::{spool_degrees, winch_loads};
 use crate::studio::action::{Action, Actions};
 use crate::studio::commands::animation::ADD_KEYFRAME;
 use crate::studio::commands::networks::SLACKEN;
+use crate::studio::language::{t, tf};
 use crate::studio::session::{Mode, Session};
 use crate::studio::style::plain_number;
 use crate::studio::viewport::{is_beyond, limit, load_words};
@@ -19,15 +20,15 @@ pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
         return;
     }
     ui.add_space(8.0);
-    CollapsingHeader::new("Wind by hand").id_salt("winding").show(ui, |ui| {
+    CollapsingHeader::new(t("Wind by hand")).id_salt("winding").show(ui, |ui| {
         for winch in 0..session.design().networks.len() {
             slider(ui, session, winch, actions);
         }
         ui.horizontal(|ui| {
             buttons::text(ui, session, &SLACKEN, actions);
             if session.mode() == Mode::Winding {
-                let tip = ADD_KEYFRAME.hint("Put what the winches have wound on the timeline");
-                if ui.button("Key this").on_hover_text(tip).clicked() {
+                let tip = ADD_KEYFRAME.hint(t("Put what the winches have wound on the timeline"));
+                if ui.button(t("Key this")).on_hover_text(tip).clicked() {
                     actions.push(Action::Run(&ADD_KEYFRAME, session.selected()));
                 }
             }
@@ -59,11 +60,11 @@ fn slider(ui: &mut Ui, session: &Session, winch: usize, actions: &mut Actions) {
             let before = wound;
             let range = (-OUT * reach).min(wound)..=reach.max(wound);
             let slider = Slider::new(&mut wound, range).show_value(false);
-            ui.add(slider).accessible_name(format!("Cable of {}", network.name));
+            ui.add(slider).accessible_name(tf!("Cable of {name}", name = network.name));
             let value = DragValue::new(&mut wound).range(-reach..=reach).speed(0.2).fixed_decimals(1).suffix(" mm");
-            ui.add(value).accessible_name(format!("Cable of {} in mm", network.name));
+            ui.add(value).accessible_name(tf!("Cable of {name} in mm", name = network.name));
             let degrees = plain_number(spool_degrees(design, wound), 0);
-            ui.label(RichText::new(format!("{degrees}°")).small().weak()).on_hover_text("Turn of the spool");
+            ui.label(RichText::new(format!("{degrees}°")).small().weak()).on_hover_text(t("Turn of the spool"));
             if wound != before {
                 actions.push(Action::Wind(winch, wound));
             }

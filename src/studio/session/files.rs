@@ -6,6 +6,7 @@ use super::import_preview::ImportPreview;
 use crate::design::Design;
 use crate::operations::{export, film};
 use crate::studio::jobs::{New, Running};
+use crate::studio::language::t;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -156,22 +157,22 @@ impl Files {
 impl Purpose {
     pub fn title(self) -> &'static str {
         match self {
-            Self::Open => "Open a plushie",
-            Self::Import => "New plushie from an outline",
-            Self::SaveAs => "Save the plushie as",
-            Self::Export => "Export the blueprint",
-            Self::Film => "Export the animation",
+            Self::Open => t("Open a plushie"),
+            Self::Import => t("New plushie from an outline"),
+            Self::SaveAs => t("Save the plushie as"),
+            Self::Export => t("Export the blueprint"),
+            Self::Film => t("Export the animation"),
         }
     }
 
     /// The text of the button.
     pub fn verb(self) -> &'static str {
         match self {
-            Self::Open => "Open",
-            Self::Import => "Create",
-            Self::SaveAs => "Save",
-            Self::Export => "Export",
-            Self::Film => "Make the film",
+            Self::Open => t("Open"),
+            Self::Import => t("Create"),
+            Self::SaveAs => t("Save"),
+            Self::Export => t("Export"),
+            Self::Film => t("Make the film"),
         }
     }
 }

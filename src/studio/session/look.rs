@@ -8,9 +8,11 @@ use crate::picture::layers::looks;
 use crate::picture::layers::{Layer, Shown};
 use crate::picture::palette::Theme;
 use crate::studio::canvas::{Camera, Plushie};
+use crate::studio::language::Choice;
 use std::sync::Arc;
 
 pub struct Look {
+    pub language: Choice,
     pub theme: Theme,
     /// Nothing moves by itself but what is asked to play.
     pub still: bool,
@@ -112,6 +114,7 @@ impl Look {
 impl Default for Look {
     fn default() -> Self {
         Self {
+            language: Choice::default(),
             theme: Theme::Light,
             shown: Shown::default(),
             body: looks::Plush::NAME,

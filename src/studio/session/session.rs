@@ -37,6 +37,7 @@ use crate::rigging::{Proposal, ProposeOptions};
 use crate::studio::canvas::Hit;
 use crate::studio::jobs::{self, Jobs, Running, Wake};
 use crate::studio::keeper::Abandoned;
+use crate::studio::language::t;
 use crate::studio::messages::Messages;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -284,11 +285,11 @@ impl Session {
 
     /// The work that threads are busy with, ready to be shown.
     pub fn working(&self) -> Option<&'static str> {
-        let keying = self.keying.is_some().then_some("Working out the keyframe");
+        let keying = self.keying.is_some().then_some(t("Working out the keyframe"));
         let rigging = self.rigging.running.is_some() || self.rigging.curve.running.is_some();
-        let rigging = rigging.then_some("Looking for winches and tendons");
-        let filming = self.filming.running.is_some().then_some("Drawing the animation");
-        let following = self.following.is_running().then_some("Working out keyframes again");
+        let rigging = rigging.then_some(t("Looking for winches and tendons"));
+        let filming = self.filming.running.is_some().then_some(t("Drawing the animation"));
+        let following = self.following.is_running().then_some(t("Working out keyframes again"));
         self.files.working.or(rigging).or(keying).or(filming).or(following)
     }
 
@@ -365,9 +366,9 @@ impl Session {
     /// Why networks cannot be proposed now, if so.
     pub fn cannot_propose(&self) -> Option<&'static str> {
         if self.discovery.running.is_some() && !self.discovery.is_stale() {
-            Some("Discovery is running")
+            Some(t("Discovery is running"))
         } else if self.picked.mode != Mode::Pose || self.targets().is_empty() {
-            Some("Choose a pose with at least one target first: drag a point of the body")
+            Some(t("Choose a pose with at least one target first: drag a point of the body"))
         } else {
             None
         }
@@ -398,10 +399,10 @@ impl Session {
     /// Why no rig can be looked for now, if so.
     pub fn cannot_rig(&self) -> Option<&'static str> {
         if self.rigging.running.is_some() || self.rigging.curve.running.is_some() {
-            return Some("A rig is being looked for");
+            return Some(t("A rig is being looked for"));
         }
         let posed = self.design().poses.iter().any(|pose| !pose.targets.is_empty());
-        (!posed).then_some("Pose the plushie first: drag a point of the body")
+        (!posed).then_some(t("Pose the plushie first: drag a point of the body"))
     }
 
     /// Files that were opened or saved lately, the newest first.
@@ -438,10 +439,10 @@ impl Session {
         }
         match self.texturing.found {
             texturing::Found::Picture(_) => None,
-            texturing::Found::Trouble => Some("The texture of this plushie is missing or broken"),
-            texturing::Found::Nothing if self.texturing.path.is_some() => Some("The texture is being read"),
+            texturing::Found::Trouble => Some(t("The texture of this plushie is missing or broken")),
+            texturing::Found::Nothing if self.texturing.path.is_some() => Some(t("The texture is being read")),
             texturing::Found::Nothing => {
-                Some("This plushie has no texture; the import has “Keep the picture as texture”")
+                Some(t("This plushie has no texture; the import has “Keep the picture as texture”"))
             }
         }
     }

@@ -6,6 +6,7 @@ use crate::outline::drawing::{Item, Part, Primitive};
 use crate::picture::palette::Palette;
 use crate::studio::action::Actions;
 use crate::studio::canvas::{Canvas, Hit, closed};
+use crate::studio::language::mark;
 use crate::studio::session::Session;
 use crate::studio::style;
 use eframe::egui::{Color32, CursorIcon, Key, Painter, Pos2, Stroke};
@@ -85,10 +86,10 @@ impl Tool for Spanned {
 pub fn with(session: &Session, primitive: Primitive) -> Drawn {
     let cut = session.sketching().cut;
     let what = match (&primitive, cut) {
-        (_, true) => "Cut out a part",
-        (Primitive::Circle { .. }, _) => "Draw a circle",
-        (Primitive::Capsule { .. }, _) => "Draw a capsule",
-        (Primitive::Path { .. }, _) => "Draw a path",
+        (_, true) => mark("Cut out a part"),
+        (Primitive::Circle { .. }, _) => mark("Draw a circle"),
+        (Primitive::Capsule { .. }, _) => mark("Draw a capsule"),
+        (Primitive::Path { .. }, _) => mark("Draw a path"),
     };
     let mut drawing = session.drawing().clone();
     drawing.parts.push(Part { primitive, cut });

@@ -7,6 +7,7 @@ use crate::outline::{Point, polygon};
 use crate::studio::action::Actions;
 use crate::studio::canvas::{Canvas, HANDLE, Hit};
 use crate::studio::commands::command::{Keys, Scope};
+use crate::studio::language::t;
 use crate::studio::session::Session;
 use eframe::egui::{CursorIcon, Key, Painter, Pos2, Shape};
 
@@ -79,7 +80,7 @@ impl Tool for Polygon {
     }
 
     fn hint(&self, _session: &Session) -> Option<&'static str> {
-        self.waits().then_some("click the first corner, or press Enter, to close it")
+        self.waits().then_some(t("click the first corner, or press Enter, to close it"))
     }
 
     fn cursor(&self, _canvas: &Canvas<'_>, _under: Hit) -> CursorIcon {

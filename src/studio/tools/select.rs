@@ -9,6 +9,7 @@ use crate::studio::action::{Action, Actions};
 use crate::studio::canvas::{Canvas, Hit, closed, track};
 use crate::studio::change::Change;
 use crate::studio::commands::command::{Keys, Scope};
+use crate::studio::language::{mark, t};
 use crate::studio::session::Session;
 use crate::studio::style;
 use eframe::egui::{CursorIcon, Key, Painter, Pos2, Stroke};
@@ -80,10 +81,10 @@ impl Tool for Select {
         self.held = match (under(canvas, at), canvas.session.sketching().item) {
             (Under::Handle(handle), Some(item)) => {
                 actions.push(pick(Some(item), Some(handle)));
-                held(drawing(), item, Some(handle), "Move point")
+                held(drawing(), item, Some(handle), mark("Move point"))
             }
             (Under::Middle(after), Some(item)) => {
-                let (what, drawing) = ("Add point", drawing().with_point(item, after, at));
+                let (what, drawing) = (mark("Add point"), drawing().with_point(item, after, at));
                 actions.push(Action::Live(Change::Draw { what, drawing: drawing.clone() }));
                 actions.push(pick(Some(item), Some(after + 1)));
                 // Where it is then moved to is the same step.
@@ -91,7 +92,7 @@ impl Tool for Select {
             }
             (Under::Item(item), _) => {
                 actions.push(pick(Some(item), None));
-                let what = if matches!(item, Item::Part(_)) { "Move part" } else { "Move track" };
+                let what = if matches!(item, Item::Part(_)) { mark("Move part") } else { mark("Move track") };
                 held(drawing(), item, None, what)
             }
             _ => Held::Sheet(at),
@@ -139,7 +140,7 @@ impl Tool for Select {
 
     fn hint(&self, session: &Session) -> Option<&'static str> {
         let picked = session.sketching().item.is_some();
-        picked.then_some("drag the points; drag a small dot to put one in; Delete removes")
+        picked.then_some(t("drag the points; drag a small dot to put one in; Delete removes"))
     }
 
     fn cursor(&self, _canvas: &Canvas<'_>, _under: Hit) -> CursorIcon {

@@ -7,6 +7,7 @@ use crate::outline::{Point, polygon};
 use crate::studio::action::Actions;
 use crate::studio::canvas::{Canvas, Hit};
 use crate::studio::commands::command::{Keys, Scope};
+use crate::studio::language::{mark, t};
 use crate::studio::session::Session;
 use eframe::egui::{CursorIcon, Key, Painter, Pos2, Shape, Stroke};
 
@@ -72,7 +73,7 @@ impl Tool for Track {
         let mut drawing = session.drawing().clone();
         drawing.tracks.push(self.points.clone());
         let new = Item::Track(drawing.tracks.len() - 1);
-        Some(Drawn { what: "Draw a track", drawing, new })
+        Some(Drawn { what: mark("Draw a track"), drawing, new })
     }
 
     fn waits(&self) -> bool {
@@ -80,7 +81,7 @@ impl Tool for Track {
     }
 
     fn hint(&self, _session: &Session) -> Option<&'static str> {
-        self.waits().then_some("click the last point again, or press Enter, to end it; Escape drops it")
+        self.waits().then_some(t("click the last point again, or press Enter, to end it; Escape drops it"))
     }
 
     fn cursor(&self, _canvas: &Canvas<'_>, _under: Hit) -> CursorIcon {

@@ -2,6 +2,7 @@
 
 use crate::picture::ramp::Bar;
 use crate::studio::canvas::Canvas;
+use crate::studio::language::{t, tf};
 use crate::studio::style;
 use eframe::egui::{Align2, FontId, Rect, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
@@ -29,12 +30,21 @@ pub fn show(ui: &mut Ui, canvas: &Canvas<'_>, bar: &Bar) {
         let part = Rect::from_min_size(pos2(left + k as f32 * step, top), vec2(step + 0.5, SIZE[1]));
         painter.rect_filled(part, 0.0, color);
     }
+    let titled = Bar { title: t(bar.title), ..bar.clone() };
     let (ink, weak, font) = (ui.visuals().text_color(), ui.visuals().weak_text_color(), FontId::proportional(11.0));
-    painter.text(pos2(left, top - 4.0), Align2::LEFT_BOTTOM, bar.words(), font.clone(), ink);
+    painter.text(pos2(left, top - 4.0), Align2::LEFT_BOTTOM, titled.words(), font.clone(), ink);
     let ends = [Align2::LEFT_TOP, Align2::CENTER_TOP, Align2::RIGHT_TOP];
     for ((place, words), align) in bar.ticks().into_iter().zip(ends) {
         painter.text(pos2(left + place as f32 * length, top + SIZE[1] + 2.0), align, words, font.clone(), weak);
     }
     let response = ui.interact(all, ui.scope_id().with(("bar", rect.min.x as i64, rect.min.y as i64)), Sense::hover());
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, bar.range()));
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, range(bar)));
+}
+
+/// Its range in a sentence.
+fn range(bar: &Bar) -> String {
+    let ticks = bar.ticks();
+    let [low, high] = [&ticks[0].1, &ticks[2].1];
+    let unit = if bar.unit.is_empty() { String::new() } else { format!(" {}", bar.unit) };
+    tf!("{title} from {low} to {high}{unit}", title = t(bar.title), low, high, unit)
 }

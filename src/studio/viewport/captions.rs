@@ -2,6 +2,7 @@
 
 use crate::picture::Stage;
 use crate::studio::canvas::{Camera, Canvas, Plushie};
+use crate::studio::language::{t, tf, tn};
 use crate::studio::session::{Mode, Session};
 use eframe::egui::{Align2, FontId, Pos2, Rect, Stroke, Ui, Vec2};
 
@@ -10,13 +11,13 @@ pub fn show(ui: &Ui, canvas: &Canvas<'_>, plushie: Plushie) {
     let painter = ui.painter_at(rect);
     let (title, detail) = match (plushie, session.displayed_proposal()) {
         (Plushie::Idealized, Some(p)) if p.paper.is_some() => {
-            ("Idealized", stage_name(session.discovery.stage).to_owned())
+            (t("Idealized"), stage_name(session.discovery.stage).to_owned())
         }
         (Plushie::Realizable, Some(p)) => {
-            ("Realizable", format!("with the proposal, error {:.1} %", 100.0 * p.error_after()))
+            (t("Realizable"), tf!("with the proposal, error {percent:.1} %", percent = 100.0 * p.error_after()))
         }
-        (Plushie::Idealized, _) => ("Idealized", "muscle fibres".to_owned()),
-        (Plushie::Realizable, None) => ("Realizable", networks_text(session)),
+        (Plushie::Idealized, _) => (t("Idealized"), t("muscle fibres").to_owned()),
+        (Plushie::Realizable, None) => (t("Realizable"), networks_text(session)),
     };
     let beside = if session.look.rulers { super::rulers::WIDTH } else { 0.0 };
     let corner = rect.left_top() + Vec2::new(14.0 + beside, 10.0 + beside);
@@ -35,25 +36,24 @@ pub fn show(ui: &Ui, canvas: &Canvas<'_>, plushie: Plushie) {
 
 fn stage_name(stage: Stage) -> &'static str {
     match stage {
-        Stage::Activation => "activation graph",
-        Stage::Seeds => "seeds and starting component",
-        Stage::Tree => "winch tree with joining paths",
-        Stage::Result => "winch and tendons",
+        Stage::Activation => t("activation graph"),
+        Stage::Seeds => t("seeds and starting component"),
+        Stage::Tree => t("winch tree with joining paths"),
+        Stage::Result => t("winch and tendons"),
     }
 }
 
 fn networks_text(session: &Session) -> String {
     if let Some(name) = session.solo().name() {
-        return format!("{name} alone");
+        return tf!("{name} alone", name);
     }
     if session.picked.mode == Mode::Winding {
-        return "wound by hand".to_owned();
+        return t("wound by hand").to_owned();
     }
     match session.design().acting_numbers().len() {
-        0 if !session.design().networks.is_empty() => "all winches switched off".to_owned(),
-        0 => "no winches yet".to_owned(),
-        1 => "1 winch".to_owned(),
-        n => format!("{n} winches"),
+        0 if !session.design().networks.is_empty() => t("all winches switched off").to_owned(),
+        0 => t("no winches yet").to_owned(),
+        n => tn!(winches = n, "{winches} winch", "{winches} winches"),
     }
 }
 

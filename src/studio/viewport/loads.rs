@@ -3,6 +3,7 @@
 use crate::motion::{Load, winch_loads};
 use crate::operations::network::Part;
 use crate::studio::canvas::{Canvas, Ground, Plushie};
+use crate::studio::language::{t, tf};
 use crate::studio::session::{Mode, Session};
 use crate::studio::tools::PULL;
 use eframe::egui::{Align2, FontId, Rect, Role, Sense, Ui, WidgetInfo, vec2};
@@ -40,8 +41,9 @@ pub fn show(ui: &mut Ui, canvas: &Canvas<'_>) {
 fn told(ui: &mut Ui, session: &Session, place: Rect, winch: usize, (text, beyond): (&str, bool)) {
     let response = ui.interact(place, ui.scope_id().with(("load", winch)), Sense::hover());
     let name = &session.design().networks[winch].name;
-    let over = if beyond { ", beyond the motor's limit" } else { "" };
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Load of {name}: {text}{over}")));
+    let over = if beyond { t(", beyond the motor's limit") } else { "" };
+    response
+        .widget_info(|| WidgetInfo::labeled(Role::Label, true, tf!("Load of {name}: {text}{over}", name, text, over)));
     if !session.is_dragging() {
         response.on_hover_text_at_pointer(limit(session));
     }
@@ -60,8 +62,10 @@ pub fn is_beyond(session: &Session, load: Load) -> bool {
 pub fn limit(session: &Session) -> String {
     let torque = session.design().controller.torque_nmm;
     let assumed = torque == crate::defaults::MOTOR_TORQUE_NMM;
-    let whose = if assumed { "Assumed of the motor" } else { "The motor" };
-    format!(
-        "Pull of all its cables, and torque at the spool. {whose}: {torque:.0} N mm; the settings of the motor have it"
+    let whose = if assumed { t("Assumed of the motor") } else { t("The motor") };
+    tf!(
+        "Pull of all its cables, and torque at the spool. {whose}: {torque:.0} N mm; the settings of the motor have it",
+        whose,
+        torque
     )
 }

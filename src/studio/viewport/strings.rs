@@ -6,6 +6,7 @@ use crate::outline::Point;
 use crate::picture::palette::Palette;
 use crate::sewing::{Breach, Spot};
 use crate::studio::canvas::{Canvas, Ground, HANDLE};
+use crate::studio::language::tf;
 use crate::studio::session::Selection;
 use crate::studio::style;
 use crate::studio::tools::TENDON;
@@ -112,13 +113,13 @@ fn broken(ui: &mut Ui, canvas: &Canvas<'_>) {
         let painter = ui.painter_at(canvas.rect);
         painter.circle_stroke(middle, radius, Stroke::new(2.0, red));
         let words: Vec<String> = breaches.iter().map(|breach| breach.words(&names).to_string()).collect();
-        let words = format!("Hard to sew: {}", words.join("\n"));
+        let words = tf!("Hard to sew: {breaches}", breaches = words.join("\n"));
         let square = Rect::from_center_size(pos2(middle.x, middle.y), Vec2::splat(2.0 * radius));
         let corner = [canvas.rect.min.x as i64, canvas.rect.min.y as i64];
         let response = ui.interact(square, ui.scope_id().with(("broken", corner, part)), Sense::hover());
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &words));
         if !session.is_dragging() {
-            response.on_hover_text_at_pointer(format!("{words}\nThe tendon tool (W) moves it"));
+            response.on_hover_text_at_pointer(tf!("{words}\nThe tendon tool (W) moves it", words));
         }
     }
 }

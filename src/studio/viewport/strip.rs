@@ -5,6 +5,7 @@ use crate::picture::layers::look;
 use crate::studio::action::Actions;
 use crate::studio::canvas::Hit;
 use crate::studio::commands::{self, Place};
+use crate::studio::language::t;
 use crate::studio::panels::buttons;
 use crate::studio::session::Session;
 use eframe::egui::{Align, Layout, Rect, Response, Ui, UiBuilder, menu, vec2};
@@ -29,11 +30,11 @@ pub fn show(ui: &mut Ui, session: &Session, area: Rect, actions: &mut Actions) {
         .layout(Layout::right_to_left(Align::Center));
     ui.scope_builder(place, |ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
-        let view = menu::MenuButton::new("View").ui(ui, |ui| entries(ui, session, Place::ViewMenu, actions)).0;
-        named(view, "View", "Cameras, rulers, onion skins");
-        let label = look(session.look().body).map_or("Look", |look| look.label);
+        let view = menu::MenuButton::new(t("View")).ui(ui, |ui| entries(ui, session, Place::ViewMenu, actions)).0;
+        named(view, t("View"), t("Cameras, rulers, onion skins"));
+        let label = look(session.look().body).map_or(t("Look"), |look| t(look.label));
         let button = menu::MenuButton::new(label).ui(ui, |ui| entries(ui, session, Place::LookMenu, actions)).0;
-        named(button, "Look", "How the body is shown, and figures on it");
+        named(button, t("Look"), t("How the body is shown, and figures on it"));
     });
 }
 

@@ -7,6 +7,7 @@ use crate::engine::Shape;
 use crate::outline::{Point, polygon};
 use crate::studio::action::Actions;
 use crate::studio::canvas::{Camera, Canvas, Ground, Hit, Plushie};
+use crate::studio::language::t;
 use crate::studio::session::{Session, Views};
 use crate::studio::tools::Tool;
 use eframe::egui::{Pos2, Rect, Role, Sense, Ui, Vec2, WidgetInfo, pos2, vec2};
@@ -101,8 +102,8 @@ fn view(
     actions: &mut Actions,
 ) -> Option<Hit> {
     let name = match plushie {
-        Plushie::Idealized => "Idealized view",
-        Plushie::Realizable => "Realizable view",
+        Plushie::Idealized => t("Idealized view"),
+        Plushie::Realizable => t("Realizable view"),
     };
     let response = ui.interact(canvas.rect, ui.scope_id().with(name), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, name));

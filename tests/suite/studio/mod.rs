@@ -5,6 +5,7 @@ mod arranging;
 mod craft;
 mod files;
 mod jobs;
+mod language;
 mod looks;
 mod menus;
 mod motors;

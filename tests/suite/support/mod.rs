@@ -4,6 +4,8 @@ pub mod bodies;
 pub mod scenes;
 pub mod shapes;
 #[cfg(feature = "studio")]
+pub mod sources;
+#[cfg(feature = "studio")]
 pub mod window;
 
 use plushwright::design::{Design, Easing, Keyframe, MaterialPoint, Network, Pin, Pose, Target, Tendon};

@@ -160,11 +160,14 @@ fn depths(groups: &[Shapes]) -> Vec<usize> {
 
 /// Without rectangles around everything.
 fn without_frames(groups: Vec<Shapes>, background: Background, areas: &mut Areas) -> Result<Vec<Shapes>, OutlineError> {
+    let is_title = titles(&groups);
+    let all = groups.clone();
+    let (groups, titles): (Vec<_>, Vec<_>) = groups.into_iter().zip(is_title).partition(|(_, title)| !title);
+    let [groups, titles]: [Vec<Shapes>; 2] =
+        [groups, titles].map(|of| of.into_iter().map(|(group, _)| group).collect());
     let depths = depths(&groups);
     let boxes: Vec<(Point, Point)> = groups.iter().map(regions::bounding_box).collect();
-    let within = |i: usize, k: usize| {
-        i != k && (0..2).all(|axis| boxes[i].0[axis] >= boxes[k].0[axis] && boxes[i].1[axis] <= boxes[k].1[axis])
-    };
+    let within = |i: usize, k: usize| i != k && is_within(boxes[i], boxes[k]);
     // As they would be drawn: what is around others is a line, what lies within an area.
     let marks = groups.iter().enumerate().map(|(k, area)| {
         let clear = || (0..groups.len()).filter(|&i| within(i, k)).all(|i| !runs_along(&groups[i], boxes[k]));
@@ -173,16 +176,41 @@ fn without_frames(groups: Vec<Shapes>, background: Background, areas: &mut Areas
     });
     let marks: Vec<Mark> = marks.collect();
     let boxes: Vec<(Point, Point)> = marks.iter().map(|mark| regions::bounding_box(&mark.area)).collect();
-    let (figure, frames, notes) = ground::part(marks, None, background)?;
+    let (figure, mut frames, notes) = ground::part(marks, None, background)?;
     if frames.is_empty() {
-        return Ok(groups);
+        return Ok(all);
     }
     areas.notes.extend(notes);
+    frames.extend(titles.into_iter().flatten());
     areas.asides.push(Aside { why: Why::Background, areas: frames });
     let kept: Vec<(Point, Point)> = figure.iter().map(|mark| regions::bounding_box(&mark.area)).collect();
     Ok(groups.into_iter().zip(boxes).filter(|(_, own)| kept.contains(own)).map(|(group, _)| group).collect())
 }
 
+/// Which groups are fields of a drawing's title block: small rectangles that lie along a frame with a figure in it, and what is in them.
+fn titles(groups: &[Shapes]) -> Vec<bool> {
+    let boxes: Vec<(Point, Point)> = groups.iter().map(regions::bounding_box).collect();
+    let sizes: Vec<f64> = groups.iter().map(regions::area).collect();
+    let frames: Vec<usize> = (0..groups.len()).filter(|&k| is_rectangle(&groups[k])).collect();
+    let within = |i: usize, k: usize| i != k && is_within(boxes[i], boxes[k]);
+    let is_field = |i: usize, k: usize| {
+        within(i, k) && sizes[i] < TITLE * sizes[k] && is_rectangle(&groups[i]) && runs_along(&groups[i], boxes[k])
+    };
+    let has_figure = |i: usize, k: usize| {
+        (0..groups.len())
+            .any(|j| within(j, k) && !within(j, i) && sizes[j] > sizes[i] && !runs_along(&groups[j], boxes[k]))
+    };
+    let fields: Vec<usize> =
+        (0..groups.len()).filter(|&i| frames.iter().any(|&k| is_field(i, k) && has_figure(i, k))).collect();
+    (0..groups.len()).map(|i| fields.iter().any(|&field| i == field || within(i, field))).collect()
+}
+
+fn is_within(inner: (Point, Point), outer: (Point, Point)) -> bool {
+    (0..2).all(|axis| inner.0[axis] >= outer.0[axis] && inner.1[axis] <= outer.1[axis])
+}
+
+/// A field of a title block covers less than this part of the frame.
+const TITLE: f64 = 0.12;
 /// Frames within each other.
 const MAX_FRAMES: usize = 3;
 /// Part of its box that a rectangle fills.
@@ -257,6 +285,11 @@ mod tests {
         let (area, notes, _) = areas(vec![frame(100.0), circle(60.0, 60.0, 8.0), circle(-60.0, 60.0, 8.0)]);
         assert!((area / (40_000.0 - 128.0 * PI) - 1.0).abs() < 1e-3, "{area}");
         assert_eq!(notes, [Note::HolesWithin(2)]);
+        // A title block in the corner of its frame, with a cell.
+        let block = ground::rectangle([40.0, -95.0], [95.0, -75.0]);
+        let cell = ground::rectangle([45.0, -90.0], [60.0, -80.0]);
+        let (area, ..) = areas(vec![frame(100.0), block, cell, circle(0.0, 0.0, 50.0), frame(95.0)]);
+        assert!((area / (2500.0 * PI) - 1.0).abs() < 1e-3, "{area}");
         // A plate with a corner cut off.
         let square = |side: f64| ground::rectangle([0.0; 2], [side; 2]);
         let (area, notes, _) = areas(vec![square(120.0), square(100.0)]);

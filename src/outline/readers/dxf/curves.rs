@@ -62,6 +62,18 @@ impl Curve {
         }
     }
 
+    /// The faces of a polyline that is a mesh of them: vertices with flag 64 are corners, those with flag 128 alone name up to four of them,
+    /// counted from 1, with a minus where a side is not seen.
+    pub fn faces(entity: &Entity) -> Vec<Self> {
+        let (corners, faces): (Vec<&Entity>, Vec<&Entity>) = entity.vertices.iter().partition(|v| v.has_flag(64));
+        let at = |k: f64| corners.get((k.abs() as usize).checked_sub(1)?).map(|corner| (corner.point(10), 0.0));
+        let face = |face: &Entity| {
+            let vertices: Vec<(Point3, f64)> = (71..=74).filter_map(|code| face.number(code)).filter_map(at).collect();
+            (vertices.len() >= 3).then_some(Self::Polyline { vertices, closed: true })
+        };
+        faces.into_iter().filter_map(face).collect()
+    }
+
     /// An arc about z.
     pub fn arc(centre: Point3, r: f64, from: f64, to: f64) -> Self {
         Self::Ellipse { centre, major: [r, 0.0, 0.0], minor: [0.0, r, 0.0], from, to: past(from, to) }

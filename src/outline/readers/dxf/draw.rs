@@ -81,6 +81,10 @@ impl<'a> Drawn<'a> {
                 self.hatched.extend(hatch::boundary(entity).into_iter().map(|curve| (curve, place)));
                 continue;
             }
+            if entity.kind == "POLYLINE" && entity.has_flag(64) {
+                self.curves.extend(Curve::faces(entity).into_iter().map(|curve| (curve, place)));
+                continue;
+            }
             match Curve::of(entity) {
                 Some(curve) => self.curves.push((curve, place)),
                 None => *self.skipped.entry(entity.kind.to_lowercase()).or_default() += 1,

@@ -150,13 +150,18 @@ fn blocks<'a>(file: &'a File<'a>, import: &Import, chosen: &mut Vec<String>) -> 
 
 /// Closes the curves and fills them.
 fn closed_areas(drawn: &mut Drawn, import: &Import, file: &File, painting: &mut Painting) -> Result<(), OutlineError> {
-    let none = OutlineError::NothingPainted("the DXF has no lines, arcs, polylines or splines");
+    let none = || match drawn.skipped.is_empty() {
+        true => OutlineError::NothingPainted("the DXF has no lines, arcs, polylines or splines"),
+        false => OutlineError::OtherKinds(
+            drawn.skipped.iter().map(|(kind, count)| format!("{count} {kind}")).collect::<Vec<_>>().join(", "),
+        ),
+    };
     let hidden = || OutlineError::HiddenAlone(drawn.hidden_layers().join(", "));
     let lines = if drawn.curves.is_empty() { Vec::new() } else { flat(&drawn.curves)? };
     let hatched = if drawn.hatched.is_empty() { Vec::new() } else { flat(&drawn.hatched)? };
     let size = extent(if lines.is_empty() { &hatched } else { &lines });
     if !(size.is_finite() && size > 0.0) {
-        return Err(if drawn.hidden > 0 { hidden() } else { none });
+        return Err(if drawn.hidden > 0 { hidden() } else { none() });
     }
     painting.unit_mm = import.unit_mm.or(file.unit_mm).unwrap_or(1.0);
     let (lines, upright) = projected(lines);

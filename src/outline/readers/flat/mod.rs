@@ -1,14 +1,17 @@
-//! Flat meshes: an OBJ or STL whose faces lie in a plane, or a plate that is thin against its size.
+//! Flat meshes: an OBJ, STL or 3MF whose faces lie in a plane, or a plate that is thin against its size.
 //!
 //! Triangles and quadrilaterals of a plane are a mesh of their own, taken as it is. Faces of more corners, and the sides of a plate, are areas
 //! that are meshed anew. The plane is that across which the mesh is thinnest, whatever way it lies in space; it is looked at from above
-//! (+z), or from the front of a world whose y is up (Blender and games: +y is up, a mesh in the x-z plane has its upper end at -z).
+//! (+z). One that faces y lies on the ground in the world of an OBJ (Blender and games: +y is up, its upper end is at -z), and stands upright
+//! in that of an STL or 3MF (printers: +z is up), where it is looked at from the front.
 
 mod obj;
 mod stl;
+mod threemf;
 
 pub(super) use obj::Obj;
 pub(super) use stl::Stl;
+pub(super) use threemf::Threemf;
 
 use super::Painting;
 use super::finish::{finish, warned};
@@ -35,22 +38,26 @@ struct Faces {
     vertices: Vec<[f64; 3]>,
     /// Corners of each face by their vertices.
     faces: Vec<Vec<usize>>,
+    /// Millimetres in a unit, where the file states one.
+    unit_mm: Option<f64>,
+    /// Whether +y is up in the world that it was made in, and not +z.
+    y_up: bool,
     /// What its file is called: `an OBJ`.
     file: &'static str,
 }
 
 /// The mesh, scaled, with its boundary as the outline. Where it is no sound mesh of a plane, its faces count as painted areas.
 fn read(mesh: Faces, import: &Import) -> Result<Imported, OutlineError> {
-    let Faces { vertices, faces, file } = mesh;
+    let Faces { vertices, faces, unit_mm, y_up, file } = mesh;
     if vertices.len().max(faces.len()) > MAX_ELEMENTS {
         return Err(OutlineError::TooComplex("has more than half a million faces"));
     }
     if faces.is_empty() {
         return Err(OutlineError::NothingPainted("the mesh has no faces"));
     }
-    let View { points, thickness, size, along } = view(&vertices, &faces)?;
+    let View { points, thickness, size, along } = view(&vertices, &faces, y_up)?;
     let mut notes = Vec::new();
-    let unit_mm = import.unit_mm.unwrap_or_else(|| {
+    let unit_mm = import.unit_mm.or(unit_mm).unwrap_or_else(|| {
         if import.height_mm.is_none() {
             notes.push(Note::NoUnit(file));
         }
@@ -118,7 +125,7 @@ struct View {
 }
 
 /// Looks at a mesh across its thinnest direction: an axis where that is thin enough, and else the direction of least variance.
-fn view(vertices: &[[f64; 3]], faces: &[Vec<usize>]) -> Result<View, OutlineError> {
+fn view(vertices: &[[f64; 3]], faces: &[Vec<usize>], y_up: bool) -> Result<View, OutlineError> {
     let used = || faces.iter().flatten().map(|&k| Vector3::from(vertices[k]));
     let spread = |direction: &Vector3<f64>| {
         let (low, high) =
@@ -135,7 +142,8 @@ fn view(vertices: &[[f64; 3]], faces: &[Vec<usize>]) -> Result<View, OutlineErro
     // Right, up, and what of the world that is.
     let (mut right, mut up, mut along) = match thin {
         0 => (Vector3::y(), Vector3::z(), "x"),
-        1 => (Vector3::x(), -Vector3::z(), "y"),
+        1 if y_up => (Vector3::x(), -Vector3::z(), "y"),
+        1 => (Vector3::x(), Vector3::z(), "y"),
         _ => (Vector3::x(), Vector3::y(), "z"),
     };
     let mut thickness = sizes[thin];
@@ -149,7 +157,7 @@ fn view(vertices: &[[f64; 3]], faces: &[Vec<usize>]) -> Result<View, OutlineErro
         if across.is_finite() && across < 0.99 * thickness {
             thickness = across;
             along = "its thinnest direction";
-            (right, up) = upright(normal);
+            (right, up) = upright(normal, y_up);
         }
     }
     if thickness > PLATE_FRACTION * size {
@@ -162,13 +170,15 @@ fn view(vertices: &[[f64; 3]], faces: &[Vec<usize>]) -> Result<View, OutlineErro
     Ok(View { points, thickness, size, along })
 }
 
-/// Right and up as a plane with a normal is looked at: towards -z, or towards -y where it lies flat in a world whose y is up.
-fn upright(normal: Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
+/// Right and up as a plane with a normal is looked at: towards -z; where it faces y, towards -y in a world whose y is up, and else from the front.
+fn upright(normal: Vector3<f64>, y_up: bool) -> (Vector3<f64>, Vector3<f64>) {
     let main = normal.iamax();
-    let normal = if normal[main] < 0.0 { -normal } else { normal };
+    let behind = main == 1 && !y_up;
+    let normal = if (normal[main] < 0.0) != behind { -normal } else { normal };
     let above = match main {
         0 => Vector3::z(),
-        1 => -Vector3::z(),
+        1 if y_up => -Vector3::z(),
+        1 => Vector3::z(),
         _ => Vector3::y(),
     };
     let up = (above - normal * normal.dot(&above)).normalize();

@@ -40,6 +40,7 @@ fn parse(text: &str) -> Result<Faces, OutlineError> {
     let unreadable = |reason: String| OutlineError::Unreadable { format: "OBJ", reason };
     let mut vertices: Vec<[f64; 3]> = Vec::new();
     let mut faces: Vec<Vec<usize>> = Vec::new();
+    let mut edges = false;
     for (number, line) in text.lines().enumerate() {
         let mut words = line.split_whitespace();
         let wrong = || unreadable(format!("line {}: {}", number + 1, line.chars().take(40).collect::<String>()));
@@ -59,13 +60,19 @@ fn parse(text: &str) -> Result<Faces, OutlineError> {
                 let corners: Option<Vec<usize>> = words.map(index).collect();
                 faces.push(corners.filter(|c| c.len() >= 3).ok_or_else(wrong)?);
             }
+            Some("l") => edges = true,
             _ => {}
         }
         if vertices.len().max(faces.len()) > MAX_ELEMENTS {
             return Err(OutlineError::TooComplex("has more than half a million faces"));
         }
     }
-    Ok(Faces { vertices, faces, file: "an OBJ" })
+    if faces.is_empty() && edges {
+        let advice =
+            "the OBJ has edges and no faces; fill them before you export it (in Blender: Edit Mode, select all, F)";
+        return Err(OutlineError::NothingPainted(advice));
+    }
+    Ok(Faces { vertices, faces, unit_mm: None, y_up: true, file: "an OBJ" })
 }
 
 #[cfg(test)]

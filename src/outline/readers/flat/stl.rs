@@ -35,7 +35,7 @@ impl OutlineReader for Stl {
             None => of_text(&String::from_utf8_lossy(bytes))?,
         };
         let faces = (0..vertices.len() / 3).map(|k| vec![3 * k, 3 * k + 1, 3 * k + 2]).collect();
-        read(Faces { vertices, faces, file: "an STL" }, import)
+        read(Faces { vertices, faces, unit_mm: None, y_up: false, file: "an STL" }, import)
     }
 }
 

@@ -15,7 +15,7 @@ type Surface = [f64; 6];
 /// A background, and the distance of every pixel's colour from it, 0 for none, about 1 for black on white.
 pub(super) struct Found {
     pub difference: Vec<f32>,
-    /// Its colour in the middle of the picture, red, green and blue from 0 to 1.
+    /// Its colour at the rim, half of that being brighter and half darker, red, green and blue from 0 to 1.
     pub colour: [f64; 3],
 }
 
@@ -46,6 +46,7 @@ pub(super) fn find(pixels: &[[f32; 4]], width: usize, height: usize, within: Opt
     // The rim's median first: a figure that runs over the rim must not bend the surface.
     let mut surfaces = [0, 1, 2].map(|c| [median(pixels, &chosen, c), 0.0, 0.0, 0.0, 0.0, 0.0]);
     let mut near = 4.0 * NEAR;
+    let colour = surfaces.map(|surface| surface[0]);
     for _ in 0..ROUNDS {
         let close: Vec<usize> =
             samples.iter().copied().filter(|&k| distance(&pixels[k], &surfaces, &basis(k)) < near).collect();
@@ -58,7 +59,7 @@ pub(super) fn find(pixels: &[[f32; 4]], width: usize, height: usize, within: Opt
         near = (0.7 * near).max(NEAR);
     }
     let away = |k: usize| if counts(k) { distance(&pixels[k], &surfaces, &basis(k)) as f32 } else { 0.0 };
-    Found { difference: (0..pixels.len()).map(away).collect(), colour: surfaces.map(|surface| surface[0]) }
+    Found { difference: (0..pixels.len()).map(away).collect(), colour }
 }
 
 fn median(pixels: &[[f32; 4]], chosen: &[usize], channel: usize) -> f64 {

@@ -7,6 +7,7 @@
 //! are left out; a drawing of pictures alone, as scanners and phones make them, is read as a picture (`pictured`). What was left out or read in a special way is noted.
 
 mod expansion;
+mod fade;
 mod flatten;
 mod layers;
 mod mask;
@@ -106,9 +107,9 @@ fn shapes(tree: &Tree, size: Size, mut notes: Vec<Note>, import: &Import) -> Res
         return Err(NOTHING);
     }
     let page = [f64::from(tree.size().width()), f64::from(tree.size().height())];
-    let mut walk = Walk::new(longer, import.smooth_mm != Some(0.0));
-    let marks = walk.painted(tree.root(), Transform::identity(), 1.0)?;
     let least = import.threshold.map_or(FAINT, |level| f32::from(level) / 255.0);
+    let mut walk = Walk::new(longer, import.smooth_mm != Some(0.0), least);
+    let marks = walk.painted(tree.root(), Transform::identity(), 1.0)?;
     let (faint, marks): (Vec<Mark>, Vec<Mark>) = marks.into_iter().partition(|mark| mark.opacity < least);
     // Where all is faint, all counts.
     let (faint, marks) = if marks.is_empty() { (marks, faint) } else { (faint, marks) };

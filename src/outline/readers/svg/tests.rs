@@ -73,7 +73,7 @@ fn fills_strokes_clips_and_references_are_united() {
 fn faults_are_told_apart() {
     let attributes = "width='100' height='100'";
     let no_svg = |bytes: &[u8]| matches!(read(bytes, None), Err(OutlineError::Unreadable { format: "SVG", .. }));
-    assert!(no_svg(b"\x89PNG") && no_svg(b"<html/>") && no_svg(b""));
+    assert!(no_svg(b"\x89PNG") && no_svg(b"<note/>") && no_svg(b""));
     let nothing = |body: &str| matches!(read(&svg(attributes, body), None), Err(OutlineError::NothingPainted(_)));
     assert!(nothing("") && nothing("<path d='M0 0L50 50'/>") && nothing("<rect width='9' height='9' fill='none'/>"));
     assert!(nothing("<rect width='50' height='50' fill='url(#none)'/>"));

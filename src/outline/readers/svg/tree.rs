@@ -2,7 +2,7 @@
 
 use super::size::{self, Size};
 use super::{expansion, layers, style};
-use crate::outline::readers::{encoding, picture};
+use crate::outline::readers::{encoding, foreign, picture};
 use crate::outline::{Import, Note, OutlineError};
 use std::sync::{Arc, LazyLock};
 use usvg::roxmltree::Document;
@@ -19,7 +19,11 @@ pub(super) struct Parsed {
 /// The drawing with everything resolved, or the chosen layers of it.
 pub(super) fn parsed(svg: &[u8], import: &Import) -> Result<Parsed, OutlineError> {
     let text = encoding::xml(svg).map_err(unreadable)?;
+    if foreign::is_page(&text) {
+        return Err(foreign::of_root("html").unwrap_or(OutlineError::UnknownFormat));
+    }
     let document = document(&text)?;
+    is_drawing(&document)?;
     expansion::check(&document)?;
     let flowed = document.descendants().filter(|node| node.tag_name().name() == "flowRoot").count();
     let mut notes = Vec::new();
@@ -40,6 +44,17 @@ pub(super) fn parsed(svg: &[u8], import: &Import) -> Result<Parsed, OutlineError
 
 fn document(text: &str) -> Result<Document<'_>, OutlineError> {
     expansion::parse(text).map_err(|error| unreadable(error.to_string()))
+}
+
+/// Refuses XML that is something else.
+fn is_drawing(document: &Document) -> Result<(), OutlineError> {
+    let name = document.root_element().tag_name().name();
+    if name == "svg" {
+        return Ok(());
+    }
+    let name: String = name.chars().take(24).collect();
+    Err(foreign::of_root(&name)
+        .unwrap_or_else(|| unreadable(format!("it is XML of another kind, its root is <{name}>"))))
 }
 
 fn unreadable(reason: String) -> OutlineError {

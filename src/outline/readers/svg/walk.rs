@@ -1,5 +1,6 @@
 //! What is painted, element by element.
 
+use super::fade;
 use super::flatten::flatten;
 use crate::outline::even::{self, EVEN_FRACTION, Evened};
 use crate::outline::readers::ground::{Mark, holds_box};
@@ -34,6 +35,8 @@ pub(super) struct Walk {
     size: f64,
     /// Whether contours finer than scissors can follow are evened, and what was.
     evens: bool,
+    /// Opacity from which paint counts.
+    least: f32,
     pub evened: Evened,
     visits: usize,
     cuts: usize,
@@ -45,10 +48,23 @@ pub(super) struct Walk {
 }
 
 impl Walk {
-    pub fn new(size: f64, evens: bool) -> Self {
+    pub fn new(size: f64, evens: bool, least: f32) -> Self {
         let (tolerance, evened) = (FLATTEN_FRACTION * size, Evened::default());
         let (visits, cuts, cut_depth, points, pictures, filters) = (0, 0, 0, 0, 0, 0);
-        Self { tolerance, size, evens, evened, visits, cuts, cut_depth, points, pictures, filters, texts: Vec::new() }
+        Self {
+            tolerance,
+            size,
+            evens,
+            least,
+            evened,
+            visits,
+            cuts,
+            cut_depth,
+            points,
+            pictures,
+            filters,
+            texts: Vec::new(),
+        }
     }
 
     /// What a group paints, in px with y up, in painting order. `place` is that of the group around it, whose opacity is `opacity`. (The
@@ -128,18 +144,23 @@ impl Walk {
         if self.visits > MAX_VISITS { Err(OutlineError::TooComplex("has more than 400 000 parts")) } else { Ok(()) }
     }
 
-    /// A path's fill and stroke.
-    fn painted_path(
-        &mut self,
-        path: &usvg::Path,
-        place: Transform,
-        opacity: f32,
-    ) -> Result<Option<Mark>, OutlineError> {
+    /// A path's fill and stroke; apart from these, where its fill fades to less than counts.
+    fn painted_path(&mut self, path: &usvg::Path, place: Transform, opacity: f32) -> Result<Vec<Mark>, OutlineError> {
         self.visit()?;
-        let mut mark = Mark::default();
+        let (mut mark, mut faint) = (Mark::default(), Mark::default());
         let fill = path.fill().map(|fill| (fill.paint(), fill.opacity().get()));
         if let Some((paint, own)) = fill.map(|(paint, own)| (paint, own * shows(paint))).filter(|(_, own)| *own > 0.0) {
-            mark.area.extend(self.fill(path, place)?);
+            let area = self.fill(path, place)?;
+            let seen = path.fill().map_or(1.0, |fill| fill.opacity().get()) * opacity;
+            let bounds = path.bounding_box();
+            let within = [[bounds.left(), bounds.top()], [bounds.right(), bounds.bottom()]];
+            match fade::dense(paint, self.least / seen, within, place) {
+                Some(dense) => {
+                    mark.area.extend(regions::intersection(&area, &dense));
+                    faint = Mark { area: regions::difference(&area, &dense), opacity: 0.5 * self.least, white: false };
+                }
+                None => mark.area.extend(area),
+            }
             mark.opacity = own;
             mark.white = matches!(paint, Paint::Color(c) if c.red.min(c.green).min(c.blue) >= WHITE);
         }
@@ -149,7 +170,7 @@ impl Walk {
             mark.opacity = mark.opacity.max(own);
         }
         mark.opacity *= opacity;
-        Ok((!mark.area.is_empty()).then_some(mark))
+        Ok([faint, mark].into_iter().filter(|mark| !mark.area.is_empty()).collect())
     }
 
     pub fn fill(&mut self, path: &usvg::Path, place: Transform) -> Result<Shapes, OutlineError> {

@@ -7,6 +7,7 @@ use crate::studio::change::Change;
 use crate::studio::commands::animation::{ADD_KEYFRAME, CANCEL_FILM, DRIVES, FILM, FIT, LOOP, PLAY};
 use crate::studio::commands::document::DELETE;
 use crate::studio::icons::{self, Icon};
+use crate::studio::language::{t, tf};
 use crate::studio::panels::buttons;
 use crate::studio::panels::widgets::passing;
 use crate::studio::session::Session;
@@ -41,7 +42,7 @@ fn film(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     }
     let [done, of] = session.filming().done();
     let part = done as f32 / of.max(1) as f32;
-    ui.add(ProgressBar::new(part).desired_width(110.0).text(format!("{done} of {of}")));
+    ui.add(ProgressBar::new(part).desired_width(110.0).text(tf!("{done} of {of}", done, of)));
     buttons::text(ui, session, &CANCEL_FILM, actions);
 }
 
@@ -53,7 +54,7 @@ fn doubts(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     if fast + far == 0 {
         return;
     }
-    let text = if fast > 0 { "Too fast for the motors" } else { "A winch comes to its end" };
+    let text = if fast > 0 { t("Too fast for the motors") } else { t("A winch comes to its end") };
     ui.label(RichText::new(text).color(ui.visuals().error_fg_color));
     if fast > 0 {
         buttons::text(ui, session, &FIT, actions);
@@ -64,8 +65,8 @@ fn selected(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     let keys = session.keys();
     let frames = &session.design().keyframes;
     let Some(first) = keys.first().and_then(|&key| frames.get(key)) else { return };
-    let tip = DELETE.hint("Delete what is selected");
-    let name = if keys.len() == 1 { "Delete keyframe" } else { "Delete selected keyframes" };
+    let tip = DELETE.hint(t("Delete what is selected"));
+    let name = if keys.len() == 1 { t("Delete keyframe") } else { t("Delete selected keyframes") };
     if icons::button(ui, Icon::Trash, name, &tip).clicked() {
         actions.push(Action::Run(&DELETE, session.selected()));
     }
@@ -74,13 +75,22 @@ fn selected(ui: &mut Ui, session: &Session, actions: &mut Actions) {
         return together(ui, &keys, frames, actions);
     }
     if first.pose.is_some() {
-        let tip = "What this keyframe winds stays; otherwise it is worked out again where winches or its pose change";
-        if ui.button("Fix").on_hover_text(tip).clicked() {
+        let tip =
+            t("What this keyframe winds stays; otherwise it is worked out again where winches or its pose change");
+        if ui.button(t("Fix")).on_hover_text(tip).clicked() {
             actions.push(Action::Change(Change::FixKeyframe(keys[0])));
         }
     }
     let pose = follows(first);
-    ui.label(RichText::new(format!("Keyframe {} at {:.2} s, {pose}", keys[0] + 1, first.time_s)).weak());
+    ui.label(
+        RichText::new(tf!(
+            "Keyframe {number} at {time_s:.2} s, {pose}",
+            number = keys[0] + 1,
+            time_s = first.time_s,
+            pose
+        ))
+        .weak(),
+    );
 }
 
 /// The pace from keyframes to the next ones.
@@ -93,13 +103,13 @@ fn easing(ui: &mut Ui, keys: &[usize], first: &Keyframe, actions: &mut Actions) 
             ui.selectable_value(&mut easing, choice, name(choice));
         }
     });
-    combo.response.accessible_name("Easing").on_hover_text("How the motion goes on to the next keyframe");
+    combo.response.accessible_name(t("Easing")).on_hover_text(t("How the motion goes on to the next keyframe"));
     let of = |easing| Change::EaseKeyframes { keys: keys.to_vec(), easing };
     if easing != before {
         return actions.push(Action::Change(of(easing)));
     }
     if let Easing::Slow { out, into } = &mut easing {
-        for (value, name) in [(into, "Slow at the end"), (out, "Slow at the beginning")] {
+        for (value, name) in [(into, t("Slow at the end")), (out, t("Slow at the beginning"))] {
             let mut percent = 100.0 * *value;
             let field = DragValue::new(&mut percent).range(5.0..=90.0).speed(0.5).max_decimals(0).suffix(" %");
             ui.add(field).on_hover_text(name).accessible_name(name);
@@ -119,24 +129,24 @@ fn together(ui: &mut Ui, keys: &[usize], frames: &[Keyframe], actions: &mut Acti
     let before = to - from;
     let mut lasts = before;
     let field = DragValue::new(&mut lasts).range(0.01..=36_000.0).speed(0.01).max_decimals(2).suffix(" s");
-    let response = ui.add(field).accessible_name("Length of the selected keyframes");
-    response.on_hover_text("Stretch or squeeze what is selected; its beginning stays");
+    let response = ui.add(field).accessible_name(t("Length of the selected keyframes"));
+    response.on_hover_text(t("Stretch or squeeze what is selected; its beginning stays"));
     if lasts != before && before > 0.0 {
         actions.push(Action::Live(Change::StretchKeyframes { keys: keys.to_vec(), factor: lasts / before }));
     }
-    ui.label(RichText::new(format!("{} keyframes, length", keys.len())).weak());
+    ui.label(RichText::new(tf!("{count} keyframes, length", count = keys.len())).weak());
 }
 
 /// The pose that a keyframe follows.
 pub fn follows(keyframe: &Keyframe) -> String {
-    keyframe.pose.as_ref().map_or_else(|| "fixed".into(), |pose| format!("follows {pose}"))
+    keyframe.pose.as_ref().map_or_else(|| t("fixed").into(), |pose| tf!("follows {pose}", pose))
 }
 
 fn name(easing: Easing) -> &'static str {
     match easing {
-        Easing::Linear => "Linear",
-        Easing::Smooth => "Smooth",
-        Easing::Hold => "Hold",
-        Easing::Slow { .. } => "Handles",
+        Easing::Linear => t("Linear"),
+        Easing::Smooth => t("easing|Smooth"),
+        Easing::Hold => t("Hold"),
+        Easing::Slow { .. } => t("Handles"),
     }
 }

@@ -6,6 +6,7 @@ use crate::design::animation;
 use crate::engine::winch_reach_mm;
 use crate::motion::{Doubt, Why};
 use crate::picture::palette::Palette;
+use crate::studio::language::tf;
 use crate::studio::session::Session;
 use crate::studio::style;
 use eframe::egui::{Align2, Color32, FontId, Pos2, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
@@ -82,11 +83,11 @@ fn limits(ui: &Ui, axis: &Axis, scale: &Scale, reach: &[f64]) {
 fn doubted(ui: &mut Ui, axis: &Axis, doubt: &Doubt) {
     let visuals = ui.visuals();
     let (color, words) = match &doubt.why {
-        Why::TooFast { needs_s } => (visuals.error_fg_color, format!("Too fast: it takes {needs_s:.2} s")),
+        Why::TooFast { needs_s } => (visuals.error_fg_color, tf!("Too fast: it takes {needs_s:.2} s", needs_s)),
         Why::TooFar { winch, reach_mm } => {
-            (visuals.error_fg_color, format!("Too far: {winch} winds {reach_mm:.0} mm and no more"))
+            (visuals.error_fg_color, tf!("Too far: {winch} winds {reach_mm:.0} mm and no more", winch, reach_mm))
         }
-        Why::Rounded { winch } => (visuals.warn_fg_color, format!("{winch} is rounded off to keep its limits")),
+        Why::Rounded { winch } => (visuals.warn_fg_color, tf!("{winch} is rounded off to keep its limits", winch)),
     };
     band(ui, axis, [doubt.from_s, doubt.to_s], color, &words);
 }
@@ -103,7 +104,9 @@ fn band(ui: &mut Ui, axis: &Axis, [from_s, to_s]: [f64; 2], color: Color32, word
     let id = ui.scope_id().with(("doubt", from_s.to_bits(), to_s.to_bits(), words));
     // Only the edge: below it the playhead is set and keyframes are taken.
     let response = ui.interact(edge.expand2(vec2(0.0, 3.0)), id, Sense::hover());
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{from_s:.2} to {to_s:.2} s: {words}")));
+    response.widget_info(|| {
+        WidgetInfo::labeled(Role::Label, true, tf!("{from_s:.2} to {to_s:.2} s: {words}", from_s, to_s, words))
+    });
     response.on_hover_text(words);
 }
 
@@ -124,7 +127,12 @@ fn loads(ui: &mut Ui, session: &Session, axis: &Axis, drives: &Drives) {
     for (time_s, loads) in &drives.loads {
         for (winch, load) in loads.iter().enumerate().filter(|(_, load)| load.torque_nmm > limit) {
             let name = session.design().networks.get(winch).map_or("", |network| &network.name);
-            let words = format!("{name} pulls {:.0} N mm, its motor keeps {limit:.0} up", load.torque_nmm);
+            let words = tf!(
+                "{name} pulls {torque_nmm:.0} N mm, its motor keeps {limit:.0} up",
+                name,
+                torque_nmm = load.torque_nmm,
+                limit
+            );
             let half = 0.5 * axis.span_s / 100.0;
             band(ui, axis, [(time_s - half).max(0.0), time_s + half], color, &words);
         }

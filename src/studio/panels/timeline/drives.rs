@@ -5,6 +5,7 @@ use crate::engine::{Setpoint, solve_once};
 use crate::motion::{Ghost, Load, winch_loads};
 use crate::studio::action::{Action, Actions};
 use crate::studio::jobs::Told;
+use crate::studio::language::mark;
 use crate::studio::session::{Session, Task};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -33,7 +34,7 @@ pub fn follow<'s>(session: &'s Session, asked: &mut Option<Arc<Design>>, actions
         *asked = Some(design.clone());
         let design = design.clone();
         let work = Arc::new(move |cancel: &AtomicBool| -> Told { Arc::new(simulated(&design, cancel)) });
-        actions.push(Action::Start(Task { owner: OWNER, name: "The simulated drives", work }));
+        actions.push(Action::Start(Task { owner: OWNER, name: mark("The simulated drives"), work }));
     }
     known
 }

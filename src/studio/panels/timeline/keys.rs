@@ -7,6 +7,7 @@ use crate::studio::action::{Action, Actions};
 use crate::studio::change::Change;
 use crate::studio::commands::animation::{ALL_KEYFRAMES, COPY, CUT, EARLIER, LATER, PASTE, REMOVE};
 use crate::studio::icons;
+use crate::studio::language::{t, tf};
 use crate::studio::panels::buttons;
 use crate::studio::session::{Selection, Session};
 use crate::studio::style;
@@ -66,7 +67,9 @@ fn diamond(
     let id = ui.scope_id().with("keyframe").with(index);
     let response = ui.interact(Rect::from_center_size(center, vec2(18.0, 18.0)), id, Sense::click_and_drag());
     let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal);
-    response.widget_info(|| WidgetInfo::selected(Role::Button, true, selected, format!("Keyframe {}", index + 1)));
+    response.widget_info(|| {
+        WidgetInfo::selected(Role::Button, true, selected, tf!("Keyframe {number}", number = index + 1))
+    });
     let large = response.hovered() || response.has_focus() || selected && *held != Held::Nothing;
     let ink = ui.visuals().widgets.noninteractive.fg_stroke.color;
     let fill = if selected { style::accent(session.look().theme) } else { ink };
@@ -103,7 +106,7 @@ fn diamond(
             buttons::entry(ui, session, command, session.selected(), actions);
         }
     });
-    response.on_hover_text(format!("{:.2} s, {}", keyframe.time_s, follows(keyframe)));
+    response.on_hover_text(tf!("{time_s:.2} s, {follows}", time_s = keyframe.time_s, follows = follows(keyframe)));
     busy
 }
 
@@ -166,7 +169,7 @@ fn end(
     let grip = Rect::from_center_size(pos2(axis.x(last_s), y), vec2(12.0, 12.0));
     let response = ui.interact(grip, ui.scope_id().with("stretch keyframes"), Sense::click_and_drag());
     let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal);
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, "Stretch selected keyframes"));
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, t("Stretch selected keyframes")));
     let bar = Rect::from_center_size(grip.center(), vec2(5.0, 12.0));
     ui.painter_at(axis.rect).rect_filled(bar, 2.0, accent);
     if pointer.is_some() && pressed && response.is_pointer_button_down_on() {
@@ -186,7 +189,7 @@ fn end(
         let factor = (last_s + by - first_s).max(SNAP_S) / (last_s - first_s);
         actions.push(Action::Change(Change::StretchKeyframes { keys: keys.clone(), factor }));
     }
-    response.on_hover_text("Drag to stretch what is selected");
+    response.on_hover_text(t("Drag to stretch what is selected"));
     false
 }
 
@@ -204,7 +207,7 @@ fn handles(ui: &mut Ui, session: &Session, axis: &Axis, actions: &mut Actions) -
     let y = axis.base() - 13.0;
     let accent = style::accent(session.look().theme);
     let mut busy = false;
-    for (side, name) in ["Handle of the beginning", "Handle of the end"].into_iter().enumerate() {
+    for (side, name) in [t("Handle of the beginning"), t("Handle of the end")].into_iter().enumerate() {
         let end_s = [from.time_s, to.time_s][side];
         let at_s = [from.time_s + out * lasts, to.time_s - into * lasts][side];
         let center = pos2(axis.x(at_s), y);
@@ -229,7 +232,7 @@ fn handles(ui: &mut Ui, session: &Session, axis: &Axis, actions: &mut Actions) -
             let easing = if side == 0 { Easing::Slow { out: part, into } } else { Easing::Slow { out, into: part } };
             actions.push(Action::Live(Change::EaseKeyframes { keys: vec![index], easing }));
         }
-        response.on_hover_text("How slowly the motion begins and ends: drag away from the keyframe for slower");
+        response.on_hover_text(t("How slowly the motion begins and ends: drag away from the keyframe for slower"));
     }
     busy
 }

@@ -9,6 +9,7 @@ mod keys;
 use crate::design::{Design, animation};
 use crate::picture::palette::Palette;
 use crate::studio::action::{Action, Actions};
+use crate::studio::language::t;
 use crate::studio::session::{Mode, Session};
 use crate::studio::style;
 use axis::{Axis, RULER};
@@ -40,7 +41,7 @@ fn track(ui: &mut Ui, session: &Session, state: &mut State, actions: &mut Action
     let time_s = session.playback().time_s;
     response.widget_info(|| WidgetInfo {
         current_text_value: Some(format!("{time_s:.2} s")),
-        ..WidgetInfo::labeled(Role::Slider, true, "Timeline")
+        ..WidgetInfo::labeled(Role::Slider, true, t("Timeline"))
     });
     if !ui.input(|i| i.pointer.any_down()) || state.span_s <= 0.0 {
         let end = animation::duration_s(session.design());
@@ -91,7 +92,7 @@ fn paint_background(ui: &Ui, session: &Session, axis: &Axis) {
     }
     painter.hline(axis.x(0.0)..=axis.x(axis.span_s), base, line);
     if session.design().keyframes.is_empty() {
-        let text = "No keyframes yet. “Add keyframe” puts the current pose here.";
+        let text = t("No keyframes yet. “Add keyframe” puts the current pose here.");
         let galley = painter.layout_no_wrap(text.to_owned(), FontId::proportional(12.0), weak);
         let place = Align2::CENTER_CENTER.anchor_size(axis.rect.center(), galley.size());
         // Over the lines of the seconds.
