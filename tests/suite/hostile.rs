@@ -6,6 +6,7 @@ use plushwright::design::file::{self, TextError};
 use plushwright::fabrication::{ExportError, Options, blueprint};
 use plushwright::files::folder::FolderError;
 use std::fs;
+use std::io::Read;
 use std::ops::Range;
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -66,6 +67,29 @@ fn is_finite(text: &str) -> bool {
     !words.into_iter().any(|word| matches!(word, "NaN" | "inf" | "nan" | "null"))
 }
 
+/// The texts of a file: all of it, or what a PDF has packed. Bytes that are no text may spell anything.
+fn written(bytes: &[u8]) -> Vec<String> {
+    if !bytes.starts_with(b"%PDF") {
+        return String::from_utf8(bytes.to_vec()).into_iter().collect();
+    }
+    let starts = bytes.windows(7).enumerate().filter(|(_, word)| *word == b"stream\n" || *word == b"stream\r");
+    let unpacked = starts.filter_map(|(at, _)| {
+        let packed = bytes[at + 7..].strip_prefix(b"\n").unwrap_or(&bytes[at + 7..]);
+        let mut text = String::new();
+        flate2::read::ZlibDecoder::new(packed).read_to_string(&mut text).ok().map(|_| text)
+    });
+    unpacked.collect()
+}
+
+#[test]
+fn what_is_packed_in_a_pdf_is_read() {
+    let design = file::parse(&example("e")).unwrap();
+    let (files, _) = blueprint(&design, &Options::default()).unwrap();
+    let pages = files.iter().find(|file| file.name == "pattern-letter.pdf").expect("there");
+    let drawn = written(&pages.bytes).into_iter().filter(|text| text.lines().any(|line| line.ends_with(" l"))).count();
+    assert!(drawn >= 3, "{drawn}");
+}
+
 #[test]
 fn what_no_field_takes_is_refused_by_name_and_the_rest_makes_a_finite_blueprint() {
     for name in ["e", "pig"] {
@@ -85,8 +109,12 @@ fn what_no_field_takes_is_refused_by_name_and_the_rest_makes_a_finite_blueprint(
                 let started = worked();
                 match blueprint(&design, &Options::default()) {
                     Ok((files, _)) => files.iter().for_each(|file| {
-                        let written = String::from_utf8_lossy(&file.bytes);
-                        assert!(is_finite(&written), "{name}, {value} in {}: {}", around(&text, place), file.name);
+                        assert!(
+                            written(&file.bytes).iter().all(|text| is_finite(text)),
+                            "{name}, {value} in {}: {}",
+                            around(&text, place),
+                            file.name
+                        );
                     }),
                     Err(ExportError::Folder(FolderError::Write { source, .. })) => panic!("{source}"),
                     Err(refused) => assert!(is_finite(&refused.to_string()), "{refused}"),
@@ -154,10 +182,9 @@ fn commands(program: &Path, folder: &Path, text: &str, value: &str) -> Result<bo
             return Err(format!("{args:?} accepts it"));
         }
     }
-    let written = fs::read_dir(folder.join("dir")).into_iter().flatten().flatten().map(|entry| entry.path());
-    for path in written {
-        let text = String::from_utf8_lossy(&fs::read(&path).unwrap()).into_owned();
-        if !is_finite(&text) {
+    let files = fs::read_dir(folder.join("dir")).into_iter().flatten().flatten().map(|entry| entry.path());
+    for path in files {
+        if !written(&fs::read(&path).unwrap()).iter().all(|text| is_finite(text)) {
             return Err(format!("{} is not finite", path.display()));
         }
     }
