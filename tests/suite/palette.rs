@@ -67,6 +67,23 @@ fn the_palette_says_why_a_command_cannot_be_run_and_escape_closes_it() {
 }
 
 #[test]
+fn the_palette_stands_still_whatever_is_typed_and_however_often_it_is_opened() {
+    let mut window = window(bar());
+    let open = |window: &mut Window| {
+        press(window, Modifiers::COMMAND | Modifiers::SHIFT, Key::P);
+        window.get_by_label("Look for a command").rect()
+    };
+    let place = open(&mut window);
+    for words in ["theme", "no command has this name"] {
+        window.get_by_label("Look for a command").type_text(words);
+        settle(&mut window);
+        assert_eq!(window.get_by_label("Look for a command").rect(), place, "{words}");
+        press(&mut window, Modifiers::NONE, Key::Escape);
+        assert_eq!(open(&mut window), place, "after {words}");
+    }
+}
+
+#[test]
 fn the_palette_acts_on_what_is_selected() {
     let mut window = window(bar());
     pose(&mut window, "Idealized view");

@@ -8,7 +8,9 @@ use eframe::egui::{
     Button, Context, Id, Key, Modal, Modifiers, RichText, ScrollArea, TextEdit, Ui, accesskit::Role, vec2,
 };
 
-/// Width of the list, and its greatest height, logical pixels.
+/// Room for a tip of two lines, logical pixels.
+const TIP: f32 = 32.0;
+/// Width and height of the list, logical pixels.
 const SIZE: [f32; 2] = [460.0, 360.0];
 
 /// The text that is looked for, and which of the commands found is chosen.
@@ -58,10 +60,11 @@ pub fn show(ctx: &Context, session: &Session, state: &mut State, actions: &mut A
 }
 
 fn list(ui: &mut Ui, session: &Session, found: &[&'static Command], chosen: usize, moved: bool, actions: &mut Actions) {
-    if found.is_empty() {
-        ui.label(RichText::new(t("No command is called that")).weak());
-    }
-    ScrollArea::vertical().max_height(SIZE[1]).auto_shrink([false, true]).show(ui, |ui| {
+    // As high for few commands as for many, so that nothing moves under the pointer when it is opened again or typed into.
+    ScrollArea::vertical().max_height(SIZE[1]).min_scrolled_height(SIZE[1]).auto_shrink(false).show(ui, |ui| {
+        if found.is_empty() {
+            ui.label(RichText::new(t("No command is called that")).weak());
+        }
         ui.spacing_mut().item_spacing.y = 1.0;
         for (k, command) in found.iter().enumerate() {
             let refused = command.refused(session, session.selected());
@@ -90,11 +93,14 @@ fn list(ui: &mut Ui, session: &Session, found: &[&'static Command], chosen: usiz
         }
     });
     // What the chosen one does, for the eye and for who listens.
-    if let Some(command) = found.get(chosen) {
-        ui.separator();
-        let tip = command.refused(session, session.selected()).map_or_else(|| command.tip(session), str::to_owned);
-        ui.label(RichText::new(tip).small().weak());
-    }
+    ui.separator();
+    ui.scope(|ui| {
+        ui.set_min_height(TIP);
+        if let Some(command) = found.get(chosen) {
+            let tip = command.refused(session, session.selected()).map_or_else(|| command.tip(session), str::to_owned);
+            ui.label(RichText::new(tip).small().weak());
+        }
+    });
 }
 
 fn run(session: &Session, command: &'static Command, actions: &mut Actions) {
