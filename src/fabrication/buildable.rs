@@ -65,7 +65,7 @@ pub(super) fn places_of(design: &Design, winches: impl IntoIterator<Item = usize
 
 fn of_winches(design: &Design, names: &[String], breaches: &[Breach]) -> Vec<Remark> {
     let mut remarks = Vec::new();
-    let cramped: (Vec<usize>, Vec<String>) = breaches
+    let (winches, cramped): (Vec<usize>, Vec<String>) = breaches
         .iter()
         .filter_map(|breach| match breach {
             Breach::HousingOutside { winch, room_mm, housing_mm } => {
@@ -74,14 +74,12 @@ fn of_winches(design: &Design, names: &[String], breaches: &[Breach]) -> Vec<Rem
             _ => None,
         })
         .unzip();
-    if !cramped.1.is_empty() {
-        let words = format!(
-            "No housing fits at: {}. Move these winches inward, or take a smaller spool.",
-            cramped.1.join(", ")
-        );
-        remarks.push(Remark::at(places_of(design, cramped.0), words));
+    if !cramped.is_empty() {
+        let words =
+            format!("No housing fits at: {}. Move these winches inward, or take a smaller spool.", cramped.join(", "));
+        remarks.push(Remark::at(places_of(design, winches), words));
     }
-    let through: (Vec<usize>, Vec<String>) = breaches
+    let (winches, through): (Vec<usize>, Vec<String>) = breaches
         .iter()
         .filter_map(|breach| match breach {
             Breach::ThroughWinch { at, winch, .. } => {
@@ -90,13 +88,13 @@ fn of_winches(design: &Design, names: &[String], breaches: &[Breach]) -> Vec<Rem
             _ => None,
         })
         .unzip();
-    if !through.1.is_empty() {
+    if !through.is_empty() {
         let words = format!(
             "{} through the housings of other winches: {}. Lead them around, or move the winches.",
-            if through.1.len() == 1 { "One cable runs".into() } else { format!("{} cables run", through.1.len()) },
-            through.1.join(", ")
+            if through.len() == 1 { "One cable runs".into() } else { format!("{} cables run", through.len()) },
+            through.join(", ")
         );
-        remarks.push(Remark::at(places_of(design, through.0), words));
+        remarks.push(Remark::at(places_of(design, winches), words));
     }
     remarks
 }
@@ -119,20 +117,20 @@ fn of_the_way(design: &Design, names: &[String], housing: &Housing, seam: &Seam)
         return remarks;
     }
     let widths = Ways::of(design).widths(&seam.gap);
-    let narrow: (Vec<usize>, Vec<String>) = widths
+    let (winches, narrow): (Vec<usize>, Vec<String>) = widths
         .into_iter()
         .zip(names)
         .enumerate()
         .filter(|(_, (width, _))| *width < flat)
         .map(|(winch, (width, name))| (winch, format!("{name} ({width:.0} mm)")))
         .unzip();
-    if !narrow.1.is_empty() {
+    if !narrow.is_empty() {
         let words = format!(
             "The way from the turning gap is too narrow for a housing of {flat:.0} mm, measured flat, to: {}. Put these winches in before the seam beside \
              them is closed.",
-            narrow.1.join(", ")
+            narrow.join(", ")
         );
-        remarks.push(Remark::at(places_of(design, narrow.0), words));
+        remarks.push(Remark::at(places_of(design, winches), words));
     }
     remarks
 }

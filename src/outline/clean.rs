@@ -232,11 +232,9 @@ fn filled(
 
 /// Holes filled that other pieces take up.
 fn without_gaps_around(shapes: Shapes, changes: &mut Changes, aside: &mut Asides) -> Result<Shapes, OutlineError> {
-    let (joined, count) = islands::joined(shapes.clone())?;
-    if count > 0 {
-        changes.notes.push(Note::GapsAround(count));
-        aside.add(Why::Filled, regions::difference(&joined, &shapes));
-    }
+    let Some((joined, count)) = islands::joined(&shapes)? else { return Ok(shapes) };
+    changes.notes.push(Note::GapsAround(count));
+    aside.add(Why::Filled, regions::difference(&joined, &shapes));
     Ok(joined)
 }
 

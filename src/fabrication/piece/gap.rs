@@ -40,8 +40,7 @@ pub struct Seam {
 impl Seam {
     /// The middle of the gap; none without one.
     pub fn middle(&self) -> Option<Point> {
-        let (first, last) = (self.gap.first()?, self.gap.last()?);
-        Some([0.5 * (first[0] + last[0]), 0.5 * (first[1] + last[1])])
+        Some(lerp(*self.gap.first()?, *self.gap.last()?, 0.5))
     }
 }
 

@@ -128,11 +128,10 @@ fn remarks(source: &Source<'_>, names: &[String], housing: &Housing) -> Vec<Rema
     }
     let networks = source.design.networks.iter().zip(names).enumerate();
     let crowded = networks.filter(|(_, (network, _))| 2 * network.tendons.len() > MOST_GROOVES);
-    let crowded: (Vec<usize>, Vec<&str>) = crowded.map(|(winch, (_, name))| (winch, name.as_str())).unzip();
-    if !crowded.1.is_empty() {
-        let words =
-            format!("More than {MOST_GROOVES} threads, too many for a spool to print: {}.", crowded.1.join(", "));
-        remarks.push(Remark::at(places_of(source.design, crowded.0), words));
+    let (winches, crowded): (Vec<usize>, Vec<&str>) = crowded.map(|(winch, (_, name))| (winch, name.as_str())).unzip();
+    if !crowded.is_empty() {
+        let words = format!("More than {MOST_GROOVES} threads, too many for a spool to print: {}.", crowded.join(", "));
+        remarks.push(Remark::at(places_of(source.design, winches), words));
     }
     let short = |m: &&Motor| {
         let fit = |d: &Demand| matches!(m.fit(d, radius), Fit::TurnsTooLittle(_));

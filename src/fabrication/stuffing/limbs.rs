@@ -1,11 +1,11 @@
 //! Limbs of a body, and how much each narrows when it is stuffed.
 
 use crate::mesh::Mesh;
-use crate::outline::polygon::length;
+use crate::outline::polygon::{length, lerp};
 use crate::outline::{Outline, Point};
 
 /// A limb is what a disc of this part of the body's deepest place does not reach, the band along the rim left out: half as much
-/// again, which a corner of 90 degrees (1.42) does not reach.
+/// again, beyond the reach of a corner of 90 degrees, sqrt 2 = 1.41.
 const OF_DEEPEST: f64 = 0.5;
 const BAND: f64 = 1.5;
 /// Smallest limb that is told, as a part of the body's area.
@@ -40,7 +40,7 @@ pub fn limbs(mesh: &Mesh, outline: &Outline, seen: &[Point]) -> Vec<Limb> {
         .collect();
     let share = (LEAST_AREA * mesh.nodes.len() as f64).max(3.0) as usize;
     let parts = components(mesh, &is_limb).into_iter().filter(|part| part.len() >= share);
-    // The corners of a wide body are out of the disc's reach as well.
+    // A lobe as wide as the trunk, such as a head with a square snout, is none.
     let most = 2.0 * BAND * OF_DEEPEST * deepest;
     let mut limbs: Vec<Limb> = parts
         .filter_map(|part| limb(mesh, seen, &part, &depth, &away, &rim))
@@ -80,7 +80,7 @@ struct Hit {
 impl Hit {
     fn on(&self, nodes: &[Point]) -> Point {
         let [a, b] = self.side.map(|node| nodes[node]);
-        [0, 1].map(|k| a[k] + self.part * (b[k] - a[k]))
+        lerp(a, b, self.part)
     }
 }
 

@@ -30,6 +30,8 @@ const FIGURE: f64 = 0.6;
 const FILLED: f64 = 0.97;
 /// Part of the room that paper leaves for a figure which that fills.
 const FILLS: f64 = 0.8;
+/// Marks that are tried as such paper, from below: each is laid over all others, and a page that is traced in colours may have hundreds of its size.
+const MAX_PAPERS: usize = 8;
 /// How far a figure may reach beyond the sheet that it lies on, as a part of the sheet's side, and how much of it.
 const BEYOND: f64 = 0.05;
 const BEYOND_AREA: f64 = 0.02;
@@ -93,14 +95,17 @@ pub(super) fn part(
 
 /// The mark that covers the page but for the figure, which the others are: so do programs that trace pictures draw paper.
 fn surrounding(marks: &[Mark], page: [Point; 2]) -> Result<Option<usize>, OutlineError> {
+    if marks.len() < 2 {
+        return Ok(None);
+    }
     let [low, high] = page;
     let slack = [0, 1].map(|axis| PAGE_FRACTION * (high[axis] - low[axis]));
-    for (k, mark) in marks.iter().enumerate().filter(|_| marks.len() > 1) {
+    let reaches = |(_, mark): &(usize, &Mark)| {
         let (from, to) = regions::bounding_box(&mark.area);
-        let reaches = (0..2).all(|axis| from[axis] <= low[axis] + slack[axis] && to[axis] >= high[axis] - slack[axis]);
-        if !reaches {
-            continue;
-        }
+        (0..2).all(|axis| from[axis] <= low[axis] + slack[axis] && to[axis] >= high[axis] - slack[axis])
+    };
+    for (k, mark) in marks.iter().enumerate().filter(reaches).take(MAX_PAPERS) {
+        let (from, to) = regions::bounding_box(&mark.area);
         let whole = filled(&mark.area);
         let room = regions::difference(&whole, &mark.area);
         let covers = regions::area(&whole);
