@@ -84,7 +84,7 @@ impl Source<'_> {
 
     /// The body as it is when it is stuffed.
     pub fn stuffed(&self) -> &Stuffed {
-        self.shared.stuffed.get_or_init(|| stuffed(self.skin))
+        self.shared.stuffed.get_or_init(|| stuffed(self.skin, self.design))
     }
 }
 

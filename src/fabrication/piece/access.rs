@@ -1,5 +1,6 @@
 //! How wide the body is on the way from one place to another: whether a housing gets in.
 
+use crate::outline::polygon::length;
 use crate::outline::{Outline, Point};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -14,6 +15,8 @@ pub struct Access {
     columns: usize,
     /// Distance of a cell's middle to the seam, mm; negative outside.
     depth: Vec<f64>,
+    /// The cells inside, the deepest first.
+    discs: Vec<usize>,
 }
 
 impl Access {
@@ -24,14 +27,12 @@ impl Access {
         let count = |side: f64| (side / cell).ceil().max(1.0) as usize;
         let (columns, rows) = (count(w), count(h));
         let near = outline.near();
-        let middle = |i: usize| {
-            [low[0] + cell * (i % columns) as f64 + 0.5 * cell, low[1] + cell * (i / columns) as f64 + 0.5 * cell]
-        };
-        let depth = (0..columns * rows)
-            .map(middle)
-            .map(|p| if outline.contains(p) { near.distance(p) } else { -near.distance(p) })
-            .collect();
-        Self { low, cell, columns, depth }
+        let mut access = Self { low, cell, columns, depth: Vec::new(), discs: Vec::new() };
+        let signed = |p: Point| if outline.contains(p) { near.distance(p) } else { -near.distance(p) };
+        access.depth = (0..columns * rows).map(|i| signed(access.middle(i))).collect();
+        access.discs = (0..columns * rows).filter(|&i| access.depth[i] > 0.0).collect();
+        access.discs.sort_by(|&i, &j| access.depth[j].total_cmp(&access.depth[i]));
+        access
     }
 
     fn index(&self, p: Point) -> usize {
@@ -85,6 +86,23 @@ impl Access {
         self.around(self.index(place), reach).into_iter().map(|i| ways[i]).fold(0.0, f64::max)
     }
 
+    /// Radius of the largest disc in the body that covers a place, mm, to a cell's diagonal (local thickness; Hildebrand and Rüegsegger 1997).
+    pub fn thickness(&self, place: Point) -> f64 {
+        let slack = std::f64::consts::SQRT_2 * self.cell;
+        let covers = |i: usize| length(self.middle(i), place) <= self.depth[i] + slack;
+        self.discs.iter().find(|&&i| covers(i)).map_or(0.0, |&i| self.depth[i])
+    }
+
+    /// Radius of the largest disc in the body, mm.
+    pub fn thickest(&self) -> f64 {
+        self.discs.first().map_or(f64::MIN_POSITIVE, |&i| self.depth[i])
+    }
+
+    fn middle(&self, i: usize) -> Point {
+        let [column, row] = [i % self.columns, i / self.columns].map(|k| k as f64 + 0.5);
+        [self.low[0] + self.cell * column, self.low[1] + self.cell * row]
+    }
+
     fn steps(&self, i: usize, j: usize) -> i64 {
         let (columns, i, j) = (self.columns as i64, i as i64, j as i64);
         (i % columns - j % columns).abs().max((i / columns - j / columns).abs())
@@ -124,5 +142,30 @@ mod tests {
         let ways = access.ways([30.0, 30.0], 5.0);
         assert!((access.to(&ways, [130.0, 30.0], 2.0) - 20.0).abs() < 2.0);
         assert!((access.to(&ways, [30.0, 30.0], 2.0) - 60.0).abs() < 2.0);
+    }
+
+    #[test]
+    fn thickness_is_that_of_the_disc_and_not_of_the_place() {
+        // A square of 100 mm with a limb of 20 mm at its right side.
+        let outer = vec![
+            [0.0, 0.0],
+            [100.0, 0.0],
+            [100.0, 40.0],
+            [180.0, 40.0],
+            [180.0, 60.0],
+            [100.0, 60.0],
+            [100.0, 100.0],
+            [0.0, 100.0],
+        ];
+        let access = Access::new(&Outline { outer, holes: vec![] });
+        let diagonal = std::f64::consts::SQRT_2 * access.cell;
+        assert!((access.thickest() - 50.0).abs() < 2.0 * diagonal);
+        for (place, radius) in [([50.0, 0.0], 50.0), ([150.0, 40.0], 10.0), ([180.0, 50.0], 10.0)] {
+            assert!(
+                (access.thickness(place) - radius).abs() < 2.0 * diagonal,
+                "{place:?}: {}",
+                access.thickness(place)
+            );
+        }
     }
 }

@@ -20,6 +20,10 @@ const GAP_OBSTACLE: f64 = 0.5;
 /// What a way to the winches that is nothing as wide as it should be costs a turning gap, on the same scale: a tenth less is as bad as lying at
 /// the top.
 const GAP_ACCESS: f64 = 10.0;
+/// What lying on a limb as thin as paper costs a turning gap, on the same scale, and how thick a body no longer is a limb, as a part of its thickest
+/// place: a limb is awkward to stuff through, and its seam is bent most.
+const GAP_ON_LIMB: f64 = 1.0;
+const NO_LIMB: f64 = 0.8;
 /// How wide the way should be, over what a housing needs: hands and stuffing go there too.
 const GAP_ROOM: f64 = 1.2;
 /// How far inside the gap the way begins, over what a housing needs: a gap in a limb is as wide as the limb.
@@ -44,12 +48,12 @@ impl Seam {
     }
 }
 
-/// The seam of a design: its turning gap away from the holes of its cables and from its pins, where a housing gets in to every winch.
+/// The seam of a design: its turning gap away from limbs, from the holes of its cables and from its pins, where a housing gets in to every winch.
 pub fn seam_of(design: &Design) -> Seam {
     let pins = design.pins.iter().map(|p| design.mesh.position(&p.at, &design.mesh.nodes));
     let obstacles: Vec<Point> = holes(design).into_iter().chain(pins).collect();
     let ways = Ways::of(design);
-    seam(&design.outline.outer, design.turning_gap_mm(), &obstacles, |stretch| ways.short_of(stretch))
+    seam(&design.outline.outer, design.turning_gap_mm(), &obstacles, |stretch| ways.cost(stretch))
 }
 
 /// How wide the body is on the way to its winches.
@@ -77,6 +81,18 @@ impl Ways {
         self.to.iter().map(|ways| self.access.to(ways, middle, GAP_REACH * self.flat_mm)).collect()
     }
 
+    /// What a turning gap costs for what lies behind it.
+    fn cost(&self, stretch: &[Point]) -> f64 {
+        GAP_ACCESS * self.short_of(stretch) + GAP_ON_LIMB * self.on_limb(stretch)
+    }
+
+    /// How much of a limb the body is behind a stretch: 0 where it is thick, 1 for paper; the mean of the middle and both halves' middles.
+    fn on_limb(&self, stretch: &[Point]) -> f64 {
+        let limb = NO_LIMB * self.access.thickest();
+        let thin = |part: f64| (1.0 - self.access.thickness(along(stretch, part)) / limb).max(0.0);
+        [0.25, 0.5, 0.75].map(thin).iter().sum::<f64>() / 3.0
+    }
+
     /// By which part the ways are short of what a housing needs, their mean: one winch that nothing gets to does not hide the others.
     fn short_of(&self, stretch: &[Point]) -> f64 {
         let wanted = (GAP_ROOM * self.flat_mm).max(f64::MIN_POSITIVE);
@@ -85,9 +101,22 @@ impl Ways {
     }
 }
 
-/// Leaves `gap_mm` of the polygon open on the stretch that is straightest and nearest to the bottom, away from `obstacles`, where the ways
-/// inward are wide. `short_of` is by which part they are too narrow.
-fn seam(polygon: &[Point], gap_mm: f64, obstacles: &[Point], short_of: impl Fn(&[Point]) -> f64) -> Seam {
+/// The point at a part of the length of a polyline.
+fn along(line: &[Point], part: f64) -> Point {
+    let mut left = part * line.windows(2).map(|s| length(s[0], s[1])).sum::<f64>();
+    for s in line.windows(2) {
+        let step = length(s[0], s[1]);
+        if left <= step {
+            return lerp(s[0], s[1], left / step.max(f64::MIN_POSITIVE));
+        }
+        left -= step;
+    }
+    line[line.len() - 1]
+}
+
+/// Leaves `gap_mm` of the polygon open on the stretch that is straightest and nearest to the bottom, away from `obstacles`, where what lies
+/// `behind` it costs least.
+fn seam(polygon: &[Point], gap_mm: f64, obstacles: &[Point], behind: impl Fn(&[Point]) -> f64) -> Seam {
     let ring = Ring::new(polygon);
     let mut closed = polygon.to_vec();
     closed.extend(polygon.first());
@@ -97,7 +126,7 @@ fn seam(polygon: &[Point], gap_mm: f64, obstacles: &[Point], short_of: impl Fn(&
     let step = ring.length() / GAP_CANDIDATES as f64;
     let cost = |start: f64| {
         let stretch = ring.stretch(start, gap_mm);
-        gap_cost(&ring, &stretch, gap_mm, obstacles) + GAP_ACCESS * short_of(&stretch)
+        gap_cost(&ring, &stretch, gap_mm, obstacles) + behind(&stretch)
     };
     let costs: Vec<f64> = (0..GAP_CANDIDATES).map(|i| cost(i as f64 * step)).collect();
     let start = middle_of_best(&costs) * step;
@@ -195,14 +224,14 @@ mod tests {
         vec![[0.0, 0.0], [side, 0.0], [side, side], [0.0, side]]
     }
 
-    fn along(line: &[Point]) -> f64 {
+    fn whole(line: &[Point]) -> f64 {
         line.windows(2).map(|s| length(s[0], s[1])).sum()
     }
 
     #[test]
     fn the_gap_lies_in_the_middle_of_the_bottom() {
         let seam = seam(&square(120.0), 50.0, &[], |_| 0.0);
-        assert!((along(&seam.gap) - 50.0).abs() < 1e-9 && (along(&seam.stitches) - 430.0).abs() < 1e-9);
+        assert!((whole(&seam.gap) - 50.0).abs() < 1e-9 && (whole(&seam.stitches) - 430.0).abs() < 1e-9);
         let mid = 0.5 * (seam.gap[0][0] + seam.gap[1][0]);
         assert!(seam.gap.len() == 2 && (mid - 60.0).abs() < 0.5 && seam.gap[0][1].abs() < 1e-12, "{:?}", seam.gap);
         assert_eq!((seam.stitches.first(), seam.stitches.last()), (seam.gap.last(), seam.gap.first()));
@@ -215,7 +244,7 @@ mod tests {
         let clear = |p: Point| blocked.gap.windows(2).all(|s| distance_to_segment(s[0], s[1], p) >= GAP_CLEARANCE_MM);
         assert!(clear([40.0, 0.0]) && clear([80.0, 0.0]), "{:?}", blocked.gap);
         let closed = seam(&square(20.0), 0.0, &[], |_| 0.0);
-        assert!(closed.gap.is_empty() && along(&closed.stitches) == 80.0);
+        assert!(closed.gap.is_empty() && whole(&closed.stitches) == 80.0);
     }
 
     #[test]
@@ -226,5 +255,26 @@ mod tests {
         let seam = seam(&arc, 50.0, &[], |_| 0.0);
         let height = seam.gap.iter().map(|p| p[1]).fold(f64::NEG_INFINITY, f64::max);
         assert!(height < -90.0, "{:?}", seam.gap);
+    }
+
+    #[test]
+    fn the_gap_is_in_the_trunk_and_not_in_a_leg() {
+        // A body of 120 x 60 mm on two legs of 20 x 40 mm: their feet are lowest and straight, the belly lies between them.
+        let outer = [
+            [0.0, 0.0],
+            [20.0, 0.0],
+            [20.0, 40.0],
+            [100.0, 40.0],
+            [100.0, 0.0],
+            [120.0, 0.0],
+            [120.0, 100.0],
+            [0.0, 100.0],
+        ];
+        let outline = crate::outline::Outline { outer: outer.to_vec(), holes: vec![] };
+        let ways = Ways { access: Access::new(&outline), to: vec![], flat_mm: 20.0 };
+        let on = |behind: &dyn Fn(&[Point]) -> f64| seam(&outline.outer, 18.0, &[], behind).middle().expect("a gap");
+        assert!(on(&|_| 0.0)[1] < 1.0, "the feet are lowest");
+        let middle = on(&|stretch| ways.cost(stretch));
+        assert!((middle[0] - 60.0).abs() < 2.0 && (middle[1] - 40.0).abs() < 1e-9, "{middle:?}");
     }
 }

@@ -13,6 +13,8 @@ const MARGIN_MM: f64 = 15.0;
 const WORDS_MM: f64 = 3.4;
 /// Limbs told one by one.
 const TOLD: usize = 8;
+/// How far off the drawn silhouette is told, as a part of the body's length.
+const TOLD_OFF: f64 = 0.02;
 
 /// The sheet `stuffed`.
 pub(super) fn make(source: &Source<'_>) -> Result<Part, ExportError> {
@@ -26,6 +28,7 @@ pub(super) fn make(source: &Source<'_>) -> Result<Part, ExportError> {
         let place = if let Impossible::Overlap(place) = why { Some(*place) } else { None };
         Remark::at(place, uncompensated(source, why))
     }));
+    remarks.extend(curling(source, stuffed).map(Remark::from));
     let products = vec![Product::new("stuffed", Content::Sheet(sheet(source, stuffed)))];
     Ok(Part { products, guide: guide.into(), remarks })
 }
@@ -50,6 +53,26 @@ fn narrowing(source: &Source<'_>, stuffed: &Stuffed) -> String {
     )
 }
 
+/// What a stuffed body is off the drawn one, where that is more than the table tells, and what to do about it.
+fn curling(source: &Source<'_>, stuffed: &Stuffed) -> Option<String> {
+    if !stuffed.is_settled {
+        return Some("The stuffed silhouette is a rough one: the search for it did not come to its end.".into());
+    }
+    let size = source.design.mesh.body_length();
+    if stuffed.off_mm <= TOLD_OFF * size {
+        return None;
+    }
+    let rest = if source.options.compensate {
+        ""
+    } else {
+        " With --compensate the pattern is cut so that it comes to lie as drawn."
+    };
+    Some(format!(
+        "Stuffed, the body lies up to {:.0} mm off the drawn silhouette: parts narrow, and curved ones curl.{rest}",
+        stuffed.off_mm
+    ))
+}
+
 fn uncompensated(source: &Source<'_>, why: &Impossible) -> String {
     let from = source.skin.outline.bounding_box().0;
     match why {
@@ -69,7 +92,15 @@ fn uncompensated(source: &Source<'_>, why: &Impossible) -> String {
 
 /// Both silhouettes, and the widths of limbs.
 fn sheet(source: &Source<'_>, stuffed: &Stuffed) -> Sheet {
-    let all: Vec<Point> = stuffed.flat.iter().chain(&stuffed.rings).flatten().copied().collect();
+    // As it was drawn, where it is cut otherwise.
+    let is_cut_otherwise = !std::ptr::eq(source.skin, source.design);
+    let outline = &source.design.outline;
+    let as_drawn: Vec<Vec<Point>> = if is_cut_otherwise {
+        std::iter::once(&outline.outer).chain(&outline.holes).cloned().collect()
+    } else {
+        vec![]
+    };
+    let all: Vec<Point> = stuffed.flat.iter().chain(&stuffed.rings).chain(&as_drawn).flatten().copied().collect();
     let (low, high) = bounding_box(&all);
     let base = 2.0 * MARGIN_MM;
     let width_mm = (high[0] - low[0] + 2.0 * MARGIN_MM).max(150.0);
@@ -82,6 +113,8 @@ fn sheet(source: &Source<'_>, stuffed: &Stuffed) -> Sheet {
     flat.entities = placed(&stuffed.flat);
     let mut round = Group::new("stuffed", Style::line(BLACK, 0.7));
     round.entities = placed(&stuffed.rings);
+    let mut drawn = Group::new("drawn", Style::line(BLACK, 0.2).dashed(&[0.4, 1.2]));
+    drawn.entities = placed(&as_drawn);
     let mut across = Group::new("limbs", Style::line(BLACK, 0.3));
     let mut note = Group::new("note", Style::filled(BLACK));
     let mut labels = Labels::within(vec![[0.0; 2], [width_mm, 0.0], [width_mm, height_mm], [0.0, height_mm]]);
@@ -101,9 +134,17 @@ fn sheet(source: &Source<'_>, stuffed: &Stuffed) -> Sheet {
             note.text(at, WORDS_MM, Anchor::Start, text);
         }
     }
-    let words =
-        format!("{}: dashed as cut, solid when stuffed, {:.0} mm thick", source.design.name, stuffed.thickness_mm);
+    let dotted = if is_cut_otherwise { ", dotted as drawn" } else { "" };
+    let words = format!(
+        "{}: dashed as cut, solid when stuffed{dotted}, {:.0} mm thick",
+        source.design.name, stuffed.thickness_mm
+    );
     note.text([MARGIN_MM, height_mm - MARGIN_MM], 4.5, Anchor::Start, words);
     let title = format!("{}: stuffed", source.design.name);
-    Sheet { title, width_mm, height_mm, groups: vec![flat, round, across, note, reference([MARGIN_MM, MARGIN_MM])] }
+    Sheet {
+        title,
+        width_mm,
+        height_mm,
+        groups: vec![flat, drawn, round, across, note, reference([MARGIN_MM, MARGIN_MM])],
+    }
 }

@@ -1,5 +1,6 @@
 //! A sheet that wrinkles but hardly stretches, under the pressure of its stuffing.
 
+use super::stretch::{Curvature, Gradient, cross, density, dot};
 use crate::mesh::Mesh;
 use crate::outline::polygon::length;
 
@@ -9,8 +10,7 @@ const STRAIN: f64 = 0.005;
 /// Height of the dome that the search starts from, over the distance to the rim.
 const START_SLOPE: f64 = 0.8;
 
-/// Energy per area `1/2 sum_i max(0, s_i - 1)^2` of the principal stretches `s_i` (the relaxed energy of a sheet that wrinkles), of unit
-/// stiffness, less pressure times half the volume.
+/// The relaxed energy of a sheet that wrinkles ([`density`]), of unit stiffness, less pressure times half the volume.
 pub struct Membrane {
     triangles: Vec<[usize; 3]>,
     area: Vec<f64>,
@@ -66,10 +66,7 @@ impl Membrane {
         let mut energy = 0.0;
         for ((t, &area), d) in self.triangles.iter().zip(&self.area).zip(&self.inverse) {
             let [a, b, c] = t.map(|n| x[n]);
-            let (u, v) = (minus(b, a), minus(c, a));
-            // Columns of the deformation gradient.
-            let f = [0, 1].map(|j| [0, 1, 2].map(|k| u[k] * d[j] + v[k] * d[2 + j]));
-            let (density, stress) = density(&f);
+            let (density, stress) = density(&gradient_of([a, b, c], d));
             energy += area * density;
             let gu = [0, 1, 2].map(|k| area * (stress[0][k] * d[0] + stress[1][k] * d[1]));
             let gv = [0, 1, 2].map(|k| area * (stress[0][k] * d[2] + stress[1][k] * d[3]));
@@ -90,9 +87,35 @@ impl Membrane {
         energy
     }
 
-    /// Number of triangles.
-    pub fn size(&self) -> usize {
-        self.triangles.len()
+    pub fn triangles(&self) -> &[[usize; 3]] {
+        &self.triangles
+    }
+
+    /// Whether a node lies on the rim, where it stays in the plane.
+    pub fn is_rim(&self) -> &[bool] {
+        &self.is_rim
+    }
+
+    /// The second derivative of a triangle's energy: a matrix for every two corners.
+    pub fn second(&self, triangle: usize, x: &[[f64; 3]]) -> [[[[f64; 3]; 3]; 3]; 3] {
+        let (d, area) = (&self.inverse[triangle], self.area[triangle]);
+        let at = self.triangles[triangle].map(|n| x[n]);
+        let curvature = Curvature::of(&gradient_of(at, d));
+        // How the columns of the deformation gradient change with each corner.
+        let by = [[-d[0] - d[2], -d[1] - d[3]], [d[0], d[1]], [d[2], d[3]]];
+        std::array::from_fn(|a| {
+            std::array::from_fn(|b| {
+                let sheet = curvature.between(by[a], by[b]).map(|row| row.map(|v| area * v));
+                if a == b {
+                    return sheet;
+                }
+                // Of a . (b x c): the cross product with the third corner.
+                let sign = if (a + 1) % 3 == b { 1.0 } else { -1.0 };
+                let [p, q, r] = at[3 - a - b].map(|v| sign * self.pressure / 6.0 * v);
+                let pressure = [[0.0, -r, q], [r, 0.0, -p], [-q, p, 0.0]];
+                [0, 1, 2].map(|i| [0, 1, 2].map(|j| sheet[i][j] + pressure[i][j]))
+            })
+        })
     }
 
     /// A force that is large here: the pressure on the area around a node.
@@ -102,34 +125,14 @@ impl Membrane {
     }
 }
 
-/// Energy per area and its derivative by the columns of the deformation gradient `f`.
-///
-/// With `C = F^T F`, its eigenvalues `s_i^2` and eigenvectors `n_i`, the derivative is `2 F dW/dC`, `dW/dC = sum_i max(0, s_i - 1) / (2 s_i) n_i n_i^T`.
-fn density(f: &[[f64; 3]; 2]) -> (f64, [[f64; 3]; 2]) {
-    let (c00, c11, c01) = (dot(f[0], f[0]), dot(f[1], f[1]), dot(f[0], f[1]));
-    let (mean, half) = (0.5 * (c00 + c11), 0.5 * (c00 - c11));
-    let r = half.hypot(c01);
-    let stretch = [mean + r, mean - r].map(|v| v.max(0.0).sqrt());
-    let over = stretch.map(|s| (s - 1.0).max(0.0));
-    let g = [0, 1].map(|i| if over[i] > 0.0 { 0.5 * over[i] / stretch[i] } else { 0.0 });
-    let (cosine, sine) = if r > 1e-14 * mean { (half / r, c01 / r) } else { (1.0, 0.0) };
-    let m00 = 0.5 * (g[0] * (1.0 + cosine) + g[1] * (1.0 - cosine));
-    let m11 = 0.5 * (g[0] * (1.0 - cosine) + g[1] * (1.0 + cosine));
-    let m01 = 0.5 * (g[0] - g[1]) * sine;
-    let column = |p: f64, q: f64| [0, 1, 2].map(|k| 2.0 * (f[0][k] * p + f[1][k] * q));
-    (0.5 * (over[0] * over[0] + over[1] * over[1]), [column(m00, m01), column(m01, m11)])
+/// The deformation gradient of a triangle with its corners at these places, with the inverse of its sides at rest.
+fn gradient_of([a, b, c]: [[f64; 3]; 3], inverse: &[f64; 4]) -> Gradient {
+    let (u, v) = (minus(b, a), minus(c, a));
+    [0, 1].map(|j| [0, 1, 2].map(|k| u[k] * inverse[j] + v[k] * inverse[2 + j]))
 }
 
 fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 #[cfg(test)]
@@ -168,5 +171,51 @@ mod tests {
         };
         let (coarse, fine) = (off(1e-3), off(1e-4));
         assert!(fine < 1e-6 && fine < 0.1 * coarse.max(1e-9), "{coarse} {fine}");
+    }
+
+    /// Taut, slack, half slack, under pressure.
+    #[test]
+    fn the_second_derivative_is_that_of_the_gradient() {
+        let outline =
+            crate::outline::Outline { outer: vec![[0.0, 0.0], [60.0, 0.0], [60.0, 40.0], [0.0, 40.0]], holes: vec![] };
+        let mesh = crate::mesh::generate(&outline, 80).unwrap();
+        let membrane = Membrane::new(&mesh, &mesh.boundary());
+        let mut x = membrane.dome(&mesh);
+        for (i, p) in x.iter_mut().enumerate() {
+            (p[0], p[1]) = (p[0] * 1.1 + (i as f64).sin(), p[1] * 0.95 + (1.7 * i as f64).sin());
+        }
+        let free = |i: usize, k: usize| k < 2 || !membrane.is_rim[i];
+        let direction: Vec<[f64; 3]> = (0..x.len())
+            .map(|i| [0, 1, 2].map(|k| if free(i, k) { (1.3 * (3 * i + k) as f64).sin() } else { 0.0 }))
+            .collect();
+        let mut expected = vec![[0.0; 3]; x.len()];
+        for (k, t) in membrane.triangles.iter().enumerate() {
+            let second = membrane.second(k, &x);
+            for (a, row) in t.iter().zip(&second) {
+                for (b, block) in t.iter().zip(row) {
+                    for (sum, row) in expected[*a].iter_mut().zip(block) {
+                        *sum += dot(*row, direction[*b]);
+                    }
+                }
+            }
+        }
+        let gradient_at = |s: f64| {
+            let moved: Vec<[f64; 3]> =
+                x.iter().zip(&direction).map(|(p, d)| [0, 1, 2].map(|k| p[k] + s * d[k])).collect();
+            let mut gradient = vec![[0.0; 3]; x.len()];
+            membrane.energy(&moved, &mut gradient);
+            gradient
+        };
+        let h = 1e-6;
+        let (up, down) = (gradient_at(h), gradient_at(-h));
+        let mut largest: f64 = 0.0;
+        for i in 0..x.len() {
+            for k in (0..3).filter(|&k| free(i, k)) {
+                let found = (up[i][k] - down[i][k]) / (2.0 * h);
+                largest = largest.max((found - expected[i][k]).abs());
+            }
+        }
+        let size = expected.as_flattened().iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+        assert!(largest < 1e-6 * size, "{largest} of {size}");
     }
 }

@@ -10,13 +10,15 @@ mod limbs;
 mod membrane;
 mod relax;
 mod shape;
+mod stiffness;
+mod stretch;
 
 pub use compensate::{Impossible, compensated};
 pub use limbs::Limb;
 
 use crate::design::Design;
 use crate::outline::Point;
-use shape::{Shape, refined, rings};
+use shape::{Shape, over, refined, rings};
 
 /// Most triangles that a body is solved with; one of more gets another mesh of so many fibres for that. They bound the time of an export.
 const MOST_TRIANGLES: usize = 4000;
@@ -32,22 +34,31 @@ pub struct Stuffed {
     pub volume_mm3: f64,
     pub thickness_mm: f64,
     pub limbs: Vec<Limb>,
+    /// The farthest that its rim is from the drawn one, mm.
+    pub off_mm: f64,
+    /// Whether the search for it came to its end: else it is a rough one.
+    pub is_settled: bool,
 }
 
-/// The stuffed body of a design.
-pub fn stuffed(design: &Design) -> Stuffed {
+/// The stuffed body of a design as it was `drawn`: the same one, unless its pattern was [`compensated`]. It lies over the drawn one.
+pub fn stuffed(design: &Design, drawn: &Design) -> Stuffed {
     // A finer mesh tells no more of a silhouette.
     let coarse =
         (design.mesh.triangles.len() > MOST_TRIANGLES).then(|| crate::mesh::generate(&design.outline, COARSE_FIBERS));
     let fine = refined(coarse.as_ref().and_then(|mesh| mesh.as_ref().ok()).unwrap_or(&design.mesh));
     let shape = Shape::of(&fine, None);
-    let flat: Vec<Vec<Point>> = rings(&fine, &fine.nodes);
+    // The nodes of a mesh keep their numbers in a finer one.
+    let seen = if coarse.is_some() { shape.seen } else { over(&drawn.mesh.boundary(), &drawn.mesh.nodes, &shape.seen) };
+    let near = drawn.outline.near();
+    let on_rim = fine.boundary().into_iter().flatten();
     Stuffed {
-        rings: rings(&fine, &shape.seen),
-        flat,
+        off_mm: on_rim.map(|node| near.distance(seen[node])).fold(0.0, f64::max),
+        is_settled: shape.is_settled,
+        rings: rings(&fine, &seen),
+        flat: rings(&fine, &fine.nodes),
         volume_mm3: shape.volume_mm3,
         thickness_mm: shape.thickness_mm,
-        limbs: limbs::limbs(&fine, &design.outline, &shape.seen),
+        limbs: limbs::limbs(&fine, &design.outline, &seen),
     }
 }
 
@@ -63,12 +74,18 @@ mod tests {
         Design::new("body", outline, mesh)
     }
 
+    fn alone(design: &Design) -> Stuffed {
+        let found = stuffed(design, design);
+        assert!(found.is_settled);
+        found
+    }
+
     /// The mylar balloon: radius 0.7627 R, thickness 0.9139 R, volume 1.2185 R^3.
     #[test]
     fn two_discs_become_a_mylar_balloon() {
         let r = 100.0;
         let ring = (0..90).map(|i| 2.0 * PI * f64::from(i) / 90.0).map(|a| [r * a.cos(), r * a.sin()]).collect();
-        let found = stuffed(&body(ring, 414));
+        let found = alone(&body(ring, 414));
         let middle = found.rings[0].iter().map(|p| p[0].hypot(p[1])).sum::<f64>() / found.rings[0].len() as f64;
         assert!((middle / (0.7627 * r) - 1.0).abs() < 0.03, "{middle}");
         assert!((found.thickness_mm / (0.9139 * r) - 1.0).abs() < 0.03, "{}", found.thickness_mm);
@@ -78,7 +95,7 @@ mod tests {
     #[test]
     fn a_long_strip_becomes_a_tube() {
         let (l, w) = (400.0, 40.0);
-        let found = stuffed(&body(vec![[0.0, 0.0], [l, 0.0], [l, w], [0.0, w]], 1200));
+        let found = alone(&body(vec![[0.0, 0.0], [l, 0.0], [l, w], [0.0, w]], 1200));
         let diameter = 2.0 * w / PI;
         assert!((found.thickness_mm / diameter - 1.0).abs() < 0.03, "{} of {diameter}", found.thickness_mm);
         let rim = &found.rings[0];
@@ -105,7 +122,7 @@ mod tests {
                 [0.0, 120.0],
             ];
             let ring = corners.map(|[x, y]| [cosine * x - sine * y, sine * x + cosine * y]);
-            let found = stuffed(&body(ring.to_vec(), 600));
+            let found = alone(&body(ring.to_vec(), 600));
             let [limb] = found.limbs.as_slice() else { panic!("{:?}", found.limbs) };
             assert!((limb.flat_mm - 30.0).abs() < 0.1, "{limb:?}");
             assert!(limb.stuffed_mm < 0.9 * limb.flat_mm, "{limb:?}");

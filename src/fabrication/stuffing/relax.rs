@@ -1,111 +1,115 @@
-//! Least energy by a quasi-Newton method of limited memory (L-BFGS; Nocedal and Wright, *Numerical Optimization*, 7.2).
+//! Least energy by Newton's method.
+//!
+//! A limb swings freely in the plane until the wrinkles at its root are tight: the energy has long curved valleys. A quasi-Newton method of limited memory
+//! takes thousands of iterations along them and looks settled long before. Newton's method takes some twenty, each step with a correction to second
+//! order that takes out the stretch of a step along a tangent.
 
 use super::membrane::Membrane;
+use super::stiffness::Stiffness;
 
-/// Steps remembered.
-const MEMORY: usize = 12;
-/// Most iterations: a body of 1500 triangles takes a few hundred.
-const MOST_ITERATIONS: usize = 700;
-/// Most work, in energies of a triangle: what bounds the time where there is no coarser mesh.
-const MOST_WORK: usize = 6_000_000;
-/// Largest force that is left, over the pressure on the area around a node, dimensionless: sizes are right to a hundredth well before.
-const FORCE: f64 = 2e-3;
-/// Sufficient decrease, and the most halvings of a step (Armijo).
+/// Most iterations.
+const MOST_ITERATIONS: usize = 150;
+/// Largest force that is left, over the pressure on the area around a node, dimensionless.
+const FORCE: f64 = 1e-4;
+/// Sufficient decrease, what of the energy is rounding, and the most halvings of a step (Armijo).
 const DECREASE: f64 = 1e-4;
+const ROUNDING: f64 = 1e-13;
 const MOST_HALVINGS: usize = 30;
-/// Length of the first step, over the largest coordinate of its direction, mm.
-const FIRST_STEP_MM: f64 = 0.1;
+/// Longest step, as a part of the sheet's length.
+const LONGEST: f64 = 0.1;
+/// Corrections of a step at most.
+const CORRECTIONS: usize = 2;
 
-type Nodes = Vec<[f64; 3]>;
+pub type Nodes = Vec<[f64; 3]>;
 
-/// Where the sheet rests, from `start`.
-pub fn relaxed(membrane: &Membrane, start: Nodes) -> Nodes {
+/// Where the sheet rests, from `start`, and whether it does: forces are in balance.
+pub fn relaxed(membrane: &Membrane, start: Nodes) -> (Nodes, bool) {
     let mut x = start;
+    let Some(mut stiffness) = Stiffness::new(membrane) else { return (x, false) };
     let mut gradient = vec![[0.0; 3]; x.len()];
     let mut energy = membrane.energy(&x, &mut gradient);
     let enough = FORCE * membrane.force_scale();
-    let mut memory: Vec<Pair> = Vec::new();
-    for _ in 0..MOST_ITERATIONS.min(MOST_WORK / membrane.size().max(1)) {
-        let largest = gradient.as_flattened().iter().map(|g| g.abs()).fold(0.0, f64::max);
-        if largest <= enough {
+    let longest = LONGEST * length(&x);
+    for _ in 0..MOST_ITERATIONS {
+        if largest(&gradient) <= enough {
+            return (x, true);
+        }
+        if !stiffness.factorize(membrane, &x) {
             break;
         }
-        let mut direction = descent(&memory, &gradient);
-        let mut slope = product(&direction, &gradient);
-        if slope >= 0.0 {
-            memory.clear();
-            direction = gradient.iter().map(|g| g.map(|v| -v)).collect();
-            slope = -product(&gradient, &gradient);
-        }
-        let mut step = if memory.is_empty() { FIRST_STEP_MM / largest } else { 1.0 };
-        let mut next = gradient.clone();
+        let mut direction: Nodes = gradient.iter().map(|g| g.map(|v| -v)).collect();
+        stiffness.solve(&mut direction);
+        let slope = product(&direction, &gradient);
+        let mut step = (longest / largest(&direction)).min(1.0);
         let mut found = None;
         for _ in 0..MOST_HALVINGS {
-            let there: Nodes = x.iter().zip(&direction).map(|(p, d)| [0, 1, 2].map(|k| p[k] + step * d[k])).collect();
-            let value = membrane.energy(&there, &mut next);
-            if value <= energy + DECREASE * step * slope {
-                found = Some((there, value));
+            let there = Trial::at(membrane, added(&x, step, &direction));
+            let there = corrected(there, membrane, &mut stiffness, &gradient, step);
+            if there.energy <= energy + DECREASE * step * slope + ROUNDING * energy.abs() {
+                found = Some(there);
                 break;
             }
             step *= 0.5;
         }
         // Rounding allows no more.
-        let Some((there, value)) = found else { break };
-        let pair = Pair::new(&x, &there, &gradient, &next);
-        if pair.curvature > 0.0 {
-            if memory.len() == MEMORY {
-                memory.remove(0);
-            }
-            memory.push(pair);
+        let Some(there) = found else { break };
+        (x, energy, gradient) = (there.x, there.energy, there.gradient);
+    }
+    let settled = largest(&gradient) <= enough;
+    (x, settled)
+}
+
+/// A place that a step leads to.
+struct Trial {
+    x: Nodes,
+    energy: f64,
+    gradient: Nodes,
+}
+
+impl Trial {
+    fn at(membrane: &Membrane, x: Nodes) -> Self {
+        let mut gradient = vec![[0.0; 3]; x.len()];
+        let energy = membrane.energy(&x, &mut gradient);
+        Self { x, energy, gradient }
+    }
+}
+
+/// With what is wrong with a step of length `t` to second order taken out, `-H^-1 [g(x + t s) - (1 - t) g(x)]`, as far as that lowers the energy.
+fn corrected(mut there: Trial, membrane: &Membrane, stiffness: &mut Stiffness, before: &Nodes, t: f64) -> Trial {
+    for _ in 0..CORRECTIONS {
+        if !there.energy.is_finite() {
+            break;
         }
-        (x, gradient, energy) = (there, next, value);
+        let wanted = before.iter().zip(&there.gradient);
+        let mut correction: Nodes = wanted.map(|(g, now)| [0, 1, 2].map(|k| (1.0 - t) * g[k] - now[k])).collect();
+        stiffness.solve(&mut correction);
+        let other = Trial::at(membrane, added(&there.x, 1.0, &correction));
+        // Not where there is no number.
+        if !(other.energy < there.energy) {
+            break;
+        }
+        there = other;
     }
-    x
+    there
 }
 
-/// A step and how the gradient changed along it.
-struct Pair {
-    step: Nodes,
-    change: Nodes,
-    /// Their product.
-    curvature: f64,
+fn largest(v: &Nodes) -> f64 {
+    v.as_flattened().iter().fold(0.0, |most, v| most.max(v.abs()))
 }
 
-impl Pair {
-    fn new(x: &Nodes, there: &Nodes, gradient: &Nodes, next: &Nodes) -> Self {
-        let minus = |a: &Nodes, b: &Nodes| a.iter().zip(b).map(|(p, q)| [0, 1, 2].map(|k| p[k] - q[k])).collect();
-        let (step, change) = (minus(there, x), minus(next, gradient));
-        let curvature = product(&step, &change);
-        Self { step, change, curvature }
-    }
-}
-
-/// The direction that the remembered curvature suggests.
-fn descent(memory: &[Pair], gradient: &Nodes) -> Nodes {
-    let mut q: Nodes = gradient.iter().map(|g| g.map(|v| -v)).collect();
-    let mut parts = Vec::new();
-    for pair in memory.iter().rev() {
-        let part = product(&pair.step, &q) / pair.curvature;
-        add(&mut q, -part, &pair.change);
-        parts.push(part);
-    }
-    if let Some(last) = memory.last() {
-        let scale = last.curvature / product(&last.change, &last.change).max(f64::MIN_POSITIVE);
-        q.as_flattened_mut().iter_mut().for_each(|v| *v *= scale);
-    }
-    for (pair, part) in memory.iter().zip(parts.into_iter().rev()) {
-        let back = product(&pair.change, &q) / pair.curvature;
-        add(&mut q, part - back, &pair.step);
-    }
-    q
+/// Of the sheet along x or y, whichever is longer.
+fn length(x: &Nodes) -> f64 {
+    let along = |k: usize| {
+        let (low, high) = x.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p[k]), h.max(p[k])));
+        high - low
+    };
+    along(0).max(along(1))
 }
 
 fn product(a: &Nodes, b: &Nodes) -> f64 {
     a.as_flattened().iter().zip(b.as_flattened()).map(|(p, q)| p * q).sum()
 }
 
-fn add(q: &mut Nodes, factor: f64, other: &Nodes) {
-    for (v, o) in q.as_flattened_mut().iter_mut().zip(other.as_flattened()) {
-        *v += factor * o;
-    }
+fn added(x: &Nodes, factor: f64, direction: &Nodes) -> Nodes {
+    x.iter().zip(direction).map(|(p, d)| [0, 1, 2].map(|k| p[k] + factor * d[k])).collect()
 }

@@ -18,6 +18,8 @@ pub struct Shape {
     pub seen: Vec<Point>,
     pub volume_mm3: f64,
     pub thickness_mm: f64,
+    /// Whether its forces are in balance.
+    pub is_settled: bool,
 }
 
 impl Shape {
@@ -26,10 +28,10 @@ impl Shape {
         let rim = mesh.boundary();
         let membrane = Membrane::new(mesh, &rim);
         let start = before.map_or_else(|| membrane.dome(mesh), <[_]>::to_vec);
-        let nodes = relax::relaxed(&membrane, start);
+        let (nodes, is_settled) = relax::relaxed(&membrane, start);
         let thickness_mm = 2.0 * nodes.iter().map(|p| p[2]).fold(0.0, f64::max);
         let seen = smoothed(&rim, aligned(&rim, &mesh.nodes, &nodes));
-        Self { volume_mm3: membrane.volume(&nodes), seen, thickness_mm, nodes }
+        Self { volume_mm3: membrane.volume(&nodes), seen, thickness_mm, is_settled, nodes }
     }
 }
 
@@ -58,8 +60,14 @@ fn smoothed(rim: &[Vec<usize>], mut places: Vec<Point>) -> Vec<Point> {
     places
 }
 
+/// Places moved and turned as a whole so that those of the rim of a mesh lie nearest to where they are drawn (least squares).
+pub fn over(rim: &[Vec<usize>], drawn: &[Point], seen: &[Point]) -> Vec<Point> {
+    let nodes: Vec<[f64; 3]> = seen.iter().map(|p| [p[0], p[1], 0.0]).collect();
+    aligned(rim, drawn, &nodes)
+}
+
 /// Nodes seen from the front, moved and turned so that their rim lies nearest to the flat one (least squares).
-pub fn aligned(rim: &[Vec<usize>], flat: &[Point], nodes: &[[f64; 3]]) -> Vec<Point> {
+fn aligned(rim: &[Vec<usize>], flat: &[Point], nodes: &[[f64; 3]]) -> Vec<Point> {
     let on_rim: Vec<usize> = rim.iter().flatten().copied().collect();
     let count = on_rim.len().max(1) as f64;
     let mean = |at: &dyn Fn(usize) -> Point| -> Point {

@@ -20,6 +20,9 @@ const INDENT_MM: f64 = 7.0;
 const PAD_MM: f64 = 1.5;
 /// Largest height of a figure, mm.
 const FIGURE_MM: f64 = 165.0;
+/// Two figures of this height have room on a page, below a heading and with their captions, mm; those that are higher by a fifth at most are drawn so high.
+const HALF_MM: f64 = 112.0;
+const SHRUNK: f64 = 1.2;
 
 /// The pages of a guide.
 pub(super) fn pages(guide: &Guide) -> Vec<Sheet> {
@@ -146,7 +149,9 @@ impl Layout<'_> {
 
 /// The scale of a figure.
 fn scale(sheet: &Sheet) -> f64 {
-    (WIDTH_MM / sheet.width_mm).min(FIGURE_MM / sheet.height_mm).min(1.0)
+    let scale = (WIDTH_MM / sheet.width_mm).min(FIGURE_MM / sheet.height_mm).min(1.0);
+    let height_mm = scale * sheet.height_mm;
+    if (HALF_MM..=SHRUNK * HALF_MM).contains(&height_mm) { HALF_MM / sheet.height_mm } else { scale }
 }
 
 /// Widths of columns by their longest fields, together as wide as the page.
@@ -193,5 +198,16 @@ mod tests {
             assert!(at[1] >= 0.5 * MARGIN_MM && at[1] <= PAGE_MM[1] - MARGIN_MM);
         }
         assert_eq!(count, 6 * 2 * 300);
+    }
+
+    #[test]
+    fn two_figures_share_a_page_below_a_heading() {
+        let mut guide = Guide { title: "guide".into(), blocks: vec![Block::Page] };
+        guide.heading("winches");
+        for _ in 0..4 {
+            guide.figure(Sheet { title: "t".into(), width_mm: 170.0, height_mm: 130.0, groups: Vec::new() }, "picture");
+        }
+        // The title's own, and two of two.
+        assert_eq!(pages(&guide).len(), 3);
     }
 }
