@@ -74,9 +74,8 @@ impl Grid {
         let mut nearest = f64::INFINITY;
         for row in self.range(1, from, to) {
             for column in self.range(0, from, to) {
-                for &(a, b) in &self.cells[row * self.columns + column] {
-                    nearest = nearest.min(polygon::distance_to_segment(a, b, p));
-                }
+                let sides = self.cells[row * self.columns + column].iter().copied();
+                nearest = nearest.min(polygon::nearest(sides, p));
             }
         }
         if nearest <= reach { nearest } else { f64::INFINITY }

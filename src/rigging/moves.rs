@@ -71,13 +71,15 @@ impl<'a> Sampler<'a> {
     /// A point at least so deep inside the body, or the deepest of many.
     fn at_depth(&self, depth: f64, random: &mut Random) -> Point {
         let mut best = self.anywhere(random);
+        let mut reached = self.depth(best);
         for _ in 0..DRAWS {
-            if self.depth(best) >= depth {
+            if reached >= depth {
                 break;
             }
             let other = self.anywhere(random);
-            if self.depth(other) > self.depth(best) {
-                best = other;
+            let deep = self.depth(other);
+            if deep > reached {
+                (best, reached) = (other, deep);
             }
         }
         best
@@ -92,7 +94,7 @@ impl<'a> Sampler<'a> {
     }
 
     fn is_clear(&self, a: Point, b: Point) -> bool {
-        self.sewable.is_none_or(|s| s.outside(a, b) == 0.0)
+        self.sewable.is_none_or(|s| s.is_clear(a, b))
     }
 
     /// The way of a cable to its end: straight, or around by up to two points where the body is not in between.

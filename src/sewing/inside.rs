@@ -68,6 +68,11 @@ fn winding(ring: &[Point], p: Point) -> i32 {
 
 /// The parameter on `ab` at which it crosses `pq`, where it does.
 fn crossing(a: Point, b: Point, p: Point, q: Point) -> Option<f64> {
+    // Most sides are nowhere near.
+    let apart = |k: usize| a[k].max(b[k]) + ON_RIM_MM < p[k].min(q[k]) || p[k].max(q[k]) + ON_RIM_MM < a[k].min(b[k]);
+    if apart(0) || apart(1) {
+        return None;
+    }
     let (d, e, w) = ([b[0] - a[0], b[1] - a[1]], [q[0] - p[0], q[1] - p[1]], [p[0] - a[0], p[1] - a[1]]);
     let across = d[0] * e[1] - d[1] * e[0];
     let t = (w[0] * e[1] - w[1] * e[0]) / across;

@@ -76,7 +76,7 @@ impl Stiffness {
                 }
                 return true;
             }
-            // Where the last shift was too much for, it is tried a size smaller.
+            // Then the one that was needed the last time, a size smaller.
             shift = if tries == 0 { self.shift.max(GROWTH * LEAST_SHIFT) } else { GROWTH * shift };
         }
         false
