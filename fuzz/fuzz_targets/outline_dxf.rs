@@ -1,13 +1,11 @@
-//! The DXF reader and the clean-up: any entities.
-//!
-//! `cargo +nightly fuzz run outline_dxf`
-
+//! The DXF reader and the clean-up: sections, or any entities.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
 use plushwright::outline::{Import, Pieces, import};
 
 fuzz_target!(|data: &[u8]| {
-    let file = [b"0\nSECTION\n2\nENTITIES\n0\n".as_slice(), data].concat();
+    let is_whole = data.starts_with(b"0\nSECTION");
+    let file = [if is_whole { &b""[..] } else { b"0\nSECTION\n2\nENTITIES\n0\n" }, data].concat();
     let _ = import(&file, &Import { pieces: Pieces::Largest, ..Import::default() });
 });

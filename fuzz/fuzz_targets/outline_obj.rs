@@ -1,13 +1,11 @@
-//! The OBJ reader: any lines after a vertex.
-//!
-//! `cargo +nightly fuzz run outline_obj`
-
+//! The OBJ reader: a file, or any lines after a vertex.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
 use plushwright::outline::{Import, Pieces, import};
 
 fuzz_target!(|data: &[u8]| {
-    let file = [b"v 0 0\n".as_slice(), data].concat();
+    let is_whole = [&b"#"[..], b"o ", b"v "].iter().any(|start| data.starts_with(start));
+    let file = [if is_whole { &b""[..] } else { b"v 0 0\n" }, data].concat();
     let _ = import(&file, &Import { pieces: Pieces::Largest, ..Import::default() });
 });

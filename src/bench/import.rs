@@ -320,7 +320,7 @@ fn attempt(path: PathBuf, import: &Import, fibers: &[usize]) -> Outcome {
         Meshed { ms, result }
     });
     let meshes = meshes.collect();
-    let narrow = outline.narrow_parts(NARROW_FRACTION * high[1]) > 0;
+    let narrow = outline.has_narrow_parts(NARROW_FRACTION * high[1]);
     Outcome { path, import_ms, result: Ok(Sound { unasked: imported.changes.unasked, narrow, meshes }) }
 }
 

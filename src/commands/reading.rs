@@ -7,8 +7,11 @@ use clap::{Args, ValueEnum};
 #[derive(Debug, Default, Args)]
 pub struct Reading {
     /// Height of the silhouette in mm [default: its physical size in the file; plain numbers are 1/96 inch]
-    #[arg(long, value_name = "MM", value_parser = parse_height, allow_hyphen_values = true)]
+    #[arg(long, value_name = "MM", value_parser = parse_size, allow_hyphen_values = true)]
     pub height: Option<f64>,
+    /// Width of the silhouette in mm, in place of its height
+    #[arg(long, value_name = "MM", value_parser = parse_size, allow_hyphen_values = true, conflicts_with = "height")]
+    pub width: Option<f64>,
     /// Several pieces: refuse them, or keep the largest
     #[arg(long, value_enum, default_value_t)]
     pub pieces: PiecesChoice,
@@ -77,6 +80,7 @@ impl Reading {
     pub fn import(&self) -> Import {
         Import {
             height_mm: self.height,
+            width_mm: self.width,
             pieces: match self.pieces {
                 PiecesChoice::Refuse => Pieces::Refuse,
                 PiecesChoice::Largest => Pieces::Largest,
@@ -103,10 +107,10 @@ impl Reading {
     }
 }
 
-fn parse_height(text: &str) -> Result<f64, String> {
+fn parse_size(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
-        Ok(height) if height.is_finite() && height > 0.0 => Ok(height),
-        _ => Err(format!("expected a height in mm above 0, found `{text}`")),
+        Ok(size) if size.is_finite() && size > 0.0 => Ok(size),
+        _ => Err(format!("expected a length in mm above 0, found `{text}`")),
     }
 }
 

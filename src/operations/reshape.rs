@@ -75,8 +75,8 @@ pub fn prepare(design: &Design, source: Source, options: &Options, context: &Con
         Source::File(bytes) => outline::import(bytes, &options.import)?,
         Source::Drawing(drawing) => drawing.import(&options.import)?,
     };
-    // Where a height is asked for the drawing's own coordinates do not count.
-    let own_place = imported.drawing.is_some() && options.import.height_mm.is_none();
+    // Where a size is asked for the drawing's own coordinates do not count.
+    let own_place = imported.drawing.is_some() && !options.import.asks_size();
     let corner = if own_place { imported.drawn_box[0] } else { [0.0; 2] };
     keep_tracks(design, &mut imported);
     let changes = imported.changes.clone();

@@ -69,12 +69,12 @@ pub(super) fn clean(painting: Painting, import: &Import) -> Result<Imported, Out
     if !has_area {
         return Err(OutlineError::Degenerate);
     }
-    let scale = import.height_mm.map_or(unit_mm, |height| height / (high[1] - low[1]));
+    let scale = import.scale((low, high)).unwrap_or(unit_mm);
     changes.painted_mm2 = all * scale * scale;
     let shapes = placed(shapes, low, scale);
     let (shapes, longer) = (shapes, longer * scale);
     let shapes = shaped(shapes, longer, import, &mut changes)?;
-    let (outline, box_mm) = outline(shapes, import.height_mm)?;
+    let (outline, box_mm) = outline(shapes, import)?;
     changes.outline_mm2 = outline.area();
     // Back to where it was before it was placed.
     let drawn_box = box_mm.map(|p| [p[0] / scale + low[0], p[1] / scale + low[1]]);
@@ -126,7 +126,7 @@ struct Units {
 impl Units {
     fn of(shapes: &Shapes, unit_mm: f64, import: &Import) -> Self {
         let (low, high) = regions::bounding_box(shapes);
-        let mm = import.height_mm.map_or(unit_mm, |height| height / (high[1] - low[1]));
+        let mm = import.scale((low, high)).unwrap_or(unit_mm);
         Self { low, longer: (high[0] - low[0]).max(high[1] - low[1]), mm }
     }
 
@@ -339,11 +339,11 @@ fn simplified(shapes: Shapes, tolerance: f64) -> Result<Shapes, OutlineError> {
     Ok(if sound { clean } else { shapes })
 }
 
-/// The one region left, its lower left corner at the origin, as high as asked (the steps before may have moved its top), and
+/// The one region left, its lower left corner at the origin, as large as asked (the steps before may have moved its rim), and
 /// the corners of its box before that.
-fn outline(shapes: Shapes, height_mm: Option<f64>) -> Result<(Outline, [Point; 2]), OutlineError> {
+fn outline(shapes: Shapes, import: &Import) -> Result<(Outline, [Point; 2]), OutlineError> {
     let (low, high) = regions::bounding_box(&shapes);
-    let scale = height_mm.map_or(1.0, |height| height / (high[1] - low[1]));
+    let scale = import.scale((low, high)).unwrap_or(1.0);
     let mut rings = match <[_; 1]>::try_from(placed(shapes, low, scale)) {
         Ok([rings]) => rings,
         Err(shapes) if shapes.is_empty() => return Err(OutlineError::Degenerate),

@@ -57,8 +57,10 @@ pub enum OutlineError {
     Degenerate,
     #[error("{what} must be a length of at least 0 mm, not {value}")]
     Length { what: &'static str, value: f64 },
-    #[error("the height must be between 0.01 and 1000000 mm, not {0} mm")]
-    Height(f64),
+    #[error("the {what} must be between 0.01 and 1000000 mm, not {value} mm")]
+    Asked { what: &'static str, value: f64 },
+    #[error("either the height or the width can be asked for, not both: the other follows")]
+    TwoSizes,
     #[error("the silhouette would measure {0:e} mm")]
     Size(f64),
 }

@@ -1,5 +1,6 @@
 //! How to read an outline.
 
+use super::Point;
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 
@@ -42,8 +43,10 @@ pub enum Background {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Import {
-    /// Height of the silhouette, mm; without it the file's own size counts.
+    /// Height of the silhouette, mm; without it and the width the file's own size counts.
     pub height_mm: Option<f64>,
+    /// Width of the silhouette, mm, in place of its height.
+    pub width_mm: Option<f64>,
     pub pieces: Pieces,
     pub holes: Holes,
     pub background: Background,
@@ -65,4 +68,17 @@ pub struct Import {
     pub layers: Vec<String>,
     /// Names of the blocks of a DXF that are read in place of its drawing, empty for none.
     pub blocks: Vec<String>,
+}
+
+impl Import {
+    /// Whether the size of the silhouette is asked for, so that the file's own does not count.
+    pub fn asks_size(&self) -> bool {
+        self.height_mm.is_some() || self.width_mm.is_some()
+    }
+
+    /// What a silhouette with this box is to be multiplied by, where a size is asked for.
+    pub(in crate::outline) fn scale(&self, (low, high): (Point, Point)) -> Option<f64> {
+        let height = self.height_mm.map(|height| height / (high[1] - low[1]));
+        height.or_else(|| self.width_mm.map(|width| width / (high[0] - low[0])))
+    }
 }

@@ -52,6 +52,11 @@ impl Outline {
         thin::narrow_parts(&vec![self.polygons().map(Vec::from).collect()], width)
     }
 
+    /// Whether there is any such part or gap.
+    pub fn has_narrow_parts(&self, width: f64) -> bool {
+        thin::has_narrow_parts(&vec![self.polygons().map(Vec::from).collect()], width)
+    }
+
     /// Distance from `p` to the nearest boundary, mm, without a sign.
     pub fn distance(&self, p: Point) -> f64 {
         self.polygons().map(|ring| polygon::distance(ring, p)).fold(f64::INFINITY, f64::min)

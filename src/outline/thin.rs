@@ -176,15 +176,43 @@ fn joints(shapes: &Shapes, shrunk: &Shapes, r: f64) -> Vec<Point> {
 
 /// How many parts of the regions, and how many gaps between them, are thinner than `width`.
 pub(super) fn narrow_parts(shapes: &Shapes, width: f64) -> usize {
-    let r = 0.5 * width;
-    let grid = Grid::new(shapes.iter().flatten().map(Vec::as_slice));
-    let opening = regions::grown(&regions::grown(shapes, -r), (1.0 + SLIVER) * r);
-    let closing = regions::grown(&regions::grown(shapes, r), -(1.0 + SLIVER) * r);
-    let count = |rest: Shapes| {
+    let narrow = Narrow::of(shapes, width);
+    narrow.parts() + narrow.gaps()
+}
+
+/// Whether there are any; where a part tells, as of a body with hair, the gaps are not looked for.
+pub(super) fn has_narrow_parts(shapes: &Shapes, width: f64) -> bool {
+    let narrow = Narrow::of(shapes, width);
+    narrow.parts() > 0 || narrow.gaps() > 0
+}
+
+/// Regions whose parts and gaps are compared with a disc of radius `r`.
+struct Narrow<'a> {
+    shapes: &'a Shapes,
+    r: f64,
+    grid: Grid,
+}
+
+impl<'a> Narrow<'a> {
+    fn of(shapes: &'a Shapes, width: f64) -> Self {
+        Self { shapes, r: 0.5 * width, grid: Grid::new(shapes.iter().flatten().map(Vec::as_slice)) }
+    }
+
+    fn parts(&self) -> usize {
+        let opening = regions::grown(&regions::grown(self.shapes, -self.r), (1.0 + SLIVER) * self.r);
+        self.count(regions::difference(self.shapes, &opening))
+    }
+
+    fn gaps(&self) -> usize {
+        let closing = regions::grown(&regions::grown(self.shapes, self.r), -(1.0 + SLIVER) * self.r);
+        self.count(regions::difference(&closing, self.shapes))
+    }
+
+    fn count(&self, rest: Shapes) -> usize {
+        let r = self.r;
         let rest = rest.into_iter().filter(|piece| regions::piece_area(piece) > SPECK * r * r);
-        rest.take(MAX_PIECES).filter(|piece| is_thin(piece, &grid, r)).count()
-    };
-    count(regions::difference(shapes, &opening)) + count(regions::difference(&closing, shapes))
+        rest.take(MAX_PIECES).filter(|piece| is_thin(piece, &self.grid, r)).count()
+    }
 }
 
 /// Whether a piece of the rest is a neck, or reaches far from its cut.

@@ -116,6 +116,23 @@ fn small_drawings_are_warned_of_and_too_few_fibers_refused() {
 }
 
 #[test]
+fn a_width_is_asked_for_in_place_of_a_height() {
+    let folder = Folder::new();
+    let narrow = folder.put("narrow.svg", &svg("<ellipse cx='50' cy='50' rx='20' ry='40'/>"));
+    let report = folder.accepted(&narrow, &["--width", "75"]);
+    assert!((report["height_mm"].as_f64().unwrap() - 150.0).abs() < 1e-3, "{report:#}");
+    let numbers = folder.put(
+        "numbers.dxf",
+        b"0\nSECTION\n2\nENTITIES\n0\nELLIPSE\n10\n5\n20\n5\n11\n0\n21\n40\n40\n0.5\n41\n0\n42\n6.283185307179586\n0\nENDSEC\n0\nEOF\n",
+    );
+    let report = folder.accepted(&numbers, &["--width", "75"]);
+    assert!((report["height_mm"].as_f64().unwrap() - 150.0).abs() < 1e-3, "{report:#}");
+    for wrong in [&["--width", "75", "--height", "150"][..], &["--width", "0"], &["--width", "1e9"]] {
+        assert_eq!(folder.new_design(&narrow, wrong).status.code(), Some(2), "{wrong:?}");
+    }
+}
+
+#[test]
 fn pictures_are_read_by_opacity_or_background() {
     let folder = Folder::new();
     let disc = |x: u32, y: u32| ((f64::from(x) - 150.0).hypot(f64::from(y) - 150.0) < 100.0, x, y);

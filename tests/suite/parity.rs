@@ -157,6 +157,16 @@ fn what_is_asked_for_is_the_same_both_ways() {
 }
 
 #[test]
+fn a_width_is_asked_for_both_ways() {
+    let design = imported("plain.svg", NUMBERS.as_bytes(), &["--width", "90"], |window| {
+        // The last one that is typed counts.
+        enter(window, Role::SpinButton, "Height", "150");
+        enter(window, Role::SpinButton, "Width", "90");
+    });
+    assert!((design.outline.bounding_box().1[0] - 90.0).abs() < 1e-6);
+}
+
+#[test]
 fn a_flat_mesh_stays_that_mesh_both_ways() {
     let obj = b"v 0 0 0\nv 100 0 0\nv 100 80 0\nv 0 80 0\nv 50 40 0\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n";
     let own = imported("flat.obj", obj, &[], |_| ());

@@ -134,7 +134,7 @@ impl<'a> Subject<'a> {
     fn must_be_close(&self, fibers: usize) -> bool {
         let should = fibers >= ALL_CLOSE_FROM
             || fibers >= CLOSE_FROM
-                && !*self.has_fine_features.get_or_init(|| self.whole.narrow_parts(FINE * self.height) > 0);
+                && !*self.has_fine_features.get_or_init(|| self.whole.has_narrow_parts(FINE * self.height));
         should && !self.lenient.get()
     }
 

@@ -30,7 +30,7 @@ impl OutlineReader for OfParts {
 }
 
 impl Drawing {
-    /// One clean outline of what is drawn, and the drawing itself moved (and scaled, where a height is asked for) to where the
+    /// One clean outline of what is drawn, and the drawing itself moved (and scaled, where a size is asked for) to where the
     /// outline is: with its lower left corner in the origin. Where that was is [`Imported::drawn_box`].
     ///
     /// # Errors
@@ -39,7 +39,7 @@ impl Drawing {
         let mut imported = finish(self.painting()?, import)?;
         let [low, high] = imported.drawn_box;
         let (_, made) = imported.outline.bounding_box();
-        let scale = if import.height_mm.is_some() { made[1] / (high[1] - low[1]) } else { 1.0 };
+        let scale = if import.asks_size() { made[1] / (high[1] - low[1]) } else { 1.0 };
         imported.drawing = Some(self.moved(low.map(|v| -v)).scaled(scale));
         Ok(imported)
     }

@@ -5,7 +5,7 @@ use crate::outline::clean;
 use crate::outline::options::SIZES_MM;
 use crate::outline::{Import, Imported, Note, OutlineError};
 
-/// Without an asked height, a silhouette lower than this is small for a plushie, mm.
+/// Without an asked size, a silhouette lower than this is small for a plushie, mm.
 const SMALL_MM: f64 = 60.0;
 
 /// Cleans what a reader found.
@@ -22,17 +22,22 @@ pub(super) fn finish(painting: Painting, import: &Import) -> Result<Imported, Ou
 /// With a warning where the file's own size makes a small plushie.
 pub(super) fn warned(mut imported: Imported, import: &Import) -> Imported {
     let (_, high) = imported.outline.bounding_box();
-    if import.height_mm.is_none() && high[1] < SMALL_MM {
+    if !import.asks_size() && high[1] < SMALL_MM {
         imported.changes.notes.push(Note::Small(high[1]));
     }
     imported
 }
 
 impl Import {
-    /// Refuses lengths that are none, and heights that no plushie has.
+    /// Refuses lengths that are none, and sizes that no plushie has.
     pub(in crate::outline) fn check(&self) -> Result<(), OutlineError> {
-        if let Some(height) = self.height_mm.filter(|h| !SIZES_MM.contains(h)) {
-            return Err(OutlineError::Height(height));
+        if self.height_mm.is_some() && self.width_mm.is_some() {
+            return Err(OutlineError::TwoSizes);
+        }
+        for (what, size) in [("height", self.height_mm), ("width", self.width_mm)] {
+            if let Some(value) = size.filter(|size| !SIZES_MM.contains(size)) {
+                return Err(OutlineError::Asked { what, value });
+            }
         }
         let lengths = [
             ("the smoothing tolerance", self.smooth_mm),

@@ -16,8 +16,8 @@ use eframe::egui::{
 };
 use std::ops::RangeInclusive;
 
-/// What can be typed for the silhouette's height, mm, and for the number of fibres; 0 for what is usual.
-const HEIGHTS_MM: RangeInclusive<f64> = 0.0..=5000.0;
+/// What can be typed for the silhouette's height and width, mm, and for the number of fibres; 0 for what is usual.
+const SIZES_MM: RangeInclusive<f64> = 0.0..=5000.0;
 const FIBERS: RangeInclusive<f64> = 0.0..=MAX_FIBERS as f64;
 /// The largest length of the clean-up, mm.
 const LARGEST_MM: f64 = 1000.0;
@@ -30,8 +30,17 @@ pub fn settings(ui: &mut Ui, session: &Session, edited: &mut PathDialog) {
     ui.horizontal(|ui| {
         let tip = t("Of the silhouette; 0: the size that the file has");
         let mut height = options.import.height_mm.unwrap_or(0.0);
-        or_usual(ui, (t("Height"), tip), &mut height, (t("as in the file"), " mm"), HEIGHTS_MM);
+        or_usual(ui, (t("Height"), tip), &mut height, (t("as in the file"), " mm"), SIZES_MM);
         options.import.height_mm = (height > 0.0).then_some(height);
+        ui.add_space(12.0);
+        let tip = t("Of the silhouette, in place of its height; 0: the size that the file has");
+        let mut width = options.import.width_mm.unwrap_or(0.0);
+        or_usual(ui, (t("Width"), tip), &mut width, (t("as in the file"), " mm"), SIZES_MM);
+        // One follows from the other.
+        if width > 0.0 && options.import.width_mm != Some(width) {
+            options.import.height_mm = None;
+        }
+        options.import.width_mm = (width > 0.0 && options.import.height_mm.is_none()).then_some(width);
         ui.add_space(12.0);
         let tip = t("0: those of a file that brings its own mesh; otherwise 414, or more where the outline needs them");
         let mut fibers = match options.fibers {

@@ -25,7 +25,7 @@ mod through;
 use super::finish::finish;
 use super::{OutlineReader, Painting, ReadingOption, layers};
 use crate::outline::even::{self, EVEN_FRACTION};
-use crate::outline::{Import, Imported, Note, OutlineError, Point};
+use crate::outline::{Import, Imported, Note, OutlineError, Point, polygon};
 use curves::Curve;
 use draw::{CUT_LINE, Drawn, LAYER_0};
 use file::File;
@@ -166,15 +166,8 @@ fn closed_areas(drawn: &mut Drawn, import: &Import, file: &File, painting: &mut 
     painting.unit_mm = import.unit_mm.or(file.unit_mm).unwrap_or(1.0);
     let (lines, upright) = projected(lines);
     let (hatched, _) = projected(hatched);
-    // What a mm is in the drawing: its height is not known before it is read.
-    let height = || {
-        let (low, high) = lines
-            .iter()
-            .flat_map(|line| &line.0)
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p[1]), h.max(p[1])));
-        high - low
-    };
-    let mm = import.height_mm.map_or(painting.unit_mm, |asked| asked / height());
+    // What a mm is in the drawing: the size of its figure is not known before it is read.
+    let mm = import.scale(box_of(if lines.is_empty() { &hatched } else { &lines })).unwrap_or(painting.unit_mm);
     let join = import.join_mm.map_or(chain::JOIN_FRACTION * size, |join| join / mm);
     let mut found = chain::closed(lines, size, join);
     let (open, nearest) = (found.open, found.nearest_loose);
@@ -236,6 +229,12 @@ fn span(lines: &[(Vec<Point3>, bool)], axis: usize) -> f64 {
     let all = lines.iter().flat_map(|(line, _)| line);
     let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p[axis]), h.max(p[axis])));
     if low <= high { high - low } else { 0.0 }
+}
+
+/// The corners of the box around all.
+fn box_of(lines: &[(Vec<Point>, bool)]) -> (Point, Point) {
+    let all: Vec<Point> = lines.iter().flat_map(|(line, _)| line).copied().collect();
+    polygon::bounding_box(&all)
 }
 
 /// Seen from above; or from the front or the side, where nothing is seen from above. Tells from where then.

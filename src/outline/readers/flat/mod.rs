@@ -58,7 +58,7 @@ fn read(mesh: Faces, import: &Import) -> Result<Imported, OutlineError> {
     let View { points, thickness, size, along } = view(&vertices, &faces, y_up)?;
     let mut notes = Vec::new();
     let unit_mm = import.unit_mm.or(unit_mm).unwrap_or_else(|| {
-        if import.height_mm.is_none() {
+        if !import.asks_size() {
             notes.push(Note::NoUnit(file));
         }
         1.0
@@ -77,7 +77,7 @@ fn read(mesh: Faces, import: &Import) -> Result<Imported, OutlineError> {
         return areas(&points, &faces, size, unit_mm, notes, import);
     };
     let (low, high) = polygon::bounding_box(&nodes);
-    let scale = import.height_mm.map_or(unit_mm, |height| height / (high[1] - low[1]));
+    let scale = import.scale((low, high)).unwrap_or(unit_mm);
     let place = |p: &Point| [0, 1].map(|axis| (p[axis] - low[axis]) * scale);
     let mut rings: Vec<Vec<Point>> = rings.iter().map(|ring| ring.iter().map(place).collect()).collect();
     let holes = rings.split_off(1);

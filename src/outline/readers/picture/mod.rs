@@ -72,7 +72,7 @@ fn painting(bytes: &[u8], import: &Import) -> Result<Painting, OutlineError> {
     let passes = if format == ImageFormat::Jpeg { 2 } else { 1 };
     let mut painting = painted(picture, passes, import)?;
     let stated = import.unit_mm.or_else(|| resolution::mm_per_px(bytes));
-    if stated.is_none() && import.height_mm.is_none() {
+    if stated.is_none() && !import.asks_size() {
         painting.notes.push(Note::Size(Sizing::Pixels));
     }
     painting.unit_mm *= stated.unwrap_or(MM_PER_PX);

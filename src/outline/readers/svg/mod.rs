@@ -108,7 +108,7 @@ fn shapes(tree: &Tree, size: Size, mut notes: Vec<Note>, import: &Import) -> Res
     }
     let page = [f64::from(tree.size().width()), f64::from(tree.size().height())];
     let least = import.threshold.map_or(FAINT, |level| f32::from(level) / 255.0);
-    let mut walk = Walk::new(longer, import.smooth_mm != Some(0.0), least);
+    let mut walk = Walk::new(tree.root(), longer, import.smooth_mm != Some(0.0), least);
     let marks = walk.painted(tree.root(), Transform::identity(), 1.0)?;
     let (faint, marks): (Vec<Mark>, Vec<Mark>) = marks.into_iter().partition(|mark| mark.opacity < least);
     // Where all is faint, all counts.
@@ -133,7 +133,7 @@ fn shapes(tree: &Tree, size: Size, mut notes: Vec<Note>, import: &Import) -> Res
     if off > OFF_PAGE_FRACTION * longer {
         painting.notes.push(Note::OffPage);
     }
-    if let Some(sizing) = size.sizing.filter(|_| import.height_mm.is_none()) {
+    if let Some(sizing) = size.sizing.filter(|_| !import.asks_size()) {
         painting.notes.push(Note::Size(sizing));
     }
     Ok(painting)

@@ -44,7 +44,7 @@ pub(super) fn painting(tree: &Tree, size: Size, notes: Vec<Note>, import: &Impor
     painting.unit_mm = size.mm_per_px;
     painting.notes.insert(0, Note::PicturesAlone);
     painting.notes.extend(notes);
-    painting.notes.extend(size.sizing.filter(|_| import.height_mm.is_none()).map(Note::Size));
+    painting.notes.extend(size.sizing.filter(|_| !import.asks_size()).map(Note::Size));
     Ok(painting)
 }
 

@@ -82,8 +82,8 @@ fn faults_are_told_apart() {
     let hair = "<rect width='100' height='0.0005'/>";
     assert_eq!(read(&svg(attributes, hair), None), Err(OutlineError::Degenerate));
     let square = svg(attributes, "<rect width='50' height='50'/>");
-    assert_eq!(read(&square, Some(-1.0)), Err(OutlineError::Height(-1.0)));
-    assert!(matches!(read(&square, Some(f64::NAN)), Err(OutlineError::Height(_))));
+    assert_eq!(read(&square, Some(-1.0)), Err(OutlineError::Asked { what: "height", value: -1.0 }));
+    assert!(matches!(read(&square, Some(f64::NAN)), Err(OutlineError::Asked { .. })));
 }
 
 fn full(body: &str, import: &Import) -> Result<Imported, OutlineError> {
@@ -177,4 +177,22 @@ fn a_drawing_of_a_picture_alone_is_read_as_what_that_shows_where_it_lies() {
     let read = import(&both, &Import::default()).unwrap();
     assert!((read.outline.area() / (std::f64::consts::PI * 900.0) - 1.0).abs() < 0.01);
     assert!(read.changes.notes.contains(&Note::EmbeddedPictures(1)));
+}
+
+#[test]
+fn of_thousands_of_hairs_the_outline_stays_within_what_scissors_follow() {
+    let hair = |k: usize| {
+        let a = k as f64 * 2.399_963; // The golden angle spreads them evenly.
+        let r = 38.0 * (k as f64 / 6000.0).sqrt();
+        let (x, y) = (50.0 + r * a.cos(), 50.0 + r * a.sin());
+        format!("<path d='M{x:.2} {y:.2}q.4 .6 1.2 .4'/>")
+    };
+    let hairs: String = (0..6000).map(hair).collect();
+    let svg = format!(
+        "<svg xmlns='http://www.w3.org/2000/svg' width='100mm' height='100mm' viewBox='0 0 100 100'><circle cx='50' cy='50' r='40'/>\
+         <g fill='none' stroke='#000' stroke-width='.2' stroke-linecap='round'>{hairs}</g></svg>"
+    );
+    let outline = read(svg.as_bytes(), None).unwrap();
+    let off = outline.outer.iter().map(|p| ((p[0] - 40.0).hypot(p[1] - 40.0) - 40.0).abs()).fold(0.0, f64::max);
+    assert!(off < 0.04 && (outline.area() / (std::f64::consts::PI * 1600.0) - 1.0).abs() < 1e-3, "{off}");
 }

@@ -13,6 +13,10 @@ use usvg::{Group, ImageKind, Node, Paint, Transform};
 /// Farthest that a flattened curve may lie from the true one, as a fraction of the drawing's longer side: 6 um on
 /// 300 mm, below the simplification that follows.
 const FLATTEN_FRACTION: f64 = 2e-5;
+/// The same in a drawing of more paths than `MANY`, as fur drawn hair by hair: a fifth of what scissors can follow. Points and the crossings
+/// of what lies over each other become a fraction.
+const COARSE_FRACTION: f64 = 2e-4;
+const MANY: usize = 5000;
 /// Paint whose most opaque place is below this is a shadow or a tint, and no body.
 pub(super) const FAINT: f32 = 0.4;
 /// Groups and paths that are visited at most: clips and masks may refer to each other, which multiplies them.
@@ -48,8 +52,11 @@ pub(super) struct Walk {
 }
 
 impl Walk {
-    pub fn new(size: f64, evens: bool, least: f32) -> Self {
-        let (tolerance, evened) = (FLATTEN_FRACTION * size, Evened::default());
+    /// For a drawing that `size` is the longer side of.
+    pub fn new(drawing: &Group, size: f64, evens: bool, least: f32) -> Self {
+        // What is asked for as it is, however fine, is not made coarser.
+        let fraction = if evens && paths(drawing) > MANY { COARSE_FRACTION } else { FLATTEN_FRACTION };
+        let (tolerance, evened) = (fraction * size, Evened::default());
         let (visits, cuts, cut_depth, points, pictures, filters) = (0, 0, 0, 0, 0, 0);
         Self {
             tolerance,
@@ -239,6 +246,16 @@ impl Walk {
             notes.push(Note::Filters);
         }
     }
+}
+
+/// How many paths a group has; those of clips, masks and patterns do not count.
+fn paths(group: &Group) -> usize {
+    let of = |node: &Node| match node {
+        Node::Group(child) => paths(child),
+        Node::Path(_) => 1,
+        _ => 0,
+    };
+    group.children().iter().map(of).sum()
 }
 
 /// Makes one mark of those beyond the first ones, one of what is faint and one of the others.
