@@ -38,6 +38,8 @@ pub struct Studio {
     pacing: Pacing,
     focus: Focus,
     title: String,
+    /// How many messages stood beside the work in the last frame.
+    said: usize,
     lost: Lost,
 }
 
@@ -64,6 +66,7 @@ impl Studio {
             pacing: Pacing::default(),
             focus: Focus::default(),
             title: String::new(),
+            said: 0,
             lost: Lost::default(),
         }
     }
@@ -177,6 +180,11 @@ impl Studio {
         if changed && hands_off {
             acts::keep::remember(&mut self.session);
         }
+        // Panels take their places one frame after what is in them has grown or shrunk.
+        let said = self.session.messages.list().len();
+        if std::mem::replace(&mut self.said, said) != said {
+            ctx.request_repaint();
+        }
         if changed {
             // So that the solver is asked, and the outcome of the actions seen, without waiting for the pointer.
             ctx.request_repaint();
@@ -219,7 +227,7 @@ impl Studio {
         timeline.show(ui, |ui| {
             panels::timeline::show(ui, session, &mut self.timeline, actions);
         });
-        let poses = Panel::left("poses").frame(panels::frame()).default_size(204.0).size_range(160.0..=360.0);
+        let poses = Panel::left("poses").frame(panels::frame()).default_size(220.0).size_range(160.0..=360.0);
         poses.show(ui, |ui| {
             panels::messages::below(ui, session, actions, |ui, actions| panels::poses::show(ui, session, actions));
         });
