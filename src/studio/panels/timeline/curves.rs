@@ -89,8 +89,12 @@ fn doubted(ui: &mut Ui, axis: &Axis, doubt: &Doubt) {
         }
         // Every motor does that: no reason to look like a fault.
         Why::Rounded { winch } => {
-            let words = tf!("{winch} starts and stops more softly than drawn: its motor’s limits round the curve off. Nothing has to be done", winch);
-            return edge(ui, axis, [doubt.from_s, doubt.to_s], visuals.weak_text_color(), &words);
+            let weak = visuals.weak_text_color();
+            let words = tf!(
+                "{winch} starts and stops more softly than drawn: its motor’s limits round the curve off. Nothing has to be done",
+                winch
+            );
+            return edge(ui, axis, [doubt.from_s, doubt.to_s], weak, &words);
         }
     };
     band(ui, axis, [doubt.from_s, doubt.to_s], color, &words);

@@ -105,7 +105,16 @@ fn felt_is_lit_as_the_formula_says() {
     let frame = [[0.0, 28.0], [28.0, 0.0]];
     let points = silhouette.rest.clone();
     let felt = Felt::of(silhouette.clone(), points.clone(), Color(200, 170, 120, 255), Some((texture, frame)));
-    let Some(shown) = drawn(Geometry::of(&Scene { items: vec![Item::Plush(felt.clone())] })) else {
+    let scene = |felt: &Felt| Scene { items: vec![Item::Plush(felt.clone())] };
+    let geometry = Geometry::of(&scene(&felt));
+    // In another pose the cloth is the same, and not cut again; in another colour it is.
+    let moved = points.iter().map(|p| [p[0] + 1.0, p[1]]).collect();
+    let moved = Felt::of(silhouette.clone(), moved, felt.color, felt.texture.clone());
+    let posed = Geometry::after(&scene(&moved), &geometry);
+    let same = |a: &Geometry, b: &Geometry| matches!((&a.cloth, &b.cloth), (Some(a), Some(b)) if Arc::ptr_eq(a, b));
+    assert!(same(&posed, &geometry) && posed.felt != geometry.felt);
+    assert!(!same(&Geometry::after(&scene(&Felt { color: FELT, ..felt.clone() }), &geometry), &geometry));
+    let Some(shown) = drawn(geometry) else {
         eprintln!("no graphics adapter: nothing was drawn");
         return;
     };
