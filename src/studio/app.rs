@@ -40,6 +40,8 @@ pub struct Studio {
     title: String,
     /// How many messages stood beside the work in the last frame.
     said: usize,
+    /// In which this frame is drawn: another one that is chosen in it holds from the next one on.
+    theme: Theme,
     lost: Lost,
 }
 
@@ -67,6 +69,7 @@ impl Studio {
             focus: Focus::default(),
             title: String::new(),
             said: 0,
+            theme: Theme::default(),
             lost: Lost::default(),
         }
     }
@@ -163,6 +166,7 @@ impl Studio {
         self.session.sketching.waits = self.tools.is_drawing(&self.session);
         let changed = !actions.is_empty() || self.session.sketching.waits != was_drawing;
         let theme = self.session.look.theme;
+        self.theme = theme;
         for action in actions {
             acts::apply::apply(&mut self.session, action);
         }
@@ -309,7 +313,7 @@ impl eframe::App for Studio {
     }
 
     fn clear_color(&self, _visuals: &egui::Visuals) -> [f32; 4] {
-        style::color32(Palette::of(self.session.look.theme).background).to_normalized_gamma_f32()
+        style::color32(Palette::of(self.theme).background).to_normalized_gamma_f32()
     }
 
     fn persist_egui_memory(&self) -> bool {
