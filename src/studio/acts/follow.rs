@@ -1,7 +1,7 @@
 //! Keyframes of poses are worked out again where winches, body or targets have changed, as part of the step that changed them.
 
-use crate::operations::{Context, Progress};
 use crate::operations::key::{self, Error, Keyed, Note};
+use crate::operations::{Context, Progress};
 use crate::studio::jobs::{Outcome, Running};
 use crate::studio::language::{mark, t, tf, tn};
 use crate::studio::session::{Done, Session};

@@ -16,7 +16,6 @@ use crate::studio::words;
 use eframe::egui::{Align, Context, Id, Key, Layout, Modal, RichText, TextEdit, Ui};
 use std::path::Path;
 
-
 /// What dialogs keep from frame to frame.
 #[derive(Default)]
 pub struct State {
@@ -177,10 +176,10 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, state: &mut State, 
     let is_known = path.exists() && !path.is_dir();
     let is_wrong = !is_known && !path.is_dir() && !path.as_os_str().is_empty();
     let note = match dialog.purpose {
-        Purpose::Export => {
-            t("Patterns to cut and to print on A4 or Letter paper, routings, winches, programs for motors and a guide. The folder \
-               appears whole or not at all.")
-        }
+        Purpose::Export => t(
+            "Patterns to cut and to print on A4 or Letter paper, routings, winches, programs for motors and a guide. The folder \
+               appears whole or not at all.",
+        ),
         Purpose::SaveAs if path.is_file() && session.document.path.as_deref() != Some(path) => t("This file exists."),
         Purpose::Open | Purpose::Import if is_wrong => t("There is no such file."),
         Purpose::Film if path.is_file() => t("This file exists and is replaced."),

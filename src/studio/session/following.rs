@@ -1,7 +1,7 @@
 //! Keyframes that follow their poses: for which design they were worked out.
 
-use crate::design::Design;
 use super::done::Done;
+use crate::design::Design;
 use crate::studio::jobs::{self, Running};
 use std::sync::Arc;
 

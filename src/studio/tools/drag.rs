@@ -23,8 +23,12 @@ pub static ENTRY: Entry = Entry {
 
 fn foretells(under: Hit) -> Option<&'static str> {
     Some(match under {
-        Hit::Target(_) => mark("Drag moves the goal of this target; click selects it, then Delete removes it. Right-click has more"),
-        Hit::Pin(_) => mark("Drag moves this pin and what it holds; click selects it, then Delete removes it. Right-click has more"),
+        Hit::Target(_) => {
+            mark("Drag moves the goal of this target; click selects it, then Delete removes it. Right-click has more")
+        }
+        Hit::Pin(_) => mark(
+            "Drag moves this pin and what it holds; click selects it, then Delete removes it. Right-click has more",
+        ),
         Hit::Body(_) | Hit::Part(_) | Hit::Nothing => return None,
     })
 }

@@ -117,7 +117,9 @@ impl Tool for Pull {
     fn foretells(&self, under: Hit) -> Option<&'static str> {
         match under {
             Hit::Part(Part::Winch(_)) => Some(mark("Drag away from its cables winds this winch, a click selects it")),
-            Hit::Part(_) => Some(mark("Drag towards the winch winds this cable, back lets it out; a click selects its winch")),
+            Hit::Part(_) => {
+                Some(mark("Drag towards the winch winds this cable, back lets it out; a click selects its winch"))
+            }
             _ => None,
         }
     }

@@ -141,7 +141,9 @@ impl Tool for Stringing {
     fn foretells(&self, under: Hit) -> Option<&'static str> {
         Some(match under {
             Hit::Part(Part::Winch(_)) => mark("Drag moves this winch, a click selects it. Right-click has more"),
-            Hit::Part(Part::Hole(..)) => mark("Drag moves this hole; click selects it, then Delete removes it. Right-click has more"),
+            Hit::Part(Part::Hole(..)) => {
+                mark("Drag moves this hole; click selects it, then Delete removes it. Right-click has more")
+            }
             Hit::Part(_) => mark("Drag puts one more hole into this cable, a click selects it. Right-click has more"),
             _ => return None,
         })

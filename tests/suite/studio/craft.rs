@@ -1,8 +1,6 @@
 //! The craft of the window: where it speaks, what has the focus, how large its questions are.
 
-use crate::support::window::{
-    Window, bar, click, network, on_screen, pose, press, session, settle, wait, window,
-};
+use crate::support::window::{Window, bar, click, network, on_screen, pose, press, session, settle, wait, window};
 use eframe::egui::{self, Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 use plushwright::studio::session::Overlay;
