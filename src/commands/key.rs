@@ -94,7 +94,7 @@ impl Ease {
 impl Key {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
         let (mut design, edit) = self.target.open(&self.design, cancel)?;
-        let keyed = self.keyed(&mut design, &Context::new(cancel)).map_err(|error| self.failed(error))?;
+        let keyed = self.keyed(&mut design, &mut Context::new(cancel)).map_err(|error| self.failed(error))?;
         edit.save(&design, cancel)?;
         let told = |key::Keyed { keyframe, .. }: &key::Keyed| Keyed {
             pose: keyframe.pose.clone().unwrap_or_else(|| REST.into()),
@@ -117,7 +117,7 @@ impl Key {
     }
 
     /// The keyframes, put into the design.
-    fn keyed(&self, design: &mut Design, context: &Context) -> Result<Vec<key::Keyed>, Error> {
+    fn keyed(&self, design: &mut Design, context: &mut Context) -> Result<Vec<key::Keyed>, Error> {
         if self.again {
             if design.networks.is_empty() {
                 return Err(Error::NoNetworks);

@@ -151,6 +151,7 @@ impl Told {
             Progress::Rig(rigging::Progress::Candidates { .. })
             | Progress::Proposals(_)
             | Progress::Picture { .. }
+            | Progress::Keyed { .. }
             | Progress::Part { .. } => None,
         };
         let news = gain.is_none() || gain != self.gain;

@@ -131,6 +131,7 @@ pub fn progress(step: &Progress) -> String {
         }
         Progress::Proposals(list) => format!("{} networks so far", list.len()),
         Progress::Picture { done, of } => format!("picture {} of {of}", done + 1),
+        Progress::Keyed { done, of } => format!("pose {} of {of}", done + 1),
         Progress::Part { done, of } => format!("part {} of {of}", done + 1),
     }
 }

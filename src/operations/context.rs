@@ -21,6 +21,11 @@ pub enum Progress {
         done: usize,
         of: usize,
     },
+    /// So many poses of keyframes are worked out.
+    Keyed {
+        done: usize,
+        of: usize,
+    },
     /// So many parts of a blueprint are made.
     Part {
         done: usize,

@@ -1,7 +1,7 @@
 //! A pose on the timeline, as the winch activations that reach it.
 
 use super::posing::{self, solve};
-use super::{Cancelled, Context, NoSuchPose, Unbalanced};
+use super::{Cancelled, Context, NoSuchPose, Progress, Unbalanced};
 use crate::design::edit::{self, EditError};
 use crate::design::{Design, Easing, Keyframe, Pose};
 use crate::engine::{BodySpec, Setpoint};
@@ -125,9 +125,10 @@ pub fn on_timeline(design: &Design) -> Vec<String> {
 ///
 /// # Errors
 /// As [`prepare`].
-pub fn again(design: &Design, poses: &[String], context: &Context) -> Result<Vec<Keyed>, Error> {
+pub fn again(design: &Design, poses: &[String], context: &mut Context) -> Result<Vec<Keyed>, Error> {
     let mut out = Vec::new();
-    for pose in poses {
+    for (done, pose) in poses.iter().enumerate() {
+        context.tell(&Progress::Keyed { done, of: poses.len() });
         let keyed = prepare(design, &Options { pose: Some(pose.clone()), ..Options::default() }, context)?;
         context.check()?;
         let of_pose = design.keyframes.iter().filter(|keyframe| keyframe.pose.as_ref() == Some(pose));
@@ -184,7 +185,10 @@ mod tests {
         let mut free = strung.clone();
         free.keyframes.iter_mut().for_each(|keyframe| keyframe.pose = None);
         assert_eq!(outdated(&design, &free), [""; 0]);
-        let keyed = again(&strung, &on_timeline(&strung), &context).unwrap();
+        let mut steps = Vec::new();
+        let mut telling = |step: &Progress| steps.push(format!("{step:?}"));
+        let keyed = again(&strung, &on_timeline(&strung), &mut Context::telling(&go, &mut telling)).unwrap();
+        assert_eq!(steps, ["Keyed { done: 0, of: 1 }"]);
         assert_eq!(keyed.iter().map(|keyed| keyed.keyframe.time_s).collect::<Vec<_>>(), [1.0, 3.0]);
         let fresh = run(&mut strung.clone(), &at(Some(&pose), 1.0), &context).unwrap();
         for keyed in keyed {

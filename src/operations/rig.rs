@@ -100,7 +100,7 @@ pub fn prepare(design: &Design, options: &Options, context: &mut Context) -> Res
         return Err(Cancelled.into());
     }
     let go = AtomicBool::new(false);
-    let context = &Context::new(if interrupted { &go } else { cancel });
+    let context = &mut Context::new(if interrupted { &go } else { cancel });
     let notes = if rigged.keyframes.is_empty() {
         lay_out(&mut rigged, context)?
     } else if options.fresh {
@@ -127,7 +127,7 @@ fn without_networks(design: &Design) -> Design {
 }
 
 /// Solves every keyframe of a pose anew for the present winches; the others are at rest.
-fn key_again(design: &mut Design, before: &[Keyframe], context: &Context) -> Result<Vec<Note>, Error> {
+fn key_again(design: &mut Design, before: &[Keyframe], context: &mut Context) -> Result<Vec<Note>, Error> {
     let by_hand = before.iter().filter(|k| k.pose.is_none() && k.activations_mm.iter().any(|a| *a != 0.0));
     let mut notes: Vec<Note> = by_hand.map(|k| Note::AtRest { time_s: k.time_s }).collect();
     for keyed in key::again(design, &key::on_timeline(design), context)? {

@@ -42,12 +42,14 @@ mod sheet;
 pub mod silhouette;
 mod texture;
 mod textured;
+mod weave;
 
 pub use color::Color;
 pub use layers::{LAYERS, LOOKS, Layers, Shown, Stage, Subject};
 pub use pair::png;
 pub use portrait::portrait;
-pub use scene::{Item, Scene};
+pub use scene::{Item, Scene, Strands};
 pub use sheet::sheet;
 pub use silhouette::Silhouette;
 pub use texture::{Level, Texture};
+pub use weave::Weave;

@@ -6,6 +6,7 @@ use super::ramp::Bar;
 use super::raster::{self, RasterError};
 use super::silhouette::Silhouette;
 use super::texture::Texture;
+use super::weave::Weave;
 use crate::design::{Design, Target};
 use crate::engine::Shape;
 use std::sync::Arc;
@@ -24,11 +25,11 @@ pub fn png(
     size: (u32, u32),
 ) -> Result<(Vec<u8>, Option<Bar>), RasterError> {
     let design = Arc::new(design.clone());
-    let silhouette = Arc::new(Silhouette::of(&design));
+    let body = (&Arc::new(Silhouette::of(&design)), &Arc::new(Weave::of(&design)));
     let [idealized, realizable] = [idealized, realizable].map(|shape| Arc::new(shape.clone()));
     let [left, right] =
         [(&idealized, &realizable, true), (&realizable, &idealized, false)].map(|(shape, beside, fibers)| {
-            let subject = Subject::with(&design, &silhouette, shape);
+            let subject = Subject::with(&design, body, shape);
             Layers::of(&Subject { targets, texture, fibers, look, beside: Some(beside), ..subject })
         });
     let bar = left.bar().or(right.bar()).cloned();

@@ -2,7 +2,7 @@
 
 use super::color::Color;
 use super::silhouette::Silhouette;
-use super::texture::Texture;
+use super::texture::{Texture, places};
 use crate::outline::Point;
 use std::sync::Arc;
 
@@ -32,8 +32,8 @@ pub struct Felt {
     /// Slope of its [heights](Silhouette::heights) at the points, mm.
     pub slopes: Vec<[f32; 2]>,
     pub color: Color,
-    /// A picture on it, and where its points lie in that: 0 to 1 from the upper left corner.
-    pub texture: Option<(Arc<Texture>, Vec<Point>)>,
+    /// A picture on it, and the corners of that on the body at rest: lower left and upper right, mm.
+    pub texture: Option<(Arc<Texture>, [Point; 2])>,
 }
 
 impl Felt {
@@ -42,10 +42,15 @@ impl Felt {
         silhouette: Arc<Silhouette>,
         points: Vec<Point>,
         color: Color,
-        texture: Option<(Arc<Texture>, Vec<Point>)>,
+        texture: Option<(Arc<Texture>, [Point; 2])>,
     ) -> Self {
         let slopes = slopes(&silhouette, &points);
         Self { silhouette, points, slopes, color, texture }
+    }
+
+    /// Where its points lie in the picture on it: 0 to 1 from the upper left corner.
+    pub fn places(&self) -> Option<Vec<Point>> {
+        self.texture.as_ref().map(|(_, frame)| places(*frame, &self.silhouette.rest))
     }
 }
 

@@ -119,10 +119,12 @@ impl Bounds {
         for item in scenes.into_iter().flat_map(|scene| &scene.items) {
             match item {
                 Item::Mesh { points, .. }
+                | Item::Body { points, .. }
                 | Item::Cells { points, .. }
                 | Item::Picture { points, .. }
                 | Item::Line { points, .. } => points.iter().for_each(|p| bounds.add(p)),
                 Item::Plush(felt) => felt.points.iter().for_each(|p| bounds.add(p)),
+                Item::Strands(strands) => strands.points().iter().for_each(|p| bounds.add(p)),
                 Item::Disc { center, .. } => bounds.add(center),
             }
         }
@@ -180,6 +182,11 @@ fn paint_scene(pixmap: &mut PixmapMut, scene: &Scene, view: &View) {
                     pixmap.fill_path(&path, &paint(*color), FillRule::Winding, Transform::identity(), None);
                 }
             }
+            Item::Body { silhouette, points, color } => {
+                if let Some(path) = mesh_path(points, &silhouette.triangles, view) {
+                    pixmap.fill_path(&path, &paint(*color), FillRule::Winding, Transform::identity(), None);
+                }
+            }
             Item::Cells { points, triangles, colors } => {
                 for (triangle, &Color(r, g, b, _)) in triangles.iter().zip(colors) {
                     if let Some(at) = corners(triangle, points) {
@@ -201,6 +208,13 @@ fn paint_scene(pixmap: &mut PixmapMut, scene: &Scene, view: &View) {
             Item::Line { points, width, color, closed } => {
                 if let Some(path) = line_path(points, *closed, view) {
                     stroke(pixmap, &path, width * view.unit, *color);
+                }
+            }
+            Item::Strands(strands) => {
+                for (points, width, color) in strands.iter() {
+                    if let Some(path) = line_path(points, false, view) {
+                        stroke(pixmap, &path, width * view.unit, color);
+                    }
                 }
             }
             Item::Disc { center, radius, fill, stroke: edge } => {
@@ -226,6 +240,7 @@ fn paint_felt(pixmap: &mut PixmapMut, felt: &Felt, view: &View) {
     let silhouette = &felt.silhouette;
     let base = [felt.color.0, felt.color.1, felt.color.2].map(|c| f32::from(c) / 255.0);
     let pixel_mm = (1.0 / view.scale) as f32;
+    let skin = felt.texture.as_ref().map(|(texture, _)| texture).zip(felt.places());
     for triangle in &silhouette.triangles {
         let (Some(at), Some(rest)) = (corners(triangle, &felt.points), corners(triangle, &silhouette.rest)) else {
             continue;
@@ -236,7 +251,7 @@ fn paint_felt(pixmap: &mut PixmapMut, felt: &Felt, view: &View) {
         };
         let at = at.map(|p| view.exact(&p));
         let slopes = slopes.map(|s| s.map(f64::from));
-        let on_it = felt.texture.as_ref().and_then(|(texture, places)| Some((texture, corners(triangle, places)?)));
+        let on_it = skin.as_ref().and_then(|(texture, places)| Some((texture, corners(triangle, places)?)));
         let on_it = on_it.map(|(texture, places)| (texture, places, textured::texels(at, places, texture)));
         textured::triangle(pixmap, at, |weights| {
             let over = on_it

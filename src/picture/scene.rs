@@ -2,6 +2,7 @@
 
 use super::color::Color;
 use super::plush::Felt;
+use super::silhouette::Silhouette;
 use super::texture::Texture;
 use crate::outline::Point;
 use std::sync::Arc;
@@ -13,6 +14,12 @@ pub enum Item {
     Mesh {
         points: Vec<Point>,
         triangles: Vec<[usize; 3]>,
+        color: Color,
+    },
+    /// The felt within a silhouette in one colour, its points at `points`.
+    Body {
+        silhouette: Arc<Silhouette>,
+        points: Vec<Point>,
         color: Color,
     },
     /// Triangles over `points`, a colour each.
@@ -38,12 +45,48 @@ pub enum Item {
         color: Color,
         closed: bool,
     },
+    /// Many open polylines.
+    Strands(Strands),
     Disc {
         center: Point,
         radius: f32,
         fill: Color,
         stroke: Option<(f32, Color)>,
     },
+}
+
+/// Open polylines in painting order, round caps and joins: thousands of them, in two pieces of memory.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Strands {
+    points: Vec<Point>,
+    lines: Vec<Strand>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Strand {
+    /// Where its points end; they begin where those of the one before end.
+    end: usize,
+    width: f32,
+    color: Color,
+}
+
+impl Strands {
+    /// Adds a line over the others.
+    pub fn push(&mut self, points: impl IntoIterator<Item = Point>, width: f32, color: Color) {
+        self.points.extend(points);
+        self.lines.push(Strand { end: self.points.len(), width, color });
+    }
+
+    /// Points, width and colour of each.
+    pub fn iter(&self) -> impl Iterator<Item = (&[Point], f32, Color)> {
+        let starts = std::iter::once(0).chain(self.lines.iter().map(|line| line.end));
+        self.lines.iter().zip(starts).map(|(line, start)| (&self.points[start..line.end], line.width, line.color))
+    }
+
+    /// The points of all of them.
+    pub fn points(&self) -> &[Point] {
+        &self.points
+    }
 }
 
 /// Items in painting order.

@@ -1,6 +1,6 @@
 //! The picture on a plushie, decoded, in halving sizes: however small it is drawn, no pixel of it is skipped.
 
-use crate::outline::{self, OutlineError};
+use crate::outline::{self, OutlineError, Point};
 use image::RgbaImage;
 use std::fmt;
 use std::path::Path;
@@ -95,6 +95,12 @@ impl fmt::Debug for Texture {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "Texture({} x {})", self.levels[0].width, self.levels[0].height)
     }
+}
+
+/// Where points at rest lie in a texture between two corners, mm: 0 to 1 from its upper left one.
+pub fn places([low, high]: [Point; 2], rest: &[Point]) -> Vec<Point> {
+    let place = |p: &Point| [(p[0] - low[0]) / (high[0] - low[0]), (high[1] - p[1]) / (high[1] - low[1])];
+    rest.iter().map(place).collect()
 }
 
 #[cfg(test)]

@@ -76,6 +76,8 @@ pub enum Action {
     /// Shows where places of the body at rest are, mm.
     ShowPlaces(Vec<Point>),
     DismissMessage(u64),
+    /// What a press would do to what lies under the pointer, in English.
+    Foretell(Option<&'static str>),
 }
 
 /// An action on the outline that is drawn.

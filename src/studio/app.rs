@@ -38,6 +38,10 @@ pub struct Studio {
     pacing: Pacing,
     focus: Focus,
     title: String,
+    /// How many messages stood beside the work in the last frame.
+    said: usize,
+    /// In which this frame is drawn: another one that is chosen in it holds from the next one on.
+    theme: Theme,
     lost: Lost,
 }
 
@@ -64,6 +68,8 @@ impl Studio {
             pacing: Pacing::default(),
             focus: Focus::default(),
             title: String::new(),
+            said: 0,
+            theme: Theme::default(),
             lost: Lost::default(),
         }
     }
@@ -160,6 +166,7 @@ impl Studio {
         self.session.sketching.waits = self.tools.is_drawing(&self.session);
         let changed = !actions.is_empty() || self.session.sketching.waits != was_drawing;
         let theme = self.session.look.theme;
+        self.theme = theme;
         for action in actions {
             acts::apply::apply(&mut self.session, action);
         }
@@ -176,6 +183,11 @@ impl Studio {
         }
         if changed && hands_off {
             acts::keep::remember(&mut self.session);
+        }
+        // Panels take their places one frame after what is in them has grown or shrunk.
+        let said = self.session.messages.list().len();
+        if std::mem::replace(&mut self.said, said) != said {
+            ctx.request_repaint();
         }
         if changed {
             // So that the solver is asked, and the outcome of the actions seen, without waiting for the pointer.
@@ -219,7 +231,7 @@ impl Studio {
         timeline.show(ui, |ui| {
             panels::timeline::show(ui, session, &mut self.timeline, actions);
         });
-        let poses = Panel::left("poses").frame(panels::frame()).default_size(204.0).size_range(160.0..=360.0);
+        let poses = Panel::left("poses").frame(panels::frame()).default_size(220.0).size_range(160.0..=360.0);
         poses.show(ui, |ui| {
             panels::messages::below(ui, session, actions, |ui, actions| panels::poses::show(ui, session, actions));
         });
@@ -301,7 +313,7 @@ impl eframe::App for Studio {
     }
 
     fn clear_color(&self, _visuals: &egui::Visuals) -> [f32; 4] {
-        style::color32(Palette::of(self.session.look.theme).background).to_normalized_gamma_f32()
+        style::color32(Palette::of(self.theme).background).to_normalized_gamma_f32()
     }
 
     fn persist_egui_memory(&self) -> bool {

@@ -41,6 +41,8 @@ pub enum Outcome {
     Explored(Result<Vec<Arc<Point>>, rig::Error>),
     Keyed(Result<Keyed, key::Error>),
     Followed(Result<Vec<Keyed>, key::Error>),
+    /// The first keyframes of an animation.
+    Begun(Result<Vec<Keyed>, key::Error>),
     Judged(Box<Judgement>),
     Imported(Result<Box<New>, Box<Refused>>),
     /// What would be read of an outline.

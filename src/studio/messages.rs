@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
-    /// Goes away by itself.
+    /// Goes away by itself, as a rule.
     Info,
     /// Stays until dismissed.
     Warning,
@@ -40,6 +40,11 @@ pub struct Messages {
 impl Messages {
     pub fn info(&mut self, text: impl Into<String>) {
         self.add(Level::Info, text.into(), Some(self.now + INFO_STAYS_S));
+    }
+
+    /// What somebody waited for: it stays until it is dismissed.
+    pub fn done(&mut self, text: impl Into<String>) {
+        self.add(Level::Info, text.into(), None);
     }
 
     pub fn warning(&mut self, text: impl Into<String>) {

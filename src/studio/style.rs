@@ -120,6 +120,10 @@ fn visuals(theme: Theme) -> Visuals {
     };
     v.hyperlink_color = accent;
     v.text_cursor.stroke.color = accent;
+    // A caret that blinks draws the whole window twice a second: a fifth of a core where that is done in software.
+    v.text_cursor.blink = false;
+    // A field is seen before anything stands in it.
+    v.text_edit_bg_color = (theme == Theme::Light).then(|| tone(0.05));
     // Five to one against the paper, small as such text often is.
     v.weak_text_color = Some(tone(0.68));
     v.panel_fill = Color32::TRANSPARENT;

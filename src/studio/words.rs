@@ -129,6 +129,7 @@ pub fn progress(step: &Progress) -> String {
         }
         Progress::Proposals(list) => tf!("{count} networks so far", count = list.len()),
         Progress::Picture { done, of } => tf!("Picture {number} of {of}", number = done + 1, of),
+        Progress::Keyed { done, of } => tf!("Pose {number} of {of}", number = done + 1, of),
         Progress::Part { done, of } => tf!("Part {number} of {of}", number = done + 1, of),
     }
 }

@@ -6,6 +6,7 @@ use crate::outline::Point;
 use crate::picture::color::Color;
 use crate::picture::scene::Item;
 use crate::picture::silhouette::Silhouette;
+use std::sync::Arc;
 
 pub const SEAM: f32 = 3.0;
 /// The seam where the felt beside it is lit.
@@ -21,9 +22,9 @@ pub const TARGET: f32 = 5.0;
 pub const GOAL: f32 = 7.0;
 
 /// The felt in one colour; nothing for a shape of another mesh.
-pub fn body(silhouette: &Silhouette, shape: &Shape, color: Color) -> Option<Item> {
+pub fn body(silhouette: &Arc<Silhouette>, shape: &Shape, color: Color) -> Option<Item> {
     let points = silhouette.places(&shape.nodes)?;
-    Some(Item::Mesh { points, triangles: silhouette.triangles.clone(), color })
+    Some(Item::Body { silhouette: silhouette.clone(), points, color })
 }
 
 /// Where a point of the body is in a shape; `None` where the shape is of another mesh.

@@ -81,6 +81,24 @@ impl Layers {
         self.0.iter().for_each(|layer| layer.draw(&mut scene.items));
         scene
     }
+
+    /// How many layers there are, from the body upward.
+    pub fn count(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Draws one of them.
+    pub fn scene_of(&self, layer: usize) -> Scene {
+        let mut scene = Scene::default();
+        self.0.iter().skip(layer).take(1).for_each(|layer| layer.draw(&mut scene.items));
+        scene
+    }
+
+    /// The layer of another picture that has the same inputs as one of this, if there is one.
+    pub fn same_in(&self, layer: usize, other: &Self) -> Option<usize> {
+        let inputs = self.0.get(layer)?;
+        other.0.iter().position(|other| inputs.same(&**other))
+    }
 }
 
 impl PartialEq for Layers {

@@ -7,6 +7,7 @@ use crate::picture::color::Color;
 use crate::picture::palette::Theme;
 use crate::picture::silhouette::Silhouette;
 use crate::picture::texture::Texture;
+use crate::picture::weave::Weave;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -19,6 +20,8 @@ pub struct Subject<'a> {
     pub shape: &'a Arc<Shape>,
     /// That of the design.
     pub silhouette: Arc<Silhouette>,
+    /// Its fibres.
+    pub weave: Arc<Weave>,
     /// By its name in [`LOOKS`](super::LOOKS).
     pub look: &'a str,
     /// The other plushie in the same state: figures of both are shown on one scale.
@@ -45,16 +48,21 @@ pub struct Subject<'a> {
 impl<'a> Subject<'a> {
     /// A shape of a design in the light theme, with everything that it has and no targets.
     pub fn new(design: &'a Arc<Design>, shape: &'a Arc<Shape>) -> Self {
-        Self::with(design, &Arc::new(Silhouette::of(design)), shape)
+        Self::with(design, (&Arc::new(Silhouette::of(design)), &Arc::new(Weave::of(design))), shape)
     }
 
-    /// [`Self::new`] with a silhouette that is known.
-    pub fn with(design: &'a Arc<Design>, silhouette: &Arc<Silhouette>, shape: &'a Arc<Shape>) -> Self {
+    /// [`Self::new`] with a silhouette and fibres that are known.
+    pub fn with(
+        design: &'a Arc<Design>,
+        (silhouette, weave): (&Arc<Silhouette>, &Arc<Weave>),
+        shape: &'a Arc<Shape>,
+    ) -> Self {
         static AS_AT_FIRST: Shown = Shown(BTreeMap::new());
         Self {
             design,
             shape,
             silhouette: silhouette.clone(),
+            weave: weave.clone(),
             look: "plain",
             beside: None,
             ghosts: &[],

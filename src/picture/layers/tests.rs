@@ -9,6 +9,7 @@ use crate::outline::Outline;
 use crate::picture::color::Color;
 use crate::picture::palette::{Palette, Theme};
 use crate::picture::scene::Item;
+use crate::picture::weave::Weave;
 use std::sync::Arc;
 
 /// A square of two triangles with a pin, a target and a network along its diagonal.
@@ -29,7 +30,12 @@ fn rest(design: &Design) -> Arc<Shape> {
 }
 
 fn lines_of(scene: &Scene, wanted: Color) -> usize {
-    scene.items.iter().filter(|item| matches!(item, Item::Line { color, .. } if *color == wanted)).count()
+    let of = |item: &Item| match item {
+        Item::Line { color, .. } => usize::from(*color == wanted),
+        Item::Strands(strands) => strands.iter().filter(|(_, _, color)| *color == wanted).count(),
+        _ => 0,
+    };
+    scene.items.iter().map(of).sum()
 }
 
 #[test]
@@ -54,9 +60,10 @@ fn the_most_contracted_fibre_is_the_reddest_and_on_top() {
     let shape = Arc::new(contracted);
     let shown = Shown::default().with(Tendons::NAME, false).with(Pins::NAME, false);
     let scene = Layers::of(&Subject { shown: &shown, ..Subject::new(&design, &shape) }).scene();
-    let Some(Item::Line { points, color, .. }) = scene.items.last() else { panic!("no fibre") };
-    assert_eq!(*color, Palette::of(Theme::Light).fiber_active);
-    assert_eq!(*points, vec![[0.0, 0.0], [10.0, 10.0]]);
+    let Some(Item::Strands(fibers)) = scene.items.last() else { panic!("no fibre") };
+    let (points, _, color) = fibers.iter().last().unwrap();
+    assert_eq!(color, Palette::of(Theme::Light).fiber_active);
+    assert_eq!(points, [[0.0, 0.0], [10.0, 10.0]]);
 }
 
 #[test]
@@ -98,9 +105,11 @@ fn a_picture_is_the_same_until_the_inputs_of_a_layer_differ() {
     assert_eq!(before, Layers::of(&subject));
     let target = Target { at: design.pins[0].at, to: [5.0, 20.0], weight: 1.0 };
     let (moved, hidden) = (rest(&design), Shown::default().with(Fibers::NAME, false));
-    let changed = Arc::new(Design { name: "other".into(), ..Design::clone(&design) });
+    let changed = Arc::new(Design { networks: Vec::new(), ..Design::clone(&design) });
+    let weave = Arc::new(Weave::clone(&subject.weave));
     let others = [
         Subject { design: &changed, ..subject.clone() },
+        Subject { weave, ..subject.clone() },
         Subject { shape: &moved, ..subject.clone() },
         Subject { theme: Theme::Dark, ..subject.clone() },
         Subject { shown: &hidden, ..subject.clone() },
@@ -110,8 +119,15 @@ fn a_picture_is_the_same_until_the_inputs_of_a_layer_differ() {
     for other in &others {
         assert_ne!(before, Layers::of(other), "{other:?}");
     }
-    // What no layer takes is no reason to draw anew.
-    assert_eq!(before, Layers::of(&Subject { selected_target: Some(3), ..subject }));
+    // A target that moves leaves all other layers as they are.
+    let posed = Layers::of(&others[5]);
+    let kept = (0..posed.count()).filter(|&layer| posed.same_in(layer, &before).is_some()).count();
+    assert_eq!((kept, posed.count()), (before.count(), before.count() + 1));
+    let drawn: Vec<Item> = (0..posed.count()).flat_map(|layer| posed.scene_of(layer).items).collect();
+    assert_eq!(drawn, posed.scene().items);
+    // What no layer takes is no reason to draw anew: a document that has another name, or another pose.
+    let renamed = Arc::new(Design { name: "other".into(), ..Design::clone(&design) });
+    assert_eq!(before, Layers::of(&Subject { design: &renamed, selected_target: Some(3), ..subject }));
 }
 
 #[test]

@@ -2,18 +2,18 @@
 
 use super::layer::{Layer, Shared, Stroke, Switch};
 use super::subject::Subject;
-use crate::design::Design;
 use crate::engine::Shape;
 use crate::outline::Point;
 use crate::picture::scene::Item;
 use crate::picture::silhouette::Silhouette;
-use crate::picture::texture::Texture;
+use crate::picture::texture::{Texture, places};
 use std::sync::Arc;
 
 /// The design's texture on the deformed body.
 #[derive(Debug, PartialEq)]
 pub struct Textured {
-    design: Shared<Design>,
+    /// Lower left and upper right corner of the texture, mm.
+    frame: [Point; 2],
     silhouette: Shared<Silhouette>,
     shape: Shared<Shape>,
     texture: Shared<Texture>,
@@ -37,22 +37,15 @@ impl Layer for Textured {
     });
 
     fn of(subject: &Subject<'_>) -> Option<Self> {
-        let (design, shape) = (Shared::of(subject.design), Shared::of(subject.shape));
+        let (frame, shape) = (subject.design.texture_rect(), Shared::of(subject.shape));
         let silhouette = Shared::of(&subject.silhouette);
-        Some(Self { design, silhouette, shape, texture: Shared::of(subject.texture?) })
+        Some(Self { frame, silhouette, shape, texture: Shared::of(subject.texture?) })
     }
 
     fn draw(&self, items: &mut Vec<Item>) {
         let Some(points) = self.silhouette.places(&self.shape.nodes) else { return };
-        let places = places(&self.design, &self.silhouette.rest);
+        let places = places(self.frame, &self.silhouette.rest);
         let triangles = self.silhouette.triangles.clone();
         items.push(Item::Picture { points, places, triangles, texture: Arc::clone(&self.texture) });
     }
-}
-
-/// Where points at rest lie in the texture of a design: 0 to 1 from its upper left corner.
-pub fn places(design: &Design, rest: &[Point]) -> Vec<Point> {
-    let [low, high] = design.texture_rect();
-    let place = |p: &Point| [(p[0] - low[0]) / (high[0] - low[0]), (high[1] - p[1]) / (high[1] - low[1])];
-    rest.iter().map(place).collect()
 }

@@ -55,6 +55,55 @@ pub fn add_keyframe(session: &mut Session) {
     }
 }
 
+/// Begins an animation: rest, a pose and rest again; beside a keyframe that is there already, what it moves to.
+pub fn begin(session: &mut Session) {
+    if session.keying.is_some() {
+        return;
+    }
+    let steps = first_steps(session);
+    let design = session.acting().clone();
+    session.keying = Some(session.jobs.start(mark("The first keyframes"), move |cancel| {
+        let context = Context::new(cancel);
+        let keyed = |(pose, time_s): (Option<String>, f64)| {
+            key::prepare(&design, &Options { pose, time_s, ..Options::default() }, &context)
+        };
+        Outcome::Begun(steps.into_iter().map(keyed).collect())
+    }));
+}
+
+/// Poses and times, s.
+fn first_steps(session: &Session) -> Vec<(Option<String>, f64)> {
+    const STEP_S: f64 = defaults::KEYFRAME_SPACING_S;
+    let design = session.design();
+    let posed = |index: &usize| design.poses.get(*index).is_some_and(|pose| !pose.targets.is_empty());
+    let pose = session.picked.pose.filter(posed).or((0..design.poses.len()).find(|index| posed(index)));
+    let pose = pose.map(|index| design.poses[index].name.clone());
+    match design.keyframes.first() {
+        None => vec![(None, 0.0), (pose, STEP_S), (None, 2.0 * STEP_S)],
+        Some(there) => vec![(if there.pose.is_some() { None } else { pose }, there.time_s + STEP_S)],
+    }
+}
+
+/// The first keyframes are worked out: one step.
+pub fn take_first(session: &mut Session, serial: u64, keyed: Result<Vec<Keyed>, Error>) {
+    if !Running::is(session.keying.as_ref(), serial) {
+        return;
+    }
+    session.keying = None;
+    let keyed = match keyed {
+        Ok(keyed) => keyed,
+        Err(error) => return session.messages.error(words::unkeyed(&error)),
+    };
+    for Note::Unbalanced(unbalanced) in keyed.iter().flat_map(|keyed| &keyed.notes) {
+        session.messages.warning(unbalanced.to_string());
+    }
+    let all = |design: &mut _| keyed.into_iter().try_for_each(|keyed| keyed.apply(design).map(drop));
+    match session.document.history.edit(mark("First keyframes"), all) {
+        Ok(()) => session.messages.info(t("Space plays it. Keyframes are dragged along the timeline, K adds more.")),
+        Err(error) => session.messages.error(words::unkeyed(&error.into())),
+    }
+}
+
 /// The playhead. A keyframe that it has already is replaced, but not by another pose: poses that are added without a look at the timeline
 /// come one after the other.
 fn key_time(session: &Session) -> f64 {

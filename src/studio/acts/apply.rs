@@ -53,6 +53,7 @@ pub fn apply(session: &mut Session, action: Action) {
         Action::Stop(owner) => session.tasks.stop(owner),
         Action::ShowPlaces(places) => frame::show_places(session, &places),
         Action::DismissMessage(id) => session.messages.dismiss(id),
+        Action::Foretell(words) => session.foretold = words,
     }
 }
 

@@ -3,7 +3,7 @@
 //! Paths are asked for with the desktop's own dialogs, on a thread. Where there are none (a bare X server, a test) a field in the window
 //! takes their place.
 
-use super::{film, import, keep, open, paths, replace, save, sheet};
+use super::{film, follow, import, keep, open, paths, replace, save, sheet};
 use crate::defaults;
 use crate::design::file::is_design;
 use crate::files;
@@ -171,7 +171,12 @@ pub fn take_import(session: &mut Session, result: Result<Box<New>, Box<Refused>>
 pub fn take_export(session: &mut Session, folder: &Path, result: Result<Vec<String>, String>) {
     match result {
         Ok(remarks) => {
-            session.messages.info(tf!("The blueprint is in {path}", path = files::shown(folder)));
+            let path = files::shown(folder);
+            session.messages.done(if folder.join("pattern-a4.pdf").is_file() {
+                tf!("The blueprint is in {path}. To print the pattern at home: pattern-a4.pdf or pattern-letter.pdf there, at 100 %", path)
+            } else {
+                tf!("The blueprint is in {path}", path)
+            });
             if let Some(text) = words::remarks(&remarks) {
                 session.messages.warning(text);
             }
@@ -207,8 +212,10 @@ pub fn stop(session: &mut Session) {
         session.rigging.cancel();
     } else if session.keying.is_some() {
         jobs::cancel(&mut session.keying);
-    } else {
+    } else if session.filming.running.is_some() {
         jobs::cancel(&mut session.filming.running);
+    } else if session.following.is_running() {
+        follow::stop(session);
     }
 }
 

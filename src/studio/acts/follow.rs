@@ -1,10 +1,10 @@
 //! Keyframes of poses are worked out again where winches, body or targets have changed, as part of the step that changed them.
 
-use crate::operations::Context;
 use crate::operations::key::{self, Error, Keyed, Note};
+use crate::operations::{Context, Progress};
 use crate::studio::jobs::{Outcome, Running};
-use crate::studio::language::{mark, tf, tn};
-use crate::studio::session::Session;
+use crate::studio::language::{mark, t, tf, tn};
+use crate::studio::session::{Done, Session};
 use crate::studio::words;
 
 /// Once a frame.
@@ -13,7 +13,11 @@ pub fn follow(session: &mut Session, hands_off: bool) {
     if session.following.is_new() {
         return session.following.settle(&design);
     }
-    if !hands_off || session.document.history.in_gesture() || session.following.is_at(&design) {
+    if !hands_off
+        || session.document.history.in_gesture()
+        || session.following.is_at(&design)
+        || session.following.is_stopped_at(&design)
+    {
         return;
     }
     let Some(before) = session.following.before(&design) else { return };
@@ -23,8 +27,16 @@ pub fn follow(session: &mut Session, hands_off: bool) {
     }
     session.following.cancel();
     let of = design.clone();
+    let (done, wake) = (Done::default(), session.jobs.wake());
+    session.following.done = done.clone();
     let running = session.jobs.start(mark("Keyframes of poses"), move |cancel| {
-        Outcome::Followed(key::again(&design, &poses, &Context::new(cancel)))
+        let mut progress = |step: &Progress| {
+            if let Progress::Keyed { done: now, of } = step {
+                done.say(*now, *of);
+            }
+            wake();
+        };
+        Outcome::Followed(key::again(&design, &poses, &mut Context::telling(cancel, &mut progress)))
     });
     session.following.running = Some((running, of));
 }
@@ -63,8 +75,48 @@ pub fn take(session: &mut Session, serial: u64, keyed: Result<Vec<Keyed>, Error>
     session.following.settle(&design);
 }
 
+/// Leaves the keyframes as they were.
+pub fn stop(session: &mut Session) {
+    session.following.stop();
+    session.messages.warning(t(
+        "Keyframes wind what they did before. They follow their poses with the next change, or with “Work out keyframes” among all commands",
+    ));
+}
+
 /// The document went back or forth: its keyframes went with it.
 pub fn travelled(session: &mut Session) {
     let design = session.document.design().clone();
     session.following.settle(&design);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::{edit, testing};
+    use crate::studio::canvas::Hit;
+    use crate::studio::commands::{animation::FOLLOW, files::STOP};
+    use crate::studio::services;
+    use std::sync::Arc;
+
+    #[test]
+    fn keyframes_that_are_worked_out_can_be_stopped_and_go_on_later() {
+        let mut session = Session::new(testing::sample(), None, Arc::new(|| ()), services());
+        follow(&mut session, true);
+        assert!(STOP.refused(&session, Hit::Nothing).is_some() && FOLLOW.refused(&session, Hit::Nothing).is_some());
+        session.document.history.edit("Move target", |design| edit::move_target(design, 0, 0, [1.0, 3.0])).unwrap();
+        follow(&mut session, true);
+        assert!(session.working().is_some() && STOP.refused(&session, Hit::Nothing).is_none());
+        (STOP.run)(&mut session, Hit::Nothing);
+        // Nothing is worked out for this design any more, and the window says so.
+        follow(&mut session, true);
+        assert!(session.working().is_none() && session.messages.list().len() == 1);
+        (FOLLOW.run)(&mut session, Hit::Nothing);
+        follow(&mut session, true);
+        assert!(session.following.is_running());
+        // The next change begins anew by itself.
+        (STOP.run)(&mut session, Hit::Nothing);
+        session.document.history.edit("Move target", |design| edit::move_target(design, 0, 0, [2.0, 3.0])).unwrap();
+        follow(&mut session, true);
+        assert!(session.following.is_running());
+    }
 }

@@ -78,6 +78,7 @@ fn take(session: &mut Session, Finished { serial, outcome }: Finished) {
         Outcome::Rigged(rigged) => rig::take_rig(session, serial, rigged),
         Outcome::Explored(points) => rig::take_curve(session, serial, points),
         Outcome::Keyed(keyed) => animate::take_key(session, serial, keyed),
+        Outcome::Begun(keyed) => animate::take_first(session, serial, keyed),
         Outcome::Followed(keyed) => follow::take(session, serial, keyed),
         Outcome::Judged(judgement) => session.judging.take(serial, *judgement),
         Outcome::Imported(result) => filing::take_import(session, result),

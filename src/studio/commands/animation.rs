@@ -9,9 +9,10 @@ use crate::studio::language::{mark, t};
 use crate::studio::session::Session;
 use eframe::egui::Key;
 
-pub static ALL: [&Command; 16] = [
+pub static ALL: [&Command; 18] = [
     &PLAY,
     &LOOP,
+    &BEGIN,
     &ADD_KEYFRAME,
     &NEXT,
     &PREVIOUS,
@@ -22,6 +23,7 @@ pub static ALL: [&Command; 16] = [
     &CUT,
     &PASTE,
     &FIT,
+    &FOLLOW,
     &DRIVES,
     &FILM,
     &CANCEL_FILM,
@@ -55,6 +57,24 @@ pub static LOOP: Command = Command {
     on: Some(&|session| session.playback().looping),
     run: &|session, _| session.playback.looping = !session.playback.looping,
     ..Command::new("animation.loop", "Loop", "Begin again at the end")
+};
+
+pub static BEGIN: Command = Command {
+    scope: Scope::Views,
+    why_not: &|session, _| {
+        let design = session.design();
+        if design.networks.is_empty() {
+            Some(t("Without networks there is nothing to animate: propose and accept one first."))
+        } else if design.keyframes.len() > 1 {
+            Some(t("There is an animation already"))
+        } else if design.poses.iter().all(|pose| pose.targets.is_empty()) {
+            Some(t("Pose the plushie first: drag a point of the body"))
+        } else {
+            None
+        }
+    },
+    run: &|session, _| acts::animate::begin(session),
+    ..Command::new("animation.begin", "Make it move", "Put rest, the pose and rest again on the timeline")
 };
 
 pub static ADD_KEYFRAME: Command = Command {
@@ -148,6 +168,20 @@ pub static FIT: Command = Command {
     },
     run: &|session, _| acts::timing::fit(session),
     ..Command::new("animation.fit", "Make it fit", "Give the animation the time that its motors need")
+};
+
+pub static FOLLOW: Command = Command {
+    scope: Scope::Views,
+    why_not: &|session, _| {
+        let stopped = session.following().is_stopped_at(session.design());
+        (!stopped).then_some(t("Keyframes follow their poses as they are"))
+    },
+    run: &|session, _| session.following.go_on(),
+    ..Command::new(
+        "animation.follow",
+        "Work out keyframes",
+        "Go on with working out keyframes whose poses, winches or body have changed, after that was stopped",
+    )
 };
 
 pub static DRIVES: Command = Command {

@@ -2,7 +2,7 @@
 
 use super::blueprint_parts::parts_and_sheets;
 use super::blueprint_preview;
-use super::widgets::{passing, primary, sentence};
+use super::widgets::{dialog_frame, passing, primary, sentence};
 use super::{film, import};
 use crate::files::shown;
 use crate::motion::{TooFast, families};
@@ -13,11 +13,8 @@ use crate::studio::language::{t, tf, tn};
 use crate::studio::session::Session;
 use crate::studio::session::{Dialog, PathDialog, Purpose, Why};
 use crate::studio::words;
-use eframe::egui::{Align, Context, Frame, Id, Key, Layout, Modal, RichText, TextEdit, Ui};
+use eframe::egui::{Align, Context, Id, Key, Layout, Modal, RichText, TextEdit, Ui};
 use std::path::Path;
-
-/// Around what a dialog says, logical pixels.
-const MARGIN: f32 = 16.0;
 
 /// What dialogs keep from frame to frame.
 #[derive(Default)]
@@ -30,8 +27,7 @@ pub fn show(ctx: &Context, session: &Session, state: &mut State, actions: &mut A
     let is_import = matches!(dialog, Dialog::Path(dialog) if dialog.purpose == Purpose::Import);
     let is_export = matches!(dialog, Dialog::Path(dialog) if dialog.purpose == Purpose::Export);
     // Each kind remembers a size of its own: a short question does not get the room of a long one.
-    let frame = Frame::popup(&ctx.global_style()).inner_margin(MARGIN);
-    let modal = Modal::new(Id::unique(("dialog", kind(dialog)))).frame(frame).show(ctx, |ui| {
+    let modal = Modal::new(Id::unique(("dialog", kind(dialog)))).frame(dialog_frame(ctx)).show(ctx, |ui| {
         ui.set_width(if is_import || is_export { 560.0 } else { 430.0 });
         match dialog {
             Dialog::Unsaved(_) => unsaved(ui, session, actions),
@@ -180,9 +176,10 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, state: &mut State, 
     let is_known = path.exists() && !path.is_dir();
     let is_wrong = !is_known && !path.is_dir() && !path.as_os_str().is_empty();
     let note = match dialog.purpose {
-        Purpose::Export => {
-            t("Patterns, routings, winches, programs for motors and a guide. The folder appears whole or not at all.")
-        }
+        Purpose::Export => t(
+            "Patterns to cut and to print on A4 or Letter paper, routings, winches, programs for motors and a guide. The folder \
+               appears whole or not at all.",
+        ),
         Purpose::SaveAs if path.is_file() && session.document.path.as_deref() != Some(path) => t("This file exists."),
         Purpose::Open | Purpose::Import if is_wrong => t("There is no such file."),
         Purpose::Film if path.is_file() => t("This file exists and is replaced."),

@@ -40,8 +40,9 @@ struct Poses {
 
 const CARDS: &str = "gallery.cards";
 const POSES: &str = "gallery.poses";
-/// Height of the list, so that the buttons below stay in sight, logical pixels.
+/// Height of the list, so that the buttons below stay in sight: logical pixels, and as a part of the window where that is more.
 const HEIGHT: f32 = 200.0;
+const PART: f32 = 0.28;
 /// Pictures, pixels: sharp at twice the size at which they are shown.
 const SIZE: (u32, u32) = (224, 168);
 /// How long a pose is held while all are struck, s.
@@ -65,7 +66,8 @@ pub fn show(ui: &mut Ui, session: &Session, gallery: &mut Gallery, actions: &mut
     let pictures = cards(session, gallery, theme, actions);
     let poses = discovery.displayed().and_then(|proposal| poses(session, gallery, proposal, theme, actions));
     let mut hovered = None;
-    let rows = ScrollArea::vertical().id_salt("proposals").max_height(HEIGHT).auto_shrink([false, true]);
+    let height = HEIGHT.max(PART * ui.ctx().content_rect().height());
+    let rows = ScrollArea::vertical().id_salt("proposals").max_height(height).auto_shrink([false, true]);
     rows.show(ui, |ui| {
         ui.spacing_mut().item_spacing.y = 4.0;
         ui.add_enabled_ui(!discovery.is_stale(), |ui| {

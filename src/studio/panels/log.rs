@@ -1,6 +1,7 @@
 //! Everything that the window has said, the newest first.
 
 use super::messages::color;
+use super::widgets::dialog_frame;
 use crate::studio::action::{Action, Actions};
 use crate::studio::language::t;
 use crate::studio::session::{Overlay, Session};
@@ -10,7 +11,7 @@ pub fn show(ctx: &Context, session: &Session, actions: &mut Actions) {
     if session.overlay() != Some(Overlay::Log) {
         return;
     }
-    let modal = Modal::new(Id::unique("log of messages")).show(ctx, |ui| {
+    let modal = Modal::new(Id::unique("log of messages")).frame(dialog_frame(ctx)).show(ctx, |ui| {
         ui.set_width(520.0);
         ui.heading(t("Messages"));
         ui.add_space(6.0);

@@ -4,7 +4,7 @@ use crate::motion::Why;
 use crate::studio::action::{Action, Actions};
 use crate::studio::canvas::Hit;
 use crate::studio::commands::Command;
-use crate::studio::commands::animation::{ADD_KEYFRAME, FIT};
+use crate::studio::commands::animation::{BEGIN as MOVE, FIT};
 use crate::studio::commands::discovery::{ACCEPT, PROPOSE, PROPOSE_AGAIN};
 use crate::studio::commands::files::EXPORT;
 use crate::studio::commands::posing::{BEGIN, PIN_MIDDLE};
@@ -39,7 +39,7 @@ pub fn next(session: &Session) -> Option<(&'static Command, &'static str)> {
     } else if design.networks.is_empty() {
         (&PROPOSE, t("Propose networks"))
     } else if design.keyframes.len() < 2 {
-        (&ADD_KEYFRAME, t("Add a keyframe"))
+        (&MOVE, t("Make it move"))
     } else if session.timing().doubts().iter().any(|doubt| matches!(doubt.why, Why::TooFast { .. })) {
         (&FIT, t("Make it fit"))
     } else {

@@ -9,13 +9,17 @@ use crate::studio::language::{t, tf, tn};
 use crate::studio::pictures::Pictures;
 use crate::studio::session::Session;
 use crate::studio::style;
-use eframe::egui::{Button, Frame, Label, RichText, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, vec2};
+use eframe::egui::{
+    Button, Frame, Label, RectAlign, Response, RichText, Role, Sense, Stroke, Tooltip, Ui, Vec2, WidgetInfo, vec2,
+};
 use std::sync::Arc;
 
 /// Height of the button, and size of the picture and of those in other poses, logical pixels.
 const ROW: f32 = 26.0;
 const PICTURE: Vec2 = vec2(84.0, 63.0);
 const SMALL: Vec2 = vec2(56.0, 42.0);
+/// Both margins of a tip, logical pixels.
+const TIP_MARGIN: f32 = 16.0;
 
 /// A proposal in a pose.
 pub struct Struck {
@@ -44,7 +48,7 @@ pub fn card(
     };
     let frame = Frame::new().inner_margin(6).corner_radius(8).stroke(stroke);
     let inner = frame.show(ui, |ui| {
-        title(ui, session, index, proposal, actions);
+        let title = title(ui, session, index, proposal, actions);
         ui.horizontal_top(|ui| {
             let (rect, _) = ui.allocate_exact_size(PICTURE, Sense::hover());
             if let Some(picture) = picture {
@@ -55,13 +59,18 @@ pub fn card(
         if strip.len() > 1 && (shown || session.discovery.hovered.as_ref().is_some_and(|(of, _)| *of == index)) {
             ui.horizontal_wrapped(|ui| strip.iter().for_each(|struck| small(ui, pictures, struck)));
         }
+        title
     });
     let rect = inner.response.rect.intersect(ui.clip_rect());
+    // Below the card and as wide, so that it stands over no view: what the card shows there is looked at now.
+    let mut tip = Tooltip::for_enabled(&inner.inner).width(rect.width() - TIP_MARGIN);
+    tip.popup = tip.popup.anchor(rect).align(RectAlign::BOTTOM_START).align_alternatives(&[RectAlign::TOP_START]);
+    tip.show(|ui| ui.label(details(proposal)));
     ui.is_enabled()
         && ui.input(|i| i.pointer.hover_pos()).is_some_and(|p| rect.contains(p) && !ui.ctx().any_popup_open())
 }
 
-fn title(ui: &mut Ui, session: &Session, index: usize, proposal: &Proposal, actions: &mut Actions) {
+fn title(ui: &mut Ui, session: &Session, index: usize, proposal: &Proposal, actions: &mut Actions) -> Response {
     let tendons = proposal.network.tendons.len();
     let name = format!("{}  {}", index + 1, tn!(tendons, "{tendons} tendon", "{tendons} tendons"));
     let error =
@@ -72,9 +81,10 @@ fn title(ui: &mut Ui, session: &Session, index: usize, proposal: &Proposal, acti
         .right_text(RichText::new(error).small().color(color))
         .min_size(vec2(ui.available_width(), ROW));
     let response = ui.add(button).accessible_name(tf!("Proposal {number}", number = index + 1));
-    if response.on_hover_text(details(proposal)).clicked() {
+    if response.clicked() {
         actions.push(Action::ShowProposal(Some(index)));
     }
+    response
 }
 
 fn figures(ui: &mut Ui, proposal: &Proposal) {

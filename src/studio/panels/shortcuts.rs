@@ -1,6 +1,6 @@
 //! The page of shortcuts: what every key does.
 
-use super::widgets::heading;
+use super::widgets::{dialog_frame, heading};
 use crate::studio::action::{Action, Actions};
 use crate::studio::commands;
 use crate::studio::language::t;
@@ -16,7 +16,7 @@ pub fn show(ctx: &Context, session: &Session, actions: &mut Actions) {
     if session.overlay() != Some(Overlay::Shortcuts) {
         return;
     }
-    let modal = Modal::new(Id::unique("shortcuts")).show(ctx, |ui| {
+    let modal = Modal::new(Id::unique("shortcuts")).frame(dialog_frame(ctx)).show(ctx, |ui| {
         ui.set_width(SIZE[0]);
         ui.heading(t("Keyboard shortcuts"));
         ScrollArea::vertical().max_height(SIZE[1]).auto_shrink([false, true]).show(ui, |ui| {

@@ -82,7 +82,7 @@ fn hint(session: &Session) -> &'static str {
         Mode::Winding if taken(session, Scope::Views).id != PULL => {
             t("The winches are wound by hand. K keys that; choosing a pose, or dragging the body, returns to posing")
         }
-        Mode::Pose | Mode::Winding => t(taken(session, Scope::Views).hint),
+        Mode::Pose | Mode::Winding => t(session.foretold.unwrap_or(taken(session, Scope::Views).hint)),
     }
 }
 

@@ -91,6 +91,9 @@ fn row(ui: &mut Ui, session: &Session, pose: usize, index: usize, target: &Targe
             actions.push(pick(ui, session, handle));
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            // As narrow as they are read well: how far a target is missed stands beside them.
+            let spacing = ui.spacing_mut();
+            (spacing.item_spacing.x, spacing.button_padding.x, spacing.interact_size.x) = (4.0, 5.0, 30.0);
             let (name, tip) = (tf!("Remove target {number}", number = index + 1), DELETE.hint(t("Remove this target")));
             if icons::small_button(ui, Icon::Close, &name, &tip).clicked() {
                 actions.push(Action::Change(Change::RemoveTarget { pose, index }));

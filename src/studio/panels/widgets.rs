@@ -3,7 +3,7 @@
 use crate::studio::action::{Action, Actions};
 use crate::studio::session::Session;
 use crate::studio::style;
-use eframe::egui::{Button, Color32, Frame, Key, Margin, Response, RichText, TextEdit, TextStyle, Ui};
+use eframe::egui::{Button, Color32, Context, Frame, Key, Margin, Response, RichText, TextEdit, TextStyle, Ui};
 
 /// Height of a button that takes the width of its panel, logical pixels.
 const WIDE: f32 = 30.0;
@@ -11,6 +11,11 @@ const WIDE: f32 = 30.0;
 /// Of side panels: no fill, see [`style`].
 pub fn frame() -> Frame {
     Frame::new().inner_margin(Margin::symmetric(12, 10))
+}
+
+/// Of dialogs and pages over the window.
+pub fn dialog_frame(ctx: &Context) -> Frame {
+    Frame::popup(&ctx.global_style()).inner_margin(16.0)
 }
 
 /// A heading of a panel.
@@ -72,7 +77,7 @@ pub fn sentence(error: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use eframe::egui::{Context, Id, RawInput};
+    use eframe::egui::{Id, RawInput};
 
     #[test]
     fn what_comes_and_goes_moves_no_ids() {

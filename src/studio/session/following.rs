@@ -1,5 +1,6 @@
 //! Keyframes that follow their poses: for which design they were worked out.
 
+use super::done::Done;
 use crate::design::Design;
 use crate::studio::jobs::{self, Running};
 use std::sync::Arc;
@@ -10,6 +11,10 @@ pub struct Following {
     of: Option<Arc<Design>>,
     /// The job that works them out again, and for which design.
     pub(crate) running: Option<(Running, Arc<Design>)>,
+    /// How many poses it has worked out.
+    pub(crate) done: Done,
+    /// The design for which it was told to stop: keyframes wind what they did before.
+    stopped_at: Option<Arc<Design>>,
 }
 
 impl Following {
@@ -17,6 +22,7 @@ impl Following {
     pub(crate) fn settle(&mut self, design: &Arc<Design>) {
         self.cancel();
         self.of = Some(design.clone());
+        self.stopped_at = None;
     }
 
     /// The design that they were worked out for, where it is another one.
@@ -32,6 +38,22 @@ impl Following {
     /// Whether keyframes are worked out again for this very design.
     pub(crate) fn is_at(&self, design: &Arc<Design>) -> bool {
         self.running.as_ref().is_some_and(|(_, of)| Arc::ptr_eq(of, design))
+    }
+
+    /// Lets keyframes be as they were, until the design changes again or somebody asks.
+    pub(crate) fn stop(&mut self) {
+        self.stopped_at = self.running.as_ref().map(|(_, of)| of.clone());
+        self.cancel();
+    }
+
+    /// Works them out after all.
+    pub(crate) fn go_on(&mut self) {
+        self.stopped_at = None;
+    }
+
+    /// Whether nothing is worked out for this very design, because somebody has stopped it.
+    pub fn is_stopped_at(&self, design: &Arc<Design>) -> bool {
+        self.stopped_at.as_ref().is_some_and(|at| Arc::ptr_eq(at, design))
     }
 
     pub fn is_running(&self) -> bool {

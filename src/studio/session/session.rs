@@ -93,6 +93,8 @@ pub struct Session {
     /// Whether pictures can be drawn.
     pub(crate) gpu: bool,
     pub(crate) overlay: Option<Overlay>,
+    /// What a press would do to what lies under the pointer, in English; nothing where the tool alone says it.
+    pub(crate) foretold: Option<&'static str>,
     /// Whether the next step is shown.
     pub(crate) guided: bool,
     /// Text for the clipboard of the system, until the frame is over.
@@ -137,6 +139,7 @@ impl Session {
             panel: "",
             gpu: false,
             overlay: None,
+            foretold: None,
             guided: true,
             clipboard: None,
             renaming: None,
@@ -248,6 +251,11 @@ impl Session {
         }
     }
 
+    /// Keyframes that follow their poses.
+    pub fn following(&self) -> &Following {
+        &self.following
+    }
+
     /// A film that is being made.
     pub fn filming(&self) -> &Filming {
         &self.filming
@@ -293,20 +301,23 @@ impl Session {
         self.files.working.or(rigging).or(keying).or(filming).or(following)
     }
 
-    /// Whether that work can be stopped: keyframes that follow their poses begin anew by themselves.
+    /// Whether that work can be stopped.
     pub fn can_stop(&self) -> bool {
         self.files.running.is_some()
             || self.rigging.running.is_some()
             || self.rigging.curve.running.is_some()
             || self.keying.is_some()
             || self.filming.running.is_some()
+            || self.following.is_running()
     }
 
     /// How far that work is, where it tells: steps, of how many.
     pub fn working_at(&self) -> Option<[usize; 2]> {
         match self.files.working {
             Some(_) => self.files.done.get(),
-            None => self.filming.running.as_ref().and_then(|_| self.filming.done.get()),
+            None if self.filming.running.is_some() => self.filming.done.get(),
+            None if self.following.is_running() => self.following.done.get(),
+            None => None,
         }
     }
 

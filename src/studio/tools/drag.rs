@@ -6,6 +6,7 @@ use crate::studio::action::Action;
 use crate::studio::canvas::Hit;
 use crate::studio::commands::command::{Keys, Scope};
 use crate::studio::icons::Icon;
+use crate::studio::language::mark;
 use crate::studio::session::Selection;
 use eframe::egui::{CursorIcon, Key};
 
@@ -17,8 +18,20 @@ pub static ENTRY: Entry = Entry {
     keys: &[Keys::plain(Key::V)],
     canvas: Scope::Views,
     hint: "Drag the body to pose it. Right-click for pins and targets",
-    make: || Box::new(Gripping::new(true, CursorIcon::Grab, pick_out)),
+    make: || Box::new(Gripping::new(true, CursorIcon::Grab, pick_out, foretells)),
 };
+
+fn foretells(under: Hit) -> Option<&'static str> {
+    Some(match under {
+        Hit::Target(_) => {
+            mark("Drag moves the goal of this target; click selects it, then Delete removes it. Right-click has more")
+        }
+        Hit::Pin(_) => mark(
+            "Drag moves this pin and what it holds; click selects it, then Delete removes it. Right-click has more",
+        ),
+        Hit::Body(_) | Hit::Part(_) | Hit::Nothing => return None,
+    })
+}
 
 fn pick_out(under: Hit) -> Action {
     Action::Select(match under {

@@ -93,11 +93,18 @@ pub struct Gripping {
     cursor: CursorIcon,
     /// What a click on that does.
     click: fn(Hit) -> Action,
+    /// And the words for it.
+    foretells: fn(Hit) -> Option<&'static str>,
 }
 
 impl Gripping {
-    pub fn new(body: bool, cursor: CursorIcon, click: fn(Hit) -> Action) -> Self {
-        Self { grip: Grip::Nothing, body, cursor, click }
+    pub fn new(
+        body: bool,
+        cursor: CursorIcon,
+        click: fn(Hit) -> Action,
+        foretells: fn(Hit) -> Option<&'static str>,
+    ) -> Self {
+        Self { grip: Grip::Nothing, body, cursor, click, foretells }
     }
 }
 
@@ -130,6 +137,10 @@ impl Tool for Gripping {
             self.grip = Grip::Nothing;
         }
         false
+    }
+
+    fn foretells(&self, under: Hit) -> Option<&'static str> {
+        (self.foretells)(under)
     }
 
     fn cursor(&self, _canvas: &Canvas<'_>, under: Hit) -> CursorIcon {

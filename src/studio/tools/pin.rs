@@ -7,6 +7,7 @@ use crate::studio::canvas::Hit;
 use crate::studio::change::Change;
 use crate::studio::commands::command::{Keys, Scope};
 use crate::studio::icons::Icon;
+use crate::studio::language::mark;
 use crate::studio::session::Selection;
 use eframe::egui::{CursorIcon, Key};
 
@@ -18,8 +19,17 @@ pub static ENTRY: Entry = Entry {
     keys: &[Keys::plain(Key::P)],
     canvas: Scope::Views,
     hint: "Click the body to pin it, click a pin to remove it",
-    make: || Box::new(Gripping::new(false, CursorIcon::Crosshair, pin)),
+    make: || Box::new(Gripping::new(false, CursorIcon::Crosshair, pin, foretells)),
 };
+
+fn foretells(under: Hit) -> Option<&'static str> {
+    Some(match under {
+        Hit::Target(_) => mark("Drag moves the goal of this target, a click selects it"),
+        Hit::Pin(_) => mark("Click takes this pin out, drag puts it elsewhere on the body"),
+        Hit::Body(_) => mark("Click pins the body here"),
+        Hit::Part(_) | Hit::Nothing => return None,
+    })
+}
 
 fn pin(under: Hit) -> Action {
     match under {

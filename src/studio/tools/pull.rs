@@ -7,6 +7,7 @@ use crate::studio::action::{Action, Actions};
 use crate::studio::canvas::{Canvas, Hit};
 use crate::studio::commands::command::{Keys, Scope};
 use crate::studio::icons::Icon;
+use crate::studio::language::mark;
 use crate::studio::session::{Mode, Selection, Session};
 use eframe::egui::{CursorIcon, Key};
 
@@ -111,6 +112,16 @@ impl Tool for Pull {
 
     fn under(&self, canvas: &Canvas<'_>, at: Point) -> Hit {
         canvas.strung(at).map_or(Hit::Nothing, Hit::Part)
+    }
+
+    fn foretells(&self, under: Hit) -> Option<&'static str> {
+        match under {
+            Hit::Part(Part::Winch(_)) => Some(mark("Drag away from its cables winds this winch, a click selects it")),
+            Hit::Part(_) => {
+                Some(mark("Drag towards the winch winds this cable, back lets it out; a click selects its winch"))
+            }
+            _ => None,
+        }
     }
 
     fn cursor(&self, _canvas: &Canvas<'_>, under: Hit) -> CursorIcon {

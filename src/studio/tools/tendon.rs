@@ -8,6 +8,7 @@ use crate::studio::canvas::{Canvas, Hit, hit};
 use crate::studio::change::Change;
 use crate::studio::commands::command::{Keys, Scope};
 use crate::studio::icons::Icon;
+use crate::studio::language::mark;
 use crate::studio::session::{Selection, Session};
 use crate::studio::style;
 use eframe::egui::{CursorIcon, Key, Painter, Pos2, Stroke};
@@ -135,6 +136,17 @@ impl Tool for Stringing {
                 _ => Hit::Nothing,
             }),
         }
+    }
+
+    fn foretells(&self, under: Hit) -> Option<&'static str> {
+        Some(match under {
+            Hit::Part(Part::Winch(_)) => mark("Drag moves this winch, a click selects it. Right-click has more"),
+            Hit::Part(Part::Hole(..)) => {
+                mark("Drag moves this hole; click selects it, then Delete removes it. Right-click has more")
+            }
+            Hit::Part(_) => mark("Drag puts one more hole into this cable, a click selects it. Right-click has more"),
+            _ => return None,
+        })
     }
 
     fn cursor(&self, _canvas: &Canvas<'_>, under: Hit) -> CursorIcon {

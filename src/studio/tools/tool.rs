@@ -72,6 +72,11 @@ pub trait Tool {
         canvas.hit(at)
     }
 
+    /// What a press would do to what lies under the pointer, where the hint of its entry does not say it as well; in English.
+    fn foretells(&self, _under: Hit) -> Option<&'static str> {
+        None
+    }
+
     /// `under`: what of a plushie lies under the pointer.
     fn cursor(&self, canvas: &Canvas<'_>, under: Hit) -> CursorIcon;
 

@@ -6,7 +6,7 @@
 use crate::mesh::Mesh;
 use crate::outline::Point;
 use crate::picture::plush::Felt;
-use crate::picture::{Color, Item, Scene, Texture};
+use crate::picture::{Color, Item, Scene, Silhouette, Texture};
 use bytemuck::{Pod, Zeroable};
 use std::ops::Range;
 use std::sync::Arc;
@@ -47,21 +47,38 @@ pub struct Textured {
     pub place: [f32; 2],
 }
 
-/// A corner of a triangle of stuffed felt.
+/// A point of stuffed felt in a pose.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Woolly {
     /// mm.
     pub position: [f32; 2],
-    /// At rest, mm: where the grain is.
-    pub rest: [f32; 2],
     /// Of half the square of the height, mm.
     pub slope: [f32; 2],
+}
+
+/// The same point in every pose.
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Cut {
+    /// At rest, mm: where the grain is.
+    pub rest: [f32; 2],
     /// From the upper left corner of the texture, 0 to 1.
     pub place: [f32; 2],
     /// Half the square of the height, mm^2.
     pub height: f32,
     pub color: [u8; 4],
+}
+
+/// Stuffed felt as it is in every pose.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cloth {
+    of: Arc<Silhouette>,
+    color: Color,
+    frame: Option<[Point; 2]>,
+    pub points: Vec<Cut>,
+    /// Corners of triangles in painting order.
+    pub corners: Vec<u32>,
 }
 
 /// A run of primitives of one kind, in painting order.
@@ -71,8 +88,8 @@ pub enum Batch {
     Fill(Range<u32>),
     /// Range of textured corners.
     Picture(Range<u32>),
-    /// Range of corners of felt, and whether the texture is on it.
-    Felt(Range<u32>, bool),
+    /// All of the felt, and whether the texture is on it.
+    Felt(bool),
     /// Range of capsules.
     Capsules(Range<u32>),
 }
@@ -82,6 +99,7 @@ pub struct Geometry {
     pub corners: Vec<Corner>,
     pub textured: Vec<Textured>,
     pub felt: Vec<Woolly>,
+    pub cloth: Option<Arc<Cloth>>,
     /// On all of these: a scene has one texture at most.
     pub texture: Option<Arc<Texture>>,
     pub capsules: Vec<Capsule>,
@@ -93,13 +111,24 @@ const FILLED: f32 = -1.0;
 
 impl Geometry {
     pub fn of(scene: &Scene) -> Self {
+        Self::after(scene, &Self::default())
+    }
+
+    /// [`Self::of`]; what does not change from pose to pose is taken over from the geometry before.
+    pub fn after(scene: &Scene, before: &Self) -> Self {
         let mut geometry = Self::default();
         for item in &scene.items {
             match item {
-                Item::Mesh { points, triangles, color } => geometry.fill(points, triangles, *color),
+                Item::Mesh { points, triangles, color } => {
+                    let mesh = Mesh { nodes: points.clone(), triangles: triangles.clone() };
+                    geometry.fill(points, triangles, &mesh.boundary(), *color);
+                }
+                Item::Body { silhouette, points, color } => {
+                    geometry.fill(points, &silhouette.triangles, &silhouette.rings, *color);
+                }
                 Item::Cells { points, triangles, colors } => geometry.cells(points, triangles, colors),
                 Item::Plush(felt) => {
-                    geometry.felt(felt);
+                    geometry.felt(felt, before.cloth.as_ref());
                     geometry.texture = felt.texture.as_ref().map(|(texture, _)| texture.clone());
                 }
                 Item::Picture { points, places, triangles, texture } => {
@@ -107,21 +136,26 @@ impl Geometry {
                     geometry.texture = Some(texture.clone());
                 }
                 Item::Line { points, width, color, closed } => geometry.line(points, *width, *color, *closed),
+                Item::Strands(strands) => {
+                    for (points, width, color) in strands.iter() {
+                        geometry.line(points, width, color, false);
+                    }
+                }
                 Item::Disc { center, radius, fill, stroke } => geometry.disc(*center, *radius, *fill, *stroke),
             }
         }
         geometry
     }
 
-    fn fill(&mut self, points: &[Point], triangles: &[[usize; 3]], color: Color) {
+    /// Triangles, and a fringe along their rims, which have them on their left.
+    fn fill(&mut self, points: &[Point], triangles: &[[usize; 3]], rims: &[Vec<usize>], color: Color) {
         let start = self.corners.len() as u32;
         let color = bytes(color);
         let corner = |node: usize| Corner { position: f32s(points[node]), outward: [0.0; 2], coverage: 1.0, color };
         let whole = triangles.iter().filter(|t| t.iter().all(|&n| n < points.len()));
         self.corners.extend(whole.flat_map(|t| t.map(corner)));
-        let mesh = Mesh { nodes: points.to_vec(), triangles: triangles.to_vec() };
-        for edge in mesh.boundary() {
-            let outward = miters(&edge, points);
+        for edge in rims {
+            let outward = miters(edge, points);
             let rim: Vec<[Corner; 2]> = edge
                 .iter()
                 .zip(&outward)
@@ -145,20 +179,12 @@ impl Geometry {
         self.note(Batch::Fill(start..self.corners.len() as u32));
     }
 
-    fn felt(&mut self, felt: &Felt) {
-        let (start, silhouette) = (self.felt.len() as u32, &felt.silhouette);
-        let color = bytes(felt.color);
-        let place = |n: usize| felt.texture.as_ref().map_or([0.0; 2], |(_, places)| f32s(places[n]));
-        let corner = |n: usize| Woolly {
-            position: f32s(felt.points[n]),
-            rest: f32s(silhouette.rest[n]),
-            slope: felt.slopes[n],
-            place: place(n),
-            height: silhouette.heights[n] as f32,
-            color,
-        };
-        self.felt.extend(silhouette.triangles.iter().flat_map(|t| t.map(corner)));
-        self.note(Batch::Felt(start..self.felt.len() as u32, felt.texture.is_some()));
+    fn felt(&mut self, felt: &Felt, before: Option<&Arc<Cloth>>) {
+        let points = felt.points.iter().zip(&felt.slopes);
+        self.felt.extend(points.map(|(&p, &slope)| Woolly { position: f32s(p), slope }));
+        let same = before.filter(|cloth| cloth.is_of(felt));
+        self.cloth = Some(same.cloned().unwrap_or_else(|| Arc::new(Cloth::of(felt))));
+        self.note(Batch::Felt(felt.texture.is_some()));
     }
 
     fn picture(&mut self, points: &[Point], places: &[Point], triangles: &[[usize; 3]]) {
@@ -208,6 +234,31 @@ impl Geometry {
             | (Some(Batch::Capsules(run)), Batch::Capsules(new)) => run.end = new.end,
             _ => self.batches.push(batch),
         }
+    }
+}
+
+impl Cloth {
+    fn of(felt: &Felt) -> Self {
+        let (silhouette, places) = (&felt.silhouette, felt.places());
+        let color = bytes(felt.color);
+        let point = |n: usize| Cut {
+            rest: f32s(silhouette.rest[n]),
+            place: places.as_ref().map_or([0.0; 2], |places| f32s(places[n])),
+            height: silhouette.heights[n] as f32,
+            color,
+        };
+        Self {
+            of: silhouette.clone(),
+            color: felt.color,
+            frame: felt.texture.as_ref().map(|(_, frame)| *frame),
+            points: (0..silhouette.rest.len()).map(point).collect(),
+            corners: silhouette.triangles.iter().flatten().map(|&n| n as u32).collect(),
+        }
+    }
+
+    fn is_of(&self, felt: &Felt) -> bool {
+        let frame = felt.texture.as_ref().map(|(_, frame)| *frame);
+        Arc::ptr_eq(&self.of, &felt.silhouette) && (self.color, self.frame) == (felt.color, frame)
     }
 }
 

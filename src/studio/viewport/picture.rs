@@ -1,4 +1,4 @@
-//! What a view shows, made anew only when the inputs of one of its layers have changed.
+//! What a view shows: of its layers, only those are made anew whose inputs have changed.
 
 use super::geometry::Geometry;
 use super::renderer::ViewCallback;
@@ -7,7 +7,7 @@ use crate::picture::layers::looks::Gap;
 use crate::picture::layers::{Ghost, Layer};
 use crate::picture::palette::{Palette, Theme};
 use crate::picture::ramp::Bar;
-use crate::picture::{Color, Layers, Silhouette, Subject};
+use crate::picture::{Color, Layers, Silhouette, Subject, Weave};
 use crate::studio::canvas::{Canvas, Plushie};
 use crate::studio::session::{Selection, Session, Views};
 use eframe::egui::Ui;
@@ -16,7 +16,9 @@ use std::sync::Arc;
 /// The drawing of a view, and what it was made from.
 #[derive(Default)]
 pub struct Picture {
-    made: Option<(Layers, Arc<Geometry>)>,
+    layers: Layers,
+    /// Of each layer.
+    parts: Vec<Arc<Geometry>>,
 }
 
 impl Picture {
@@ -28,16 +30,16 @@ impl Picture {
         if !canvas.session.gpu {
             return bar;
         }
-        let geometry = match &self.made {
-            Some((before, geometry)) if *before == layers => geometry.clone(),
-            _ => {
-                let geometry = Arc::new(Geometry::of(&layers.scene()));
-                self.made = Some((layers, geometry.clone()));
-                geometry
-            }
+        let nothing = Geometry::default();
+        let part = |layer: usize| {
+            let before = layers.same_in(layer, &self.layers).and_then(|before| self.parts.get(before));
+            let cloth = self.parts.get(layer).map(Arc::as_ref).unwrap_or(&nothing);
+            before.cloned().unwrap_or_else(|| Arc::new(Geometry::after(&layers.scene_of(layer), cloth)))
         };
+        self.parts = (0..layers.count()).map(part).collect();
+        self.layers = layers;
         let (slot, size) = (drawn.plushie as u64, canvas.rect.size());
-        let callback = ViewCallback { slot, camera: canvas.camera, size, geometry };
+        let callback = ViewCallback { slot, camera: canvas.camera, size, parts: self.parts.clone() };
         ui.painter().add(egui_wgpu::Callback::new_paint_callback(canvas.rect, callback));
         bar
     }
@@ -49,7 +51,7 @@ pub struct Drawn<'a> {
     pub shape: &'a Arc<Shape>,
     /// That of the other plushie, where it is shown too.
     pub beside: Option<&'a Arc<Shape>>,
-    pub silhouette: &'a Arc<Silhouette>,
+    pub body: (&'a Arc<Silhouette>, &'a Arc<Weave>),
 }
 
 /// Outlines over the body: of neighbouring keyframes, and of the idealized plushie in an overlay.
@@ -94,6 +96,6 @@ fn subject<'a>(session: &'a Session, drawn: &Drawn<'a>, ghosts: &'a [Ghost]) -> 
         look: session.look.body,
         beside: drawn.beside,
         ghosts,
-        ..Subject::with(session.acting(), drawn.silhouette, drawn.shape)
+        ..Subject::with(session.acting(), drawn.body, drawn.shape)
     }
 }

@@ -1,6 +1,6 @@
 //! Draws plushies with wgpu inside egui's pass. Knows nothing of panels, tools or designs.
 
-use super::geometry::{Batch, Capsule, Corner, Geometry, Textured, Woolly};
+use super::geometry::{Batch, Capsule, Cloth, Corner, Cut, Geometry, Textured, Woolly};
 use super::skin::Skin;
 use crate::picture::plush;
 use crate::studio::canvas::Camera;
@@ -23,7 +23,8 @@ pub struct ViewCallback {
     pub camera: Camera,
     /// Size of the view, logical pixels.
     pub size: eframe::egui::Vec2,
-    pub geometry: Arc<Geometry>,
+    /// In painting order.
+    pub parts: Vec<Arc<Geometry>>,
 }
 
 /// Pipelines and the buffers of every view.
@@ -42,12 +43,19 @@ struct Renderer {
 struct View {
     uniform: wgpu::Buffer,
     bind_group: wgpu::BindGroup,
-    corners: wgpu::Buffer,
-    textured: wgpu::Buffer,
-    felt: wgpu::Buffer,
-    capsules: wgpu::Buffer,
-    /// What the buffers hold.
+    parts: Vec<Part>,
+}
+
+/// A part of a view, and the buffers that hold it.
+#[derive(Default)]
+struct Part {
     geometry: Arc<Geometry>,
+    corners: Option<wgpu::Buffer>,
+    textured: Option<wgpu::Buffer>,
+    felt: Option<wgpu::Buffer>,
+    cut: Option<wgpu::Buffer>,
+    felt_corners: Option<wgpu::Buffer>,
+    capsules: Option<wgpu::Buffer>,
 }
 
 /// `View` of the shader.
@@ -75,9 +83,12 @@ const TEXTURED: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
 const WOOLLY: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
     array_stride: size_of::<Woolly>() as u64,
     step_mode: wgpu::VertexStepMode::Vertex,
-    attributes: &wgpu::vertex_attr_array![
-        0 => Float32x2, 1 => Float32x2, 2 => Float32x2, 3 => Float32x2, 4 => Float32, 5 => Unorm8x4
-    ],
+    attributes: &wgpu::vertex_attr_array![0 => Float32x2, 2 => Float32x2],
+};
+const CUT: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
+    array_stride: size_of::<Cut>() as u64,
+    step_mode: wgpu::VertexStepMode::Vertex,
+    attributes: &wgpu::vertex_attr_array![1 => Float32x2, 3 => Float32x2, 4 => Float32, 5 => Unorm8x4],
 };
 const CAPSULE: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
     array_stride: size_of::<Capsule>() as u64,
@@ -137,46 +148,53 @@ impl Renderer {
         });
         let skin = Skin::new(device);
         let plain = &[Some(&layout)][..];
-        let pipeline =
-            |[corners, name]: [&str; 2], bind_group_layouts, buffer: wgpu::VertexBufferLayout<'_>, topology| {
-                let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                    label: Some(name),
-                    bind_group_layouts,
-                    immediate_size: 0,
-                });
-                device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-                    label: Some(name),
-                    layout: Some(&pipeline_layout),
-                    vertex: wgpu::VertexState {
-                        module: &module,
-                        entry_point: Some(&format!("{corners}_vertex")),
-                        buffers: &[Some(buffer)],
-                        compilation_options: Default::default(),
-                    },
-                    primitive: wgpu::PrimitiveState { topology, ..Default::default() },
-                    depth_stencil: None,
-                    multisample: wgpu::MultisampleState { count: samples.max(1), ..Default::default() },
-                    fragment: Some(wgpu::FragmentState {
-                        module: &module,
-                        entry_point: Some(&format!("{name}_fragment")),
-                        targets: &[Some(wgpu::ColorTargetState {
-                            format,
-                            blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
-                            write_mask: wgpu::ColorWrites::ALL,
-                        })],
-                        compilation_options: Default::default(),
-                    }),
-                    multiview_mask: None,
-                    cache: None,
-                })
-            };
+        let pipeline = |[corners, name]: [&str; 2],
+                        bind_group_layouts,
+                        buffers: &[Option<wgpu::VertexBufferLayout<'_>>],
+                        topology| {
+            let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some(name),
+                bind_group_layouts,
+                immediate_size: 0,
+            });
+            device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+                label: Some(name),
+                layout: Some(&pipeline_layout),
+                vertex: wgpu::VertexState {
+                    module: &module,
+                    entry_point: Some(&format!("{corners}_vertex")),
+                    buffers,
+                    compilation_options: Default::default(),
+                },
+                primitive: wgpu::PrimitiveState { topology, ..Default::default() },
+                depth_stencil: None,
+                multisample: wgpu::MultisampleState { count: samples.max(1), ..Default::default() },
+                fragment: Some(wgpu::FragmentState {
+                    module: &module,
+                    entry_point: Some(&format!("{name}_fragment")),
+                    targets: &[Some(wgpu::ColorTargetState {
+                        format,
+                        blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+                        write_mask: wgpu::ColorWrites::ALL,
+                    })],
+                    compilation_options: Default::default(),
+                }),
+                multiview_mask: None,
+                cache: None,
+            })
+        };
         let (list, strip) = (wgpu::PrimitiveTopology::TriangleList, wgpu::PrimitiveTopology::TriangleStrip);
         Self {
-            fill: pipeline(["fill"; 2], plain, CORNER, list),
-            picture: pipeline(["picture"; 2], &[Some(&layout), Some(&skin.layout)], TEXTURED, list),
-            felt: pipeline(["felt"; 2], plain, WOOLLY, list),
-            felt_picture: pipeline(["felt", "felt_picture"], &[Some(&layout), Some(&skin.layout)], WOOLLY, list),
-            capsule: pipeline(["capsule"; 2], plain, CAPSULE, strip),
+            fill: pipeline(["fill"; 2], plain, &[Some(CORNER)], list),
+            picture: pipeline(["picture"; 2], &[Some(&layout), Some(&skin.layout)], &[Some(TEXTURED)], list),
+            felt: pipeline(["felt"; 2], plain, &[Some(WOOLLY), Some(CUT)], list),
+            felt_picture: pipeline(
+                ["felt", "felt_picture"],
+                &[Some(&layout), Some(&skin.layout)],
+                &[Some(WOOLLY), Some(CUT)],
+                list,
+            ),
+            capsule: pipeline(["capsule"; 2], plain, &[Some(CAPSULE)], strip),
             layout,
             skin,
             linear_target: if format.is_srgb() { 1.0 } else { 0.0 },
@@ -196,54 +214,77 @@ impl Renderer {
             linear_target: self.linear_target,
         };
         queue.write_buffer(&view.uniform, 0, bytemuck::bytes_of(&uniform));
-        if !Arc::ptr_eq(&view.geometry, &call.geometry) {
-            upload(device, queue, &mut view.corners, bytemuck::cast_slice(&call.geometry.corners));
-            upload(device, queue, &mut view.textured, bytemuck::cast_slice(&call.geometry.textured));
-            upload(device, queue, &mut view.felt, bytemuck::cast_slice(&call.geometry.felt));
-            upload(device, queue, &mut view.capsules, bytemuck::cast_slice(&call.geometry.capsules));
-            view.geometry = call.geometry.clone();
-        }
-        if let Some(texture) = &call.geometry.texture {
-            self.skin.follow(device, queue, texture);
+        view.parts.resize_with(call.parts.len(), Part::default);
+        for (part, geometry) in view.parts.iter_mut().zip(&call.parts) {
+            part.take(device, queue, geometry);
+            if let Some(texture) = &geometry.texture {
+                self.skin.follow(device, queue, texture);
+            }
         }
     }
 
     fn paint(&self, slot: u64, pass: &mut wgpu::RenderPass<'static>) {
         let Some(view) = self.views.get(&slot) else { return };
         pass.set_bind_group(0, &view.bind_group, &[]);
-        for batch in &view.geometry.batches {
-            match batch {
-                Batch::Fill(range) => {
-                    pass.set_pipeline(&self.fill);
-                    pass.set_vertex_buffer(0, view.corners.slice(..));
-                    pass.draw(range.clone(), 0..1);
-                }
-                Batch::Picture(range) => {
-                    let Some(skin) = self.skin.bind_group() else { continue };
-                    pass.set_pipeline(&self.picture);
-                    pass.set_bind_group(1, skin, &[]);
-                    pass.set_vertex_buffer(0, view.textured.slice(..));
-                    pass.draw(range.clone(), 0..1);
-                }
-                Batch::Felt(range, false) => {
-                    pass.set_pipeline(&self.felt);
-                    pass.set_vertex_buffer(0, view.felt.slice(..));
-                    pass.draw(range.clone(), 0..1);
-                }
-                Batch::Felt(range, true) => {
-                    let Some(skin) = self.skin.bind_group() else { continue };
-                    pass.set_pipeline(&self.felt_picture);
-                    pass.set_bind_group(1, skin, &[]);
-                    pass.set_vertex_buffer(0, view.felt.slice(..));
-                    pass.draw(range.clone(), 0..1);
-                }
-                Batch::Capsules(range) => {
-                    pass.set_pipeline(&self.capsule);
-                    pass.set_vertex_buffer(0, view.capsules.slice(..));
-                    pass.draw(0..4, range.clone());
-                }
+        for part in &view.parts {
+            for batch in &part.geometry.batches {
+                self.paint_batch(part, batch, pass);
             }
         }
+    }
+
+    fn paint_batch(&self, part: &Part, batch: &Batch, pass: &mut wgpu::RenderPass<'static>) {
+        let (pipeline, buffer, skinned) = match batch {
+            Batch::Fill(_) => (&self.fill, &part.corners, false),
+            Batch::Picture(_) => (&self.picture, &part.textured, true),
+            Batch::Felt(false) => (&self.felt, &part.felt, false),
+            Batch::Felt(true) => (&self.felt_picture, &part.felt, true),
+            Batch::Capsules(_) => (&self.capsule, &part.capsules, false),
+        };
+        let Some(buffer) = buffer else { return };
+        if skinned {
+            let Some(skin) = self.skin.bind_group() else { return };
+            pass.set_bind_group(1, skin, &[]);
+        }
+        pass.set_pipeline(pipeline);
+        pass.set_vertex_buffer(0, buffer.slice(..));
+        match batch {
+            Batch::Fill(range) | Batch::Picture(range) => pass.draw(range.clone(), 0..1),
+            Batch::Capsules(range) => pass.draw(0..4, range.clone()),
+            Batch::Felt(_) => {
+                let (Some(cloth), Some(cut), Some(corners)) = (&part.geometry.cloth, &part.cut, &part.felt_corners)
+                else {
+                    return;
+                };
+                pass.set_vertex_buffer(1, cut.slice(..));
+                pass.set_index_buffer(corners.slice(..), wgpu::IndexFormat::Uint32);
+                pass.draw_indexed(0..cloth.corners.len() as u32, 0, 0..1);
+            }
+        }
+    }
+}
+
+impl Part {
+    /// Takes a geometry in the place of the one before, unless it is the same; cloth that is the same is there already.
+    fn take(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, geometry: &Arc<Geometry>) {
+        if Arc::ptr_eq(&self.geometry, geometry) {
+            return;
+        }
+        let upload = |buffer: &mut Option<wgpu::Buffer>, bytes: &[u8]| {
+            if !bytes.is_empty() {
+                upload(device, queue, buffer, bytes);
+            }
+        };
+        upload(&mut self.corners, bytemuck::cast_slice(&geometry.corners));
+        upload(&mut self.textured, bytemuck::cast_slice(&geometry.textured));
+        upload(&mut self.felt, bytemuck::cast_slice(&geometry.felt));
+        upload(&mut self.capsules, bytemuck::cast_slice(&geometry.capsules));
+        let known = |cloth: &Arc<Cloth>| self.geometry.cloth.as_ref().is_some_and(|known| Arc::ptr_eq(known, cloth));
+        if let Some(cloth) = geometry.cloth.as_ref().filter(|cloth| !known(cloth)) {
+            upload(&mut self.cut, bytemuck::cast_slice(&cloth.points));
+            upload(&mut self.felt_corners, bytemuck::cast_slice(&cloth.corners));
+        }
+        self.geometry = geometry.clone();
     }
 }
 
@@ -260,33 +301,24 @@ impl View {
             layout,
             entries: &[wgpu::BindGroupEntry { binding: 0, resource: uniform.as_entire_binding() }],
         });
-        Self {
-            uniform,
-            bind_group,
-            corners: vertex_buffer(device, 0),
-            textured: vertex_buffer(device, 0),
-            felt: vertex_buffer(device, 0),
-            capsules: vertex_buffer(device, 0),
-            geometry: Arc::default(),
-        }
+        Self { uniform, bind_group, parts: Vec::new() }
     }
 }
 
 /// Writes `bytes`, into a larger buffer if need be.
-fn upload(device: &wgpu::Device, queue: &wgpu::Queue, buffer: &mut wgpu::Buffer, bytes: &[u8]) {
-    if buffer.size() < bytes.len() as u64 {
-        *buffer = vertex_buffer(device, bytes.len() as u64);
-    }
+fn upload(device: &wgpu::Device, queue: &wgpu::Queue, buffer: &mut Option<wgpu::Buffer>, bytes: &[u8]) {
+    let large_enough = buffer.take().filter(|buffer| buffer.size() >= bytes.len() as u64);
+    let buffer = buffer.insert(large_enough.unwrap_or_else(|| vertex_buffer(device, bytes.len() as u64)));
     queue.write_buffer(buffer, 0, bytes);
 }
 
 fn vertex_buffer(device: &wgpu::Device, at_least: u64) -> wgpu::Buffer {
-    /// Bytes; small scenes never need a second buffer.
-    const SMALLEST: u64 = 1 << 16;
+    /// Bytes; small parts never need a second buffer.
+    const SMALLEST: u64 = 1 << 12;
     device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("plushie vertices"),
         size: at_least.max(SMALLEST).next_power_of_two(),
-        usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
+        usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::INDEX | wgpu::BufferUsages::COPY_DST,
         mapped_at_creation: false,
     })
 }

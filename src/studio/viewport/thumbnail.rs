@@ -7,7 +7,7 @@ use crate::engine::Shape;
 use crate::outline::polygon;
 use crate::picture::layers::{Layer, Pins};
 use crate::picture::palette::Theme;
-use crate::picture::{Layers, Shown, Silhouette, Stage, Subject};
+use crate::picture::{Layers, Shown, Silhouette, Stage, Subject, Weave};
 use crate::rigging::Proposal;
 use crate::studio::canvas::Camera;
 use crate::studio::session::Session;
@@ -42,8 +42,8 @@ impl Thumbnails {
             Arc::ptr_eq(&made.design, design) && Arc::ptr_eq(&made.proposal, proposal) && made.theme == theme
         });
         if !fresh {
-            let silhouette = Arc::new(Silhouette::of(design));
-            let pictures = Stage::ALL.map(|stage| Arc::new(picture(design, &silhouette, proposal, theme, stage)));
+            let body = (&Arc::new(Silhouette::of(design)), &Arc::new(Weave::of(design)));
+            let pictures = Stage::ALL.map(|stage| Arc::new(picture(design, body, proposal, theme, stage)));
             self.made = Some(Made { design: design.clone(), proposal: proposal.clone(), theme, pictures });
         }
         let Some(made) = &self.made else { return };
@@ -52,7 +52,7 @@ impl Thumbnails {
             slot: FIRST_SLOT + stage as u64,
             camera: Camera::fit(low, high, rect.size()),
             size: rect.size(),
-            geometry: made.pictures[stage as usize].clone(),
+            parts: vec![made.pictures[stage as usize].clone()],
         };
         ui.painter().add(egui_wgpu::Callback::new_paint_callback(rect, callback));
     }
@@ -61,7 +61,7 @@ impl Thumbnails {
 /// The rest shape with the stage on it.
 fn picture(
     design: &Arc<Design>,
-    silhouette: &Arc<Silhouette>,
+    body: (&Arc<Silhouette>, &Arc<Weave>),
     proposal: &Proposal,
     theme: Theme,
     stage: Stage,
@@ -69,7 +69,7 @@ fn picture(
     let rest = Arc::new(Shape { nodes: design.mesh.nodes.clone(), ..Shape::default() });
     let shown = Shown::default().with(Pins::NAME, false);
     let stage = proposal.paper.as_ref().map(|(_, stages)| (stage, stages));
-    let subject = Subject { theme, shown: &shown, stage, ..Subject::with(design, silhouette, &rest) };
+    let subject = Subject { theme, shown: &shown, stage, ..Subject::with(design, body, &rest) };
     let mut geometry = Geometry::of(&Layers::of(&subject).scene());
     for capsule in &mut geometry.capsules {
         capsule.radius *= THINNER;

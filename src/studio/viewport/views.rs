@@ -5,7 +5,7 @@ use super::silhouettes::Silhouettes;
 use super::{bars, captions, loads, pointer, rulers, strings, strip};
 use crate::engine::Shape;
 use crate::outline::{Point, polygon};
-use crate::studio::action::Actions;
+use crate::studio::action::{Action, Actions};
 use crate::studio::canvas::{Camera, Canvas, Ground, Hit, Plushie};
 use crate::studio::language::t;
 use crate::studio::session::{Session, Views};
@@ -44,7 +44,7 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut State, tool: &mut dyn To
     let area = ui.available_rect_before_wrap();
     let views = session.look.views;
     state.silhouettes.follow(session.design());
-    let mut hovered = None;
+    let (mut hovered, mut foretold) = (None, None);
     for (plushie, rect) in rects(ui, session, area) {
         if !views.has_place(plushie) {
             state.views[plushie as usize].seen = None;
@@ -54,7 +54,11 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut State, tool: &mut dyn To
         let shape = displayed(session, plushie);
         let canvas = Canvas { session, rect, camera, ground: Ground::Plushie(plushie, shape.map(Arc::as_ref)) };
         let hit = view(ui, &canvas, (plushie, shape), state, tool, actions);
+        foretold = foretold.or(hit.and_then(|hit| tool.foretells(hit)));
         hovered = hovered.or(hit);
+    }
+    if foretold != session.foretold {
+        actions.push(Action::Foretell(foretold));
     }
     if hovered != state.hovered {
         state.hovered = hovered;
@@ -118,8 +122,8 @@ fn view(
     let bar = drawn.and_then(|shape| {
         let beside = displayed(canvas.session, plushie.other());
         let beside = beside.filter(|_| canvas.session.look().views.shows(plushie.other()));
-        let silhouette = state.silhouettes.newest()?;
-        view.picture.paint(ui, canvas, &Drawn { plushie, shape, beside, silhouette })
+        let body = state.silhouettes.newest()?;
+        view.picture.paint(ui, canvas, &Drawn { plushie, shape, beside, body })
     });
     let hit = pointer::interact(ui, canvas, tool, &mut view.menu_at, &response, actions);
     strings::show(ui, canvas);

@@ -1,6 +1,6 @@
 //! The craft of the window: where it speaks, what has the focus, how large its questions are.
 
-use crate::support::window::{bar, click, network, press, session, settle, wait, window};
+use crate::support::window::{Window, bar, click, network, on_screen, pose, press, session, settle, wait, window};
 use eframe::egui::{self, Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 use plushwright::studio::session::Overlay;
@@ -111,9 +111,11 @@ fn the_next_step_leads_from_a_bare_body_to_a_network() {
     click(&mut window, "Next step: Propose networks");
     click(&mut window, "Next step: Accept a network");
     assert_eq!(session(&window).design().networks.len(), 1);
-    click(&mut window, "Next step: Add a keyframe");
-    click(&mut window, "Rest");
-    click(&mut window, "Next step: Add a keyframe");
+    click(&mut window, "Next step: Make it move");
+    let keyframes = session(&window).design().keyframes.clone();
+    assert_eq!(keyframes.iter().map(|k| k.time_s).collect::<Vec<_>>(), [0.0, 1.0, 2.0]);
+    assert_eq!(keyframes.iter().map(|k| k.pose.as_deref()).collect::<Vec<_>>(), [None, Some("Wave"), None]);
+    assert_eq!(session(&window).history().undo_label(), Some("First keyframes"));
     let next = ["Next step: Make it fit", "Next step: Export the blueprint"];
     assert!(next.iter().any(|name| window.query_by_label(name).is_some()));
     while session(&window).history().undo_label().is_some() {
@@ -178,4 +180,76 @@ fn ways_of_working_are_as_they_were_left() {
     drop(first);
     let second = again();
     assert_eq!((session(&second).look().theme, session(&second).posing().snaps), (theme, false));
+}
+
+#[test]
+fn what_a_press_will_do_is_said_before_it_is_done() {
+    let mut design = bar();
+    design.networks.push(network());
+    let mut window = window(design);
+    pose(&mut window, "Idealized view");
+    let target = session(&window).design().poses[0].targets[0].to;
+    let goal = on_screen(&window, "Idealized view", target);
+    let says = |window: &mut Window, at: egui::Pos2| {
+        window.hover_at(at);
+        window.run_steps(4);
+        window.output().platform_output.cursor_icon
+    };
+    assert_eq!(says(&mut window, goal), egui::CursorIcon::Grab);
+    assert!(window.query_by_label_contains("Drag moves the goal of this target").is_some());
+    // Rings around it, in both views.
+    let rings = |window: &Window| {
+        let ring = |shape: &egui::Shape| matches!(shape, egui::Shape::Circle(c) if c.radius == 11.0);
+        window.output().shapes.iter().filter(|clipped| ring(&clipped.shape)).count()
+    };
+    assert_eq!(rings(&window), 2);
+    press(&mut window, Modifiers::NONE, Key::P);
+    let pin = session(&window).design().pins[0].anchor(&session(&window).design().mesh);
+    let pin = on_screen(&window, "Idealized view", pin);
+    says(&mut window, pin);
+    assert!(window.query_by_label_contains("Click takes this pin out").is_some());
+    press(&mut window, Modifiers::NONE, Key::W);
+    // Beside the body the tool says what it is for.
+    let rect = window.get_by_label("Idealized view").rect();
+    says(&mut window, rect.left_top() + egui::vec2(4.0, 40.0));
+    assert!(window.query_by_label_contains("Drag holes and winches").is_some());
+}
+
+#[test]
+fn no_other_command_acts_behind_the_palette() {
+    let mut window = window(bar());
+    press(&mut window, Modifiers::COMMAND | Modifiers::SHIFT, Key::P);
+    for key in [Key::O, Key::N, Key::E, Key::S, Key::Z] {
+        press(&mut window, Modifiers::COMMAND, key);
+        assert_eq!(session(&window).overlay(), Some(Overlay::Palette), "{key:?}");
+        assert!(window.query_by_label("Path").is_none(), "{key:?}");
+    }
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert_eq!(session(&window).overlay(), None);
+}
+
+#[test]
+fn the_tip_of_a_card_stands_over_no_view() {
+    let mut window = window(bar());
+    pose(&mut window, "Idealized view");
+    click(&mut window, "Propose networks");
+    let card = window.get_by_label("Proposal 1").rect();
+    let view = window.get_by_label("Realizable view").rect();
+    window.hover_at(card.center());
+    window.run_steps(24);
+    let tip = window.get_by_label_contains("Error of the realizable plushie without and with it").rect();
+    assert!(tip.left() >= view.right() && tip.top() >= card.bottom(), "{tip:?} {card:?} {view:?}");
+}
+
+#[test]
+fn a_question_that_waits_for_text_draws_nothing() {
+    let mut window = window(bar());
+    for (modifiers, key) in [(Modifiers::COMMAND, Key::O), (Modifiers::COMMAND | Modifiers::SHIFT, Key::P)] {
+        press(&mut window, modifiers, key);
+        window.run();
+        assert!(window.ctx.text_edit_focused(), "{key:?}");
+        let next = window.output().viewport_output.values().map(|viewport| viewport.repaint_delay).min();
+        assert!(next.is_some_and(|after| after > std::time::Duration::from_secs(60)), "{key:?}: {next:?}");
+        press(&mut window, Modifiers::NONE, Key::Escape);
+    }
 }

@@ -1,21 +1,21 @@
 //! Contraction: how much each muscle fibre of the idealized plushie is shortened.
 
-use crate::design::Design;
 use crate::engine::Shape;
-use crate::picture::layers::fibers::{Fibers, contractions};
+use crate::picture::layers::fibers::Fibers;
 use crate::picture::layers::layer::{Layer, Shared};
 use crate::picture::layers::look::Look;
-use crate::picture::layers::marks::{body, path};
+use crate::picture::layers::marks::body;
 use crate::picture::layers::subject::Subject;
 use crate::picture::layers::texture::Textured;
 use crate::picture::ramp::{Bar, ground};
-use crate::picture::scene::Item;
+use crate::picture::scene::{Item, Strands};
 use crate::picture::silhouette::Silhouette;
+use crate::picture::weave::Weave;
 
 /// Contraction as a part of the rest length, the largest on top.
 #[derive(Debug, PartialEq)]
 pub struct Contraction {
-    design: Shared<Design>,
+    weave: Shared<Weave>,
     silhouette: Shared<Silhouette>,
     shape: Shared<Shape>,
     fibers: bool,
@@ -31,12 +31,11 @@ impl Layer for Contraction {
     const NAME: &'static str = "contraction";
 
     fn of(subject: &Subject<'_>) -> Option<Self> {
-        let routings = subject.design.fiber_routings();
         let both = [Some(subject.shape), subject.beside];
-        let all = both.into_iter().flatten().flat_map(|shape| percents(subject.design, &routings, shape));
+        let all = both.into_iter().flatten().flat_map(|shape| percents(&subject.weave, shape));
         let bar = Bar::rising("Contraction of fibres", "%", &all.collect::<Vec<_>>(), LEAST, subject.theme);
-        let (design, silhouette) = (Shared::of(subject.design), Shared::of(&subject.silhouette));
-        Some(Self { design, silhouette, shape: Shared::of(subject.shape), fibers: subject.fibers, bar })
+        let (weave, silhouette) = (Shared::of(&subject.weave), Shared::of(&subject.silhouette));
+        Some(Self { weave, silhouette, shape: Shared::of(subject.shape), fibers: subject.fibers, bar })
     }
 
     fn draw(&self, items: &mut Vec<Item>) {
@@ -44,20 +43,23 @@ impl Layer for Contraction {
         if !self.fibers {
             return;
         }
-        let routings = self.design.fiber_routings();
-        let percents = percents(&self.design, &routings, &self.shape);
+        let routings = &self.weave.routings;
+        let percents = percents(&self.weave, &self.shape);
         let mut order: Vec<usize> = (0..routings.len()).collect();
         order.sort_by(|&a, &b| percents[a].total_cmp(&percents[b]));
+        let (mut strands, nodes) = (Strands::default(), &self.shape.nodes);
         for fiber in order {
             let place = self.bar.place(percents[fiber]);
             let width = WIDTHS[0] + place as f32 * (WIDTHS[1] - WIDTHS[0]);
-            items.push(path(&routings[fiber], &self.shape, width, self.bar.color_at(place)));
+            let line = routings[fiber].iter().filter_map(|&node| nodes.get(node).copied());
+            strands.push(line, width, self.bar.color_at(place));
         }
+        items.push(Item::Strands(strands));
     }
 }
 
-fn percents(design: &Design, routings: &[Vec<usize>], shape: &Shape) -> Vec<f64> {
-    contractions(design, routings, shape).iter().map(|part| 100.0 * part).collect()
+fn percents(weave: &Weave, shape: &Shape) -> Vec<f64> {
+    weave.contracted(&shape.fiber_contractions_mm).iter().map(|part| 100.0 * part).collect()
 }
 
 impl Look for Contraction {

@@ -1,11 +1,11 @@
 //! Plush: stuffed felt in soft light, with its grain and texture.
 
-use crate::design::Design;
 use crate::engine::Shape;
+use crate::outline::Point;
 use crate::picture::layers::layer::{Layer, Shared};
 use crate::picture::layers::look::Look;
 use crate::picture::layers::subject::Subject;
-use crate::picture::layers::texture::{Textured, places};
+use crate::picture::layers::texture::Textured;
 use crate::picture::palette::{Palette, Theme};
 use crate::picture::plush::Felt;
 use crate::picture::scene::Item;
@@ -18,8 +18,8 @@ use std::sync::Arc;
 pub struct Plush {
     silhouette: Shared<Silhouette>,
     shape: Shared<Shape>,
-    design: Shared<Design>,
-    texture: Option<Shared<Texture>>,
+    /// With its lower left and upper right corner, mm.
+    texture: Option<(Shared<Texture>, [Point; 2])>,
     theme: Theme,
 }
 
@@ -31,16 +31,14 @@ impl Layer for Plush {
         Some(Self {
             silhouette: Shared::of(&subject.silhouette),
             shape: Shared::of(subject.shape),
-            design: Shared::of(subject.design),
-            texture: texture.map(Shared::of),
+            texture: texture.map(|texture| (Shared::of(texture), subject.design.texture_rect())),
             theme: subject.theme,
         })
     }
 
     fn draw(&self, items: &mut Vec<Item>) {
         let Some(points) = self.silhouette.places(&self.shape.nodes) else { return };
-        let on_it = |texture: &Shared<Texture>| (Arc::clone(texture), places(&self.design, &self.silhouette.rest));
-        let texture = self.texture.as_ref().map(on_it);
+        let texture = self.texture.as_ref().map(|(texture, frame)| (Arc::clone(texture), *frame));
         let color = Palette::of(self.theme).plush;
         items.push(Item::Plush(Felt::of(Arc::clone(&self.silhouette), points, color, texture)));
     }

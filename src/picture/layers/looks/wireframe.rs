@@ -10,7 +10,7 @@ use crate::picture::layers::subject::Subject;
 use crate::picture::layers::texture::Textured;
 use crate::picture::palette::{Palette, Theme, with_alpha};
 use crate::picture::ramp::ground;
-use crate::picture::scene::Item;
+use crate::picture::scene::{Item, Strands};
 use crate::picture::silhouette::Silhouette;
 
 /// The mesh on the drawn silhouette: how far both differ is seen too.
@@ -36,10 +36,11 @@ impl Layer for Wireframe {
     fn draw(&self, items: &mut Vec<Item>) {
         items.extend(body(&self.silhouette, &self.shape, ground(self.theme)));
         let color = with_alpha(Palette::of(self.theme).pin, 150);
+        let mut edges = Strands::default();
         for edge in self.design.mesh.edges() {
-            let points = edge.map(|n| self.shape.nodes[n]).to_vec();
-            items.push(Item::Line { points, width: EDGE, color, closed: false });
+            edges.push(edge.map(|n| self.shape.nodes[n]), EDGE, color);
         }
+        items.push(Item::Strands(edges));
     }
 }
 

@@ -87,7 +87,15 @@ fn doubted(ui: &mut Ui, axis: &Axis, doubt: &Doubt) {
         Why::TooFar { winch, reach_mm } => {
             (visuals.error_fg_color, tf!("Too far: {winch} winds {reach_mm:.0} mm and no more", winch, reach_mm))
         }
-        Why::Rounded { winch } => (visuals.warn_fg_color, tf!("{winch} is rounded off to keep its limits", winch)),
+        // Every motor does that: no reason to look like a fault.
+        Why::Rounded { winch } => {
+            let weak = visuals.weak_text_color();
+            let words = tf!(
+                "{winch} starts and stops more softly than drawn: its motor’s limits round the curve off. Nothing has to be done",
+                winch
+            );
+            return edge(ui, axis, [doubt.from_s, doubt.to_s], weak, &words);
+        }
     };
     band(ui, axis, [doubt.from_s, doubt.to_s], color, &words);
 }
@@ -99,7 +107,13 @@ fn band(ui: &mut Ui, axis: &Axis, [from_s, to_s]: [f64; 2], color: Color32, word
     let right = axis.x(to_s).max(axis.x(from_s) + 3.0);
     let rect = Rect::from_min_max(pos2(axis.x(from_s), top), pos2(right, axis.base()));
     ui.painter_at(axis.rect).rect_filled(rect, 2.0, color.gamma_multiply(0.16));
-    let edge = Rect::from_min_size(rect.min, vec2(rect.width(), 2.5));
+    edge(ui, axis, [from_s, to_s], color, words);
+}
+
+/// A coloured line over a stretch of the track that says why.
+fn edge(ui: &mut Ui, axis: &Axis, [from_s, to_s]: [f64; 2], color: Color32, words: &str) {
+    let (left, right) = (axis.x(from_s), axis.x(to_s).max(axis.x(from_s) + 3.0));
+    let edge = Rect::from_min_size(pos2(left, axis.rect.top() + RULER), vec2(right - left, 2.5));
     ui.painter_at(axis.rect).rect_filled(edge, 1.0, color);
     let id = ui.scope_id().with(("doubt", from_s.to_bits(), to_s.to_bits(), words));
     // Only the edge: below it the playhead is set and keyframes are taken.

@@ -19,7 +19,7 @@ fn drawn(geometry: Geometry) -> Option<RgbaImage> {
     let mut renderer = Renderer::new(&device, format, 1);
     let camera = Camera { center: [0.0; 2], scale: 1.0 };
     let size = vec2(SIDE as f32, SIDE as f32);
-    renderer.prepare(&device, &queue, &ViewCallback { slot: 0, camera, size, geometry: Arc::new(geometry) }, 1.0);
+    renderer.prepare(&device, &queue, &ViewCallback { slot: 0, camera, size, parts: vec![Arc::new(geometry)] }, 1.0);
     let extent = wgpu::Extent3d { width: SIDE, height: SIDE, depth_or_array_layers: 1 };
     let target = device.create_texture(&wgpu::TextureDescriptor {
         label: None,
@@ -102,10 +102,19 @@ fn felt_is_lit_as_the_formula_says() {
     let silhouette = Arc::new(Silhouette::of(&Design::new("disc", outline, mesh)));
     // A quarter of a picture on it, the rest is bare.
     let texture = Arc::new(Texture::of(RgbaImage::from_pixel(8, 8, Rgba([40, 60, 200, 255]))));
-    let places: Vec<_> = silhouette.rest.iter().map(|p| [p[0] / 28.0, p[1] / 28.0]).collect();
+    let frame = [[0.0, 28.0], [28.0, 0.0]];
     let points = silhouette.rest.clone();
-    let felt = Felt::of(silhouette.clone(), points.clone(), Color(200, 170, 120, 255), Some((texture, places)));
-    let Some(shown) = drawn(Geometry::of(&Scene { items: vec![Item::Plush(felt.clone())] })) else {
+    let felt = Felt::of(silhouette.clone(), points.clone(), Color(200, 170, 120, 255), Some((texture, frame)));
+    let scene = |felt: &Felt| Scene { items: vec![Item::Plush(felt.clone())] };
+    let geometry = Geometry::of(&scene(&felt));
+    // In another pose the cloth is the same, and not cut again; in another colour it is.
+    let moved = points.iter().map(|p| [p[0] + 1.0, p[1]]).collect();
+    let moved = Felt::of(silhouette.clone(), moved, felt.color, felt.texture.clone());
+    let posed = Geometry::after(&scene(&moved), &geometry);
+    let same = |a: &Geometry, b: &Geometry| matches!((&a.cloth, &b.cloth), (Some(a), Some(b)) if Arc::ptr_eq(a, b));
+    assert!(same(&posed, &geometry) && posed.felt != geometry.felt);
+    assert!(!same(&Geometry::after(&scene(&Felt { color: FELT, ..felt.clone() }), &geometry), &geometry));
+    let Some(shown) = drawn(geometry) else {
         eprintln!("no graphics adapter: nothing was drawn");
         return;
     };
