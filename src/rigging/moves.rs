@@ -94,7 +94,7 @@ impl<'a> Sampler<'a> {
     }
 
     fn is_clear(&self, a: Point, b: Point) -> bool {
-        self.sewable.is_none_or(|s| s.is_clear(a, b))
+        self.sewable.is_none_or(|s| s.outside(a, b) == 0.0)
     }
 
     /// The way of a cable to its end: straight, or around by up to two points where the body is not in between.

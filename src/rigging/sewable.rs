@@ -46,13 +46,6 @@ impl<'a> Sewable<'a> {
         self.bodies[0].depth(p).min(self.bodies[1].depth(p))
     }
 
-    /// Whether no part of a piece is outside of the body.
-    pub fn is_clear(&self, a: Point, b: Point) -> bool {
-        // A disc within the body that holds the piece answers for most.
-        let length = polygon::length(a, b);
-        self.depth(a) > length || self.depth(b) > length || self.outside(a, b) == 0.0
-    }
-
     /// Length of a piece outside of the body, mm.
     pub fn outside(&self, a: Point, b: Point) -> f64 {
         let of = |outline: &Outline| sewing::outside(outline.polygons(), a, b);

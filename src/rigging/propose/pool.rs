@@ -16,8 +16,9 @@ use std::ops::Range;
 pub(super) const ALIVE: usize = 8;
 /// Layouts begun in a batch, each the best of so many random ones in the linear model.
 const BEGUN: usize = 4;
-/// Those of the first few, after each of which something is shown: of the very first one, soon.
-const FIRST: [&[usize]; 3] = [&[0], &[1, 4, 5], &[8, 9]];
+/// In the first few, after each of which something is shown.
+const FIRST: usize = 2;
+const SMALL: usize = 3;
 const DRAWN: usize = 6;
 /// Children of each layout in a round.
 const CHILDREN: usize = 2;
@@ -50,8 +51,7 @@ impl<'a> Pool<'a> {
 
     /// Begins new layouts.
     pub fn begin(&mut self, batch: usize, stop: Stop) {
-        let numbers: Vec<usize> =
-            FIRST.get(batch).map_or_else(|| (0..BEGUN).map(|k| batch * BEGUN + k).collect(), |few| few.to_vec());
+        let numbers: Vec<usize> = (0..if batch < SMALL { FIRST } else { BEGUN }).map(|k| batch * BEGUN + k).collect();
         let begun = in_order(&numbers, |&number| self.begun(number, stop));
         begun.into_iter().flatten().for_each(|fit| self.offer(fit, None));
     }
