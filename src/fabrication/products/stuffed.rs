@@ -13,8 +13,8 @@ const MARGIN_MM: f64 = 15.0;
 const WORDS_MM: f64 = 3.4;
 /// Limbs told one by one.
 const TOLD: usize = 8;
-/// How far off the drawn silhouette is told, as a part of the body's length.
-const TOLD_OFF: f64 = 0.02;
+/// How far parts may lie from where they are drawn before it is told, as a part of the body's length.
+const TOLD_OFF: f64 = 0.03;
 
 /// The sheet `stuffed`.
 pub(super) fn make(source: &Source<'_>) -> Result<Part, ExportError> {
@@ -53,13 +53,13 @@ fn narrowing(source: &Source<'_>, stuffed: &Stuffed) -> String {
     )
 }
 
-/// What a stuffed body is off the drawn one, where that is more than the table tells, and what to do about it.
+/// How far parts of a stuffed body are from where they are drawn, and what to do about it.
 fn curling(source: &Source<'_>, stuffed: &Stuffed) -> Option<String> {
     if !stuffed.is_settled {
         return Some("The stuffed silhouette is a rough one: the search for it did not come to its end.".into());
     }
     let size = source.design.mesh.body_length();
-    if stuffed.off_mm <= TOLD_OFF * size {
+    if stuffed.moved_mm <= TOLD_OFF * size {
         return None;
     }
     let rest = if source.options.compensate {
@@ -67,9 +67,9 @@ fn curling(source: &Source<'_>, stuffed: &Stuffed) -> Option<String> {
     } else {
         " With --compensate the pattern is cut so that it comes to lie as drawn."
     };
+    let moved_mm = stuffed.moved_mm;
     Some(format!(
-        "Stuffed, the body lies up to {:.0} mm off the drawn silhouette: parts narrow, and curved ones curl.{rest}",
-        stuffed.off_mm
+        "Stuffed, parts of the body lie up to {moved_mm:.0} mm from where they are drawn: they narrow, and curved ones curl.{rest}"
     ))
 }
 

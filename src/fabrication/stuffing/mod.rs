@@ -18,6 +18,7 @@ pub use limbs::Limb;
 
 use crate::design::Design;
 use crate::outline::Point;
+use crate::outline::polygon::length;
 use shape::{Shape, over, refined, rings};
 
 /// Most triangles that a body is solved with; one of more gets another mesh of so many fibres for that. They bound the time of an export.
@@ -36,6 +37,8 @@ pub struct Stuffed {
     pub limbs: Vec<Limb>,
     /// The farthest that its rim is from the drawn one, mm.
     pub off_mm: f64,
+    /// The farthest that a point of the rim is from where it was drawn, mm: along the rim, too.
+    pub moved_mm: f64,
     /// Whether the search for it came to its end: else it is a rough one.
     pub is_settled: bool,
 }
@@ -50,9 +53,12 @@ pub fn stuffed(design: &Design, drawn: &Design) -> Stuffed {
     // The nodes of a mesh keep their numbers in a finer one.
     let seen = if coarse.is_some() { shape.seen } else { over(&drawn.mesh.boundary(), &drawn.mesh.nodes, &shape.seen) };
     let near = drawn.outline.near();
-    let on_rim = fine.boundary().into_iter().flatten();
+    let on_rim: Vec<usize> = fine.boundary().into_iter().flatten().collect();
+    let as_drawn = if coarse.is_some() { fine.nodes.clone() } else { refined(&drawn.mesh).nodes };
+    let farthest = |off: &dyn Fn(usize) -> f64| on_rim.iter().map(|&node| off(node)).fold(0.0, f64::max);
     Stuffed {
-        off_mm: on_rim.map(|node| near.distance(seen[node])).fold(0.0, f64::max),
+        off_mm: farthest(&|node| near.distance(seen[node])),
+        moved_mm: farthest(&|node| length(seen[node], as_drawn[node])),
         is_settled: shape.is_settled,
         rings: rings(&fine, &seen),
         flat: rings(&fine, &fine.nodes),

@@ -106,6 +106,8 @@ impl Layout<'_> {
 
     fn table(&mut self, names: &[String], rows: &[Vec<String>]) {
         let widths = widths(names, rows);
+        // The names are not alone at the foot of a page.
+        self.need(3.0 * (LEADING * SMALL_MM + PAD_MM));
         for row in std::iter::once(names).chain(rows.iter().map(Vec::as_slice)) {
             let cells: Vec<Vec<String>> = row
                 .iter()
