@@ -59,7 +59,8 @@ fn curling(source: &Source<'_>, stuffed: &Stuffed) -> Option<String> {
         return Some("The stuffed silhouette is a rough one: the search for it did not come to its end.".into());
     }
     let size = source.design.mesh.body_length();
-    if stuffed.moved_mm <= TOLD_OFF * size {
+    let is_compensated = !std::ptr::eq(source.skin, source.design);
+    if is_compensated || stuffed.moved_mm <= TOLD_OFF * size {
         return None;
     }
     let rest = if source.options.compensate {
