@@ -25,6 +25,10 @@ const WATCH: Duration = Duration::from_millis(100);
 /// How long folds and switches take, s.
 const MOVES_S: f32 = 0.1;
 
+/// How long a press may last and still be a click, s: frames come slowly where they are drawn in software, and a press seen in one and its release in the next
+/// must not be lost. A finger that rests for the second time asks for the menu.
+const CLICK_S: [f64; 2] = [3.0, 0.8];
+
 pub struct Studio {
     session: Session,
     timeline: panels::timeline::State,
@@ -145,6 +149,8 @@ impl Studio {
         let (now_s, passed_s, hands_off) = ctx
             .input(|i| (i.time, f64::from(i.stable_dt), !i.pointer.any_down() && i.pointer.press_origin().is_none()));
         let typing = ctx.text_edit_focused();
+        let touched = ctx.input(egui::InputState::any_touches);
+        ctx.options_mut(|options| options.input_options.max_click_duration = CLICK_S[usize::from(touched)]);
         // Whatever else Escape means, motors that are driven live stop.
         if ctx.input(|i| i.key_pressed(egui::Key::Escape)) {
             acts::motors::stop(&mut self.session);

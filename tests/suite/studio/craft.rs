@@ -27,6 +27,25 @@ fn every_stop_of_the_tab_key_is_seen() {
     assert!(!ringed(&window));
 }
 
+/// The frame of the press and that of the release are more than a second apart where a large window is drawn in software.
+#[test]
+fn a_press_and_its_release_in_slow_frames_are_a_click() {
+    let mut window = window(bar());
+    assert!(window.query_by_label("Propose networks").is_some());
+    let at = window.get_by_label("Mesh").rect().center();
+    window.hover_at(at);
+    window.step();
+    window.drag_at(at);
+    let begun = window.ctx.input(|input| input.time);
+    while window.ctx.input(|input| input.time) < begun + 1.5 {
+        window.step();
+    }
+    window.drop_at(at);
+    window.step();
+    window.step();
+    assert!(window.query_by_label("Propose networks").is_none());
+}
+
 #[test]
 fn messages_stand_beside_the_views_and_all_of_them_in_the_log() {
     let mut window = window(bar());
