@@ -84,11 +84,11 @@ fn corrected(mut there: Trial, membrane: &Membrane, stiffness: &mut Stiffness, b
         let mut correction: Nodes = wanted.map(|(g, now)| [0, 1, 2].map(|k| (1.0 - t) * g[k] - now[k])).collect();
         stiffness.solve(&mut correction);
         let other = Trial::at(membrane, added(&there.x, 1.0, &correction));
-        // Not where there is no number.
-        if !(other.energy < there.energy) {
+        if other.energy < there.energy {
+            there = other;
+        } else {
             break;
         }
-        there = other;
     }
     there
 }
