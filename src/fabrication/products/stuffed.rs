@@ -66,7 +66,7 @@ fn curling(source: &Source<'_>, stuffed: &Stuffed) -> Option<String> {
     let rest = if source.options.compensate {
         ""
     } else {
-        " With --compensate the pattern is cut so that it comes to lie as drawn."
+        " A pattern that is compensated for stuffing is cut so that it comes to lie as drawn."
     };
     let moved_mm = stuffed.moved_mm;
     Some(format!(
