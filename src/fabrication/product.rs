@@ -72,6 +72,11 @@ pub struct Shared {
 }
 
 impl Source<'_> {
+    /// Whether the pattern is cut otherwise than the body is drawn.
+    pub fn is_compensated(&self) -> bool {
+        !std::ptr::eq(self.skin, self.design)
+    }
+
     /// The front of the skin.
     pub fn piece(&self) -> &Piece {
         self.shared.piece.get_or_init(|| Piece::front(self.skin, &self.options.cutting))

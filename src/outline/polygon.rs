@@ -53,8 +53,8 @@ pub fn nearest(segments: impl Iterator<Item = (Point, Point)>, p: Point) -> f64 
         let [dx, dy] = [q[0] - p[0], q[1] - p[1]];
         (dx * dx + dy * dy, (a, b))
     };
-    let first = segments.map(squared).reduce(|best, next| if next.0 < best.0 { next } else { best });
-    first.map_or(f64::INFINITY, |(_, (a, b))| distance_to_segment(a, b, p))
+    let nearest = segments.map(squared).reduce(|best, next| if next.0 < best.0 { next } else { best });
+    nearest.map_or(f64::INFINITY, |(_, (a, b))| distance_to_segment(a, b, p))
 }
 
 /// Distance from `p` to the segment from `a` to `b`.

@@ -26,8 +26,10 @@ const WATCH: Duration = Duration::from_millis(100);
 const MOVES_S: f32 = 0.1;
 
 /// How long a press may last and still be a click, s: frames come slowly where they are drawn in software, and a press seen in one and its release in the next
-/// must not be lost. A finger that rests for the second time asks for the menu.
-const CLICK_S: [f64; 2] = [3.0, 0.8];
+/// must not be lost.
+const CLICK_S: f64 = 3.0;
+/// How long a finger rests on the screen to ask for the menu, s: egui's own bound.
+const LONG_TOUCH_S: f64 = 0.8;
 
 pub struct Studio {
     session: Session,
@@ -150,7 +152,9 @@ impl Studio {
             .input(|i| (i.time, f64::from(i.stable_dt), !i.pointer.any_down() && i.pointer.press_origin().is_none()));
         let typing = ctx.text_edit_focused();
         let touched = ctx.input(egui::InputState::any_touches);
-        ctx.options_mut(|options| options.input_options.max_click_duration = CLICK_S[usize::from(touched)]);
+        ctx.options_mut(|options| {
+            options.input_options.max_click_duration = if touched { LONG_TOUCH_S } else { CLICK_S }
+        });
         // Whatever else Escape means, motors that are driven live stop.
         if ctx.input(|i| i.key_pressed(egui::Key::Escape)) {
             acts::motors::stop(&mut self.session);

@@ -20,9 +20,10 @@ const GAP_OBSTACLE: f64 = 0.5;
 /// What a way to the winches that is nothing as wide as it should be costs a turning gap, on the same scale: a tenth less is as bad as lying at
 /// the top.
 const GAP_ACCESS: f64 = 10.0;
-/// What lying on a limb as thin as paper costs a turning gap, on the same scale: one half as thick as the trunk is as bad as lying at the top. And how thick a body no longer is a limb, as a part of its thickest
-/// place: a limb is awkward to stuff through, and its seam is bent most.
+/// What lying on a limb as thin as paper costs a turning gap, on the same scale: a limb is awkward to stuff through, and its seam is bent most. One
+/// half as thick as the trunk is as bad as lying at the top.
 const GAP_ON_LIMB: f64 = 2.5;
+/// How thick a body is that is no limb, as a part of its thickest place.
 const NO_LIMB: f64 = 0.8;
 /// How wide the way should be, over what a housing needs: hands and stuffing go there too.
 const GAP_ROOM: f64 = 1.2;

@@ -14,7 +14,7 @@ const WORDS_MM: f64 = 3.4;
 /// Limbs told one by one.
 const TOLD: usize = 8;
 /// How far parts may lie from where they are drawn before it is told, as a part of the body's length.
-const TOLD_OFF: f64 = 0.03;
+const TOLD_MOVE: f64 = 0.03;
 
 /// The sheet `stuffed`.
 pub(super) fn make(source: &Source<'_>) -> Result<Part, ExportError> {
@@ -59,8 +59,7 @@ fn curling(source: &Source<'_>, stuffed: &Stuffed) -> Option<String> {
         return Some("The stuffed silhouette is a rough one: the search for it did not come to its end.".into());
     }
     let size = source.design.mesh.body_length();
-    let is_compensated = !std::ptr::eq(source.skin, source.design);
-    if is_compensated || stuffed.moved_mm <= TOLD_OFF * size {
+    if source.is_compensated() || stuffed.moved_mm <= TOLD_MOVE * size {
         return None;
     }
     let rest = if source.options.compensate {
@@ -93,14 +92,8 @@ fn uncompensated(source: &Source<'_>, why: &Impossible) -> String {
 
 /// Both silhouettes, and the widths of limbs.
 fn sheet(source: &Source<'_>, stuffed: &Stuffed) -> Sheet {
-    // As it was drawn, where it is cut otherwise.
-    let is_cut_otherwise = !std::ptr::eq(source.skin, source.design);
-    let outline = &source.design.outline;
-    let as_drawn: Vec<Vec<Point>> = if is_cut_otherwise {
-        std::iter::once(&outline.outer).chain(&outline.holes).cloned().collect()
-    } else {
-        vec![]
-    };
+    let drawn = source.is_compensated().then_some(&source.design.outline);
+    let as_drawn: Vec<Vec<Point>> = drawn.iter().flat_map(|outline| outline.polygons()).map(Vec::from).collect();
     let all: Vec<Point> = stuffed.flat.iter().chain(&stuffed.rings).chain(&as_drawn).flatten().copied().collect();
     let (low, high) = bounding_box(&all);
     let base = 2.0 * MARGIN_MM;
@@ -135,7 +128,7 @@ fn sheet(source: &Source<'_>, stuffed: &Stuffed) -> Sheet {
             note.text(at, WORDS_MM, Anchor::Start, text);
         }
     }
-    let dotted = if is_cut_otherwise { ", dotted as drawn" } else { "" };
+    let dotted = if source.is_compensated() { ", dotted as drawn" } else { "" };
     let words = format!(
         "{}: dashed as cut, solid when stuffed{dotted}, {:.0} mm thick",
         source.design.name, stuffed.thickness_mm

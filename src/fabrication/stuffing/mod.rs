@@ -46,15 +46,17 @@ pub struct Stuffed {
 /// The stuffed body of a design as it was `drawn`: the same one, unless its pattern was [`compensated`]. It lies over the drawn one.
 pub fn stuffed(design: &Design, drawn: &Design) -> Stuffed {
     // A finer mesh tells no more of a silhouette.
-    let coarse =
-        (design.mesh.triangles.len() > MOST_TRIANGLES).then(|| crate::mesh::generate(&design.outline, COARSE_FIBERS));
-    let fine = refined(coarse.as_ref().and_then(|mesh| mesh.as_ref().ok()).unwrap_or(&design.mesh));
+    let coarse = (design.mesh.triangles.len() > MOST_TRIANGLES)
+        .then(|| crate::mesh::generate(&design.outline, COARSE_FIBERS).ok())
+        .flatten();
+    let fine = refined(coarse.as_ref().unwrap_or(&design.mesh));
     let shape = Shape::of(&fine, None);
-    // The nodes of a mesh keep their numbers in a finer one.
-    let seen = if coarse.is_some() { shape.seen } else { over(&drawn.mesh.boundary(), &drawn.mesh.nodes, &shape.seen) };
+    // Patterns are compensated on the body's own mesh, whose nodes keep their numbers in both designs and in finer meshes.
+    let drawn_mesh = coarse.as_ref().unwrap_or(&drawn.mesh);
+    let as_drawn = refined(drawn_mesh).nodes;
+    let seen = over(&drawn_mesh.boundary(), &drawn_mesh.nodes, &shape.seen);
     let near = drawn.outline.near();
     let on_rim: Vec<usize> = fine.boundary().into_iter().flatten().collect();
-    let as_drawn = if coarse.is_some() { fine.nodes.clone() } else { refined(&drawn.mesh).nodes };
     let farthest = |off: &dyn Fn(usize) -> f64| on_rim.iter().map(|&node| off(node)).fold(0.0, f64::max);
     Stuffed {
         off_mm: farthest(&|node| near.distance(seen[node])),

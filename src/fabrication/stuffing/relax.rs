@@ -7,20 +7,20 @@
 use super::membrane::Membrane;
 use super::stiffness::Stiffness;
 
-/// Most iterations.
+/// Most iterations: several times what the slowest body takes that was tried.
 const MOST_ITERATIONS: usize = 150;
-/// Largest force that is left, over the pressure on the area around a node, dimensionless.
+/// Largest force that is left, over the pressure on the area around a node, dimensionless: the last steps converge quadratically, so that it costs one.
 const FORCE: f64 = 1e-4;
 /// Sufficient decrease, what of the energy is rounding, and the most halvings of a step (Armijo).
 const DECREASE: f64 = 1e-4;
 const ROUNDING: f64 = 1e-13;
 const MOST_HALVINGS: usize = 30;
-/// Longest step, as a part of the sheet's length.
+/// Longest step, as a part of the sheet's length: a limb swings by no more than the step's second order can mend.
 const LONGEST: f64 = 0.1;
 /// Corrections of a step at most.
 const CORRECTIONS: usize = 2;
 
-pub type Nodes = Vec<[f64; 3]>;
+type Nodes = Vec<[f64; 3]>;
 
 /// Where the sheet rests, from `start`, and whether it does: forces are in balance.
 pub fn relaxed(membrane: &Membrane, start: Nodes) -> (Nodes, bool) {
@@ -74,7 +74,8 @@ impl Trial {
     }
 }
 
-/// With what is wrong with a step of length `t` to second order taken out, `-H^-1 [g(x + t s) - (1 - t) g(x)]`, as far as that lowers the energy.
+/// With what is wrong with a step of length `t` to second order taken out, `-H^-1 [g(x + t s) - (1 - t) g(x)]`, as far as that lowers the energy: what
+/// the statics of bodies do in curved valleys.
 fn corrected(mut there: Trial, membrane: &Membrane, stiffness: &mut Stiffness, before: &Nodes, t: f64) -> Trial {
     for _ in 0..CORRECTIONS {
         if !there.energy.is_finite() {

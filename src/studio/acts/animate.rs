@@ -84,16 +84,18 @@ fn first_steps(session: &Session) -> Vec<(Option<String>, f64)> {
     }
 }
 
-/// The first keyframes are worked out: one step.
-pub fn take_first(session: &mut Session, serial: u64, keyed: Result<Vec<Keyed>, Error>) {
+/// What a job for keyframes has found, if it is the one that is waited for; what was wrong is told.
+fn worked_out<T>(session: &mut Session, serial: u64, keyed: Result<T, Error>) -> Option<T> {
     if !Running::is(session.keying.as_ref(), serial) {
-        return;
+        return None;
     }
     session.keying = None;
-    let keyed = match keyed {
-        Ok(keyed) => keyed,
-        Err(error) => return session.messages.error(words::unkeyed(&error)),
-    };
+    keyed.map_err(|error| session.messages.error(words::unkeyed(&error))).ok()
+}
+
+/// The first keyframes are worked out: one step.
+pub fn take_first(session: &mut Session, serial: u64, keyed: Result<Vec<Keyed>, Error>) {
+    let Some(keyed) = worked_out(session, serial, keyed) else { return };
     for Note::Unbalanced(unbalanced) in keyed.iter().flat_map(|keyed| &keyed.notes) {
         session.messages.warning(unbalanced.to_string());
     }
@@ -128,14 +130,7 @@ fn start_keying(session: &mut Session, time_s: f64) {
 
 /// The keyframe is worked out.
 pub fn take_key(session: &mut Session, serial: u64, keyed: Result<Keyed, Error>) {
-    if !Running::is(session.keying.as_ref(), serial) {
-        return;
-    }
-    session.keying = None;
-    let keyed = match keyed {
-        Ok(keyed) => keyed,
-        Err(error) => return session.messages.error(words::unkeyed(&error)),
-    };
+    let Some(keyed) = worked_out(session, serial, keyed) else { return };
     let time_s = keyed.keyframe.time_s;
     for Note::Unbalanced(unbalanced) in &keyed.notes {
         session.messages.warning(tf!("The keyframe at {time_s:.2} s: {unbalanced}", time_s, unbalanced));
