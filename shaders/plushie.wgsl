@@ -10,8 +10,6 @@ struct View {
     half_size: vec2f,
     // Physical pixels per logical pixel.
     pixels_per_point: f32,
-    // 1 where the target converts from linear light by itself.
-    linear_target: f32,
 }
 
 @group(0) @binding(0) var<uniform> view: View;
@@ -20,11 +18,12 @@ fn to_clip(p: vec2f) -> vec2f {
     return (p - view.center) * view.scale;
 }
 
-// Premultiplied, in the light the target wants.
+// Premultiplied, in the light the target wants. `LINEAR_TARGET`, from the renderer: it converts from linear light by itself.
 fn shade(color: vec4f, coverage: f32) -> vec4f {
-    let gamma = color.rgb;
-    let linear = select(gamma / 12.92, pow((gamma + 0.055) / 1.055, vec3f(2.4)), gamma > vec3f(0.04045));
-    let rgb = mix(gamma, linear, view.linear_target);
+    var rgb = color.rgb;
+    if LINEAR_TARGET {
+        rgb = select(rgb / 12.92, pow((rgb + 0.055) / 1.055, vec3f(2.4)), rgb > vec3f(0.04045));
+    }
     let alpha = color.a * coverage;
     return vec4f(rgb * alpha, alpha);
 }

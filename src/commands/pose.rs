@@ -26,9 +26,9 @@ use std::sync::atomic::AtomicBool;
 pub struct Pose {
     /// Design file to read
     pub design: PathBuf,
-    /// Name of the pose
-    #[arg(long, value_name = "P")]
-    pub name: String,
+    /// Name of the pose [default with --begin: Wave]
+    #[arg(long, value_name = "P", required_unless_present = "begin")]
+    pub name: Option<String>,
     /// Hold this point of the body where it is at rest (mm; repeatable)
     #[arg(long = "pin", value_name = "X,Y", value_parser = parse_point, allow_hyphen_values = true)]
     pub pins: Vec<Point>,
@@ -71,18 +71,18 @@ impl Pose {
     pub fn run(&self, out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
         let (mut design, edit) = self.target.open(&self.design, cancel)?;
         let options = Options {
-            name: self.name.clone(),
+            name: self.name.clone().unwrap_or_default(),
             pins: self.pins.clone(),
             held: self.lines.iter().chain(&self.regions).copied().collect(),
             targets: self.targets.clone(),
             middle: self.pin_middle,
             begin: self.begin,
         };
-        pose::run(&mut design, &options, &Context::new(cancel)).map_err(failed)?;
-        let name = self.name.trim();
-        let targets = design.poses.iter().find(|p| p.name == name).map_or(0, |p| p.targets.len());
+        let pose = pose::run(&mut design, &options, &Context::new(cancel)).map_err(failed)?;
+        let name = design.poses[pose].name.as_str();
+        let targets = design.poses[pose].targets.len();
         if targets == 0 && self.pins.is_empty() && options.held.is_empty() && !self.pin_middle {
-            return Err(self.without_targets(&design));
+            return Err(without_targets(&design, name));
         }
         edit.save(&design, cancel)?;
         if self.json {
@@ -102,19 +102,13 @@ impl Pose {
     }
 }
 
-impl Pose {
-    /// A pose that asks nothing of the body: what is missing, and where its points are.
-    fn without_targets(&self, design: &Design) -> CommandError {
-        let (low, high) = design.outline.bounding_box();
-        CommandError::Usage(format!(
-            "the pose `{}` has no targets: give at least one --target X,Y=X2,Y2, from a point of the body (X {:.0} to {:.0}, Y {:.0} to {:.0} mm)",
-            self.name.trim(),
-            low[0],
-            high[0],
-            low[1],
-            high[1]
-        ))
-    }
+/// A pose that asks nothing of the body: what is missing, and where its points are.
+fn without_targets(design: &Design, name: &str) -> CommandError {
+    let (low, high) = design.outline.bounding_box();
+    CommandError::Usage(format!(
+        "the pose `{name}` has no targets: give at least one --target X,Y=X2,Y2, from a point of the body (X {:.0} to {:.0}, Y {:.0} to {:.0} mm)",
+        low[0], high[0], low[1], high[1]
+    ))
 }
 
 pub fn failed(error: Error) -> CommandError {

@@ -23,7 +23,7 @@ const SAME_MM: f64 = 1e-3;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Options {
-    /// Name of the pose, which is made where it is missing.
+    /// Name of the pose, which is made where it is missing. Empty: the one that `begin` gives.
     pub name: String,
     /// Places that are held where they are at rest.
     pub pins: Vec<Point>,
@@ -59,11 +59,11 @@ pub enum Error {
     Cancelled(#[from] Cancelled),
 }
 
-/// Adds pins to `design` and targets to one of its poses. One on a point that has one already replaces it.
+/// Adds pins to `design` and targets to one of its poses, whose number it returns. One on a point that has one already replaces it.
 ///
 /// # Errors
 /// A place is not on the body, or a name is none; the design is as it was then.
-pub fn run(design: &mut Design, options: &Options, context: &Context) -> Result<(), Error> {
+pub fn run(design: &mut Design, options: &Options, context: &Context) -> Result<usize, Error> {
     context.check()?;
     let mut changed = design.clone();
     for &place in &options.pins {
@@ -78,13 +78,11 @@ pub fn run(design: &mut Design, options: &Options, context: &Context) -> Result<
         pin_middle(&mut changed)?;
     }
     let name = options.name.trim();
-    if options.begin {
-        let pose = begin(&mut changed)?;
-        if !name.is_empty() {
-            edit::rename_pose(&mut changed, pose, name)?;
-        }
+    let begun = if options.begin { Some(begin(&mut changed)?) } else { None };
+    if let Some(pose) = begun.filter(|_| !name.is_empty()) {
+        edit::rename_pose(&mut changed, pose, name)?;
     }
-    let pose = match changed.poses.iter().position(|p| p.name == name) {
+    let pose = match begun.or_else(|| changed.poses.iter().position(|p| p.name == name)) {
         Some(pose) => pose,
         None => edit::add_pose(&mut changed, Pose { name: name.to_owned(), targets: Vec::new() })?,
     };
@@ -93,7 +91,7 @@ pub fn run(design: &mut Design, options: &Options, context: &Context) -> Result<
         put_target(&mut changed, pose, Target { at, to, weight: 1.0 })?;
     }
     *design = changed;
-    Ok(())
+    Ok(pose)
 }
 
 /// Holds a point of the body where it is at rest, and returns the number of the pin.

@@ -1,6 +1,7 @@
 //! Areas of the plane as polygons with holes: union, difference, growing and shrinking.
 
 use super::{OutlineError, Point, polygon};
+use crate::threads;
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::simplify::SimplifyShape;
@@ -16,9 +17,9 @@ const ROUND_JOIN: f64 = 0.3;
 /// Most vertices that are united at once: a second or two and half a gigabyte.
 const MAX_POINTS: usize = 3_000_000;
 const TOO_MANY: OutlineError = OutlineError::TooComplex("has more than three million points");
-/// Areas of more points than this are united so many at a time.
+/// Areas of more points than this are united so many at a time: of 4, 8, 16 and 48 the quickest for 29 000 hairs, or next to it.
 const BATCHED_FROM: usize = 20_000;
-const BATCH: usize = 48;
+const BATCH: usize = 8;
 /// Largest coordinate, in any unit: beyond it nothing is a drawing, and differences lose their digits.
 const MAX_COORDINATE: f64 = 1e12;
 /// Vertices from which crossings are estimated before the areas are resolved; fewer cannot cross too often.
@@ -33,6 +34,12 @@ const TANGLE_SAMPLES: u64 = 400_000;
 /// # Errors
 /// [`OutlineError::TooComplex`] where that would take unbounded time.
 pub(super) fn resolve(contours: &Vec<Vec<Point>>, rule: FillRule) -> Result<Shapes, OutlineError> {
+    checked(contours)?;
+    Ok(contours.simplify_shape_as::<i64>(rule))
+}
+
+/// Nothing that the overlay library cannot take, or not in bounded time.
+fn checked(contours: &[Vec<Point>]) -> Result<(), OutlineError> {
     let points: usize = contours.iter().map(Vec::len).sum();
     // The overlay library asserts finite coordinates of a sane size.
     if !contours.iter().flatten().flatten().all(|v| v.abs() < MAX_COORDINATE) {
@@ -44,7 +51,7 @@ pub(super) fn resolve(contours: &Vec<Vec<Point>>, rule: FillRule) -> Result<Shap
     if points > TANGLE_FROM && crossings(contours, points) > MAX_CROSSINGS {
         return Err(OutlineError::TooComplex("crosses itself millions of times"));
     }
-    Ok(contours.simplify_shape_as::<i64>(rule))
+    Ok(())
 }
 
 /// One region from areas that may overlap.
@@ -60,13 +67,20 @@ pub(super) fn union(mut shapes: Shapes) -> Result<Shapes, OutlineError> {
     while shapes.len() > BATCH && points(&shapes) > BATCHED_FROM {
         let before = shapes.len();
         shapes = by_place(shapes);
-        let united = shapes.chunks(BATCH).map(|batch| resolve(&batch.concat(), FillRule::NonZero));
-        shapes = united.collect::<Result<Vec<_>, _>>()?.concat();
+        let batches: Vec<&[Vec<Vec<Point>>]> = shapes.chunks(BATCH).collect();
+        let united = threads::in_order(&batches, |batch| nearby(&batch.concat()));
+        shapes = united.into_iter().collect::<Result<Vec<_>, _>>()?.concat();
         if 2 * shapes.len() > before {
             break;
         }
     }
     resolve(&shapes.into_iter().flatten().collect(), FillRule::NonZero)
+}
+
+/// [`resolve`] for a few areas that are next to each other, more than twice as fast: corners are taken to a billionth of the box around them.
+fn nearby(contours: &Vec<Vec<Point>>) -> Result<Shapes, OutlineError> {
+    checked(contours)?;
+    Ok(contours.simplify_shape_as::<i32>(FillRule::NonZero))
 }
 
 /// Areas in the order of a curve that fills their box (Morton 1966), so that those next to each other are near each other.
@@ -183,8 +197,9 @@ mod tests {
         assert!(shapes.iter().flatten().map(Vec::len).sum::<usize>() > BATCHED_FROM);
         let at_once = resolve(&shapes.concat(), FillRule::NonZero).unwrap();
         let batched = union(shapes).unwrap();
-        assert!((area(&batched) - area(&at_once)).abs() < 1e-6, "{} {}", area(&batched), area(&at_once));
-        assert!(unlike(&batched, &at_once) < 1e-6);
+        // Corners of batches are right to a billionth of 20, and some 10 000 lengths of boundary depend on them.
+        assert!((area(&batched) - area(&at_once)).abs() < 1e-4, "{} {}", area(&batched), area(&at_once));
+        assert!(unlike(&batched, &at_once) < 1e-4);
         assert_eq!(batched.len(), at_once.len());
     }
 

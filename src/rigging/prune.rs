@@ -11,12 +11,16 @@ pub(super) const PRICE: f64 = 0.03;
 /// Steps of improvement after something was left out.
 const STEPS: usize = 25;
 
-/// The fit without what costs little: whole winches first, then tendons as far as the topology allows, then points.
+/// The fit without what costs little: whole winches first, then tendons as far as the topology allows, then points. A winch is a motor to buy, to
+/// house and to wire: where a rig is to be sewn, none is kept for what nobody sees.
 pub(super) fn pruned(task: &Task, topology: &Topology, fit: Fit, stop: &dyn Fn() -> bool) -> Fit {
     let mut now = fit;
-    for fewer in [without_a_winch, without_a_tendon, without_a_point] {
+    let unseen = if task.sewable.is_some() { task.unseen() } else { 0.0 };
+    let kinds: [(Kind, f64); 3] =
+        [(without_a_winch, SERVED.max(unseen)), (without_a_tendon, SERVED), (without_a_point, SERVED)];
+    for (fewer, served) in kinds {
         loop {
-            let most = (now.worst() * (1.0 + PRICE)).max(SERVED);
+            let most = (now.worst() * (1.0 + PRICE)).max(served);
             let tried = fewer(&now.layout, topology).into_iter().filter_map(|(layout, kept)| {
                 let begun = task.resume(layout, &kept.map_or_else(|| now.clone(), |winch| now.without(winch)), stop)?;
                 let improved = task.wound(task.improve(begun, STEPS, false, stop), STEPS, stop)?;
@@ -35,6 +39,8 @@ pub(super) fn pruned(task: &Task, topology: &Topology, fit: Fit, stop: &dyn Fn()
 
 /// A layout, and the winch that it lacks.
 type Fewer = Vec<(Layout, Option<usize>)>;
+/// Ways to leave one thing of a kind out.
+type Kind = fn(&Layout, &Topology) -> Fewer;
 
 fn without_a_winch(layout: &Layout, topology: &Topology) -> Fewer {
     let optional = layout.winches.len() > 1 && topology.tendons.iter().any(|[fewest, most]| fewest < most);

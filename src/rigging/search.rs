@@ -8,7 +8,7 @@ use super::layout::{Layout, rigs_of};
 use super::moves::{Sampler, Topology};
 use super::options::{Method, Progress, RigError, RigOptions, TendonChoice};
 use super::prune::{SERVED, pruned};
-use super::refine::{Fit, Start, Task};
+use super::refine::{Fit, SEEN, Start, Task};
 use super::robust::{self, Sewn};
 use super::sewable::Sewable;
 use crate::design::{Design, Network, Pose, Target, remesh};
@@ -29,8 +29,6 @@ const FINALISTS: usize = 5;
 const SHARPENING: usize = 40;
 /// The best of those are improved for what a hand makes of them, too.
 const STEADIED: usize = 3;
-/// Errors that differ by less cannot be told from each other on the table, body lengths: half a millimetre of a hand's length.
-const SEEN: f64 = 2e-3;
 /// Rounds after which islands are left for new ones, if none has left less than this part of the worst pose's error.
 const PATIENCE: usize = 25;
 const GAIN: f64 = 0.99;
@@ -92,8 +90,8 @@ fn together(
 }
 
 /// The layout whose worst pose is best as a part of its error at rest: as a hand sews it where it should, with friction where the design has it; a
-/// rig that has no figure there is the last choice. Where it is to be sewn, it is the one that pulls least of those that nobody can tell from it: on
-/// the felt, on a hand, on a motor.
+/// rig that has no figure there is the last choice. Where it is to be sewn, it is, of those that nobody can tell from it, one with the fewest
+/// winches, and of these the one that pulls least: on the felt, on a hand, on a motor.
 fn chosen(mut verified: Vec<Candidate>, sewn: bool) -> Option<Candidate> {
     let worst = |poses: &[Verified], error: fn(&Verified) -> f64| poses.iter().map(error).fold(0.0, f64::max);
     let order = |poses: &[Verified]| (worst(poses, |p| p.real() / p.rest), worst(poses, |p| p.error / p.rest));
@@ -104,8 +102,8 @@ fn chosen(mut verified: Vec<Candidate>, sewn: bool) -> Option<Candidate> {
     let best: Vec<[f64; 2]> = verified.first()?.1.iter().map(|p| [p.real(), p.real]).collect();
     let worse = |(p, best): (&Verified, &[f64; 2])| p.real() > best[0] + SEEN || p.real > best[1] + SEEN;
     verified.retain(|(_, poses)| !poses.iter().zip(&best).any(worse));
-    let pull = |poses: &[Verified]| worst(poses, |p| p.pull_n);
-    verified.into_iter().min_by(|a, b| pull(&a.1).total_cmp(&pull(&b.1)))
+    let price = |(design, poses): &Candidate| (design.networks.len(), worst(poses, |p| p.pull_n));
+    verified.into_iter().min_by(|a, b| price(a).partial_cmp(&price(b)).unwrap_or(Ordering::Equal))
 }
 
 /// What a check says of the layouts that were found, on the design's own mesh. Where that is interrupted, and results are kept, the best

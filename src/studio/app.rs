@@ -28,7 +28,11 @@ const MOVES_S: f32 = 0.1;
 /// How long a press may last and still be a click, s: frames come slowly where they are drawn in software, and a press seen in one and its release in the next
 /// must not be lost.
 const CLICK_S: f64 = 3.0;
-/// How long a finger rests on the screen to ask for the menu, s: egui's own bound.
+/// How far a pointer may move between a quick press and its release in a click, logical pixels: egui's own bound.
+const CLICK_PX: f32 = 6.0;
+/// The same where the press has lasted for longer than `LONG_TOUCH_S`: who holds on is about to move something by a little.
+const HELD_PX: f32 = 1.5;
+/// How long a finger rests on the screen to ask for the menu, and a press is one that holds on, s: egui's own bound.
 const LONG_TOUCH_S: f64 = 0.8;
 
 pub struct Studio {
@@ -152,8 +156,12 @@ impl Studio {
             .input(|i| (i.time, f64::from(i.stable_dt), !i.pointer.any_down() && i.pointer.press_origin().is_none()));
         let typing = ctx.text_edit_focused();
         let touched = ctx.input(egui::InputState::any_touches);
+        // In the next frame, for which this is asked.
+        let then_s = |i: &egui::InputState| i.time + f64::from(i.stable_dt);
+        let holds = ctx.input(|i| i.pointer.press_start_time().is_some_and(|begun| then_s(i) - begun > LONG_TOUCH_S));
         ctx.options_mut(|options| {
-            options.input_options.max_click_duration = if touched { LONG_TOUCH_S } else { CLICK_S }
+            options.input_options.max_click_duration = if touched { LONG_TOUCH_S } else { CLICK_S };
+            options.input_options.max_click_dist = if holds && !touched { HELD_PX } else { CLICK_PX };
         });
         // Whatever else Escape means, motors that are driven live stop.
         if ctx.input(|i| i.key_pressed(egui::Key::Escape)) {

@@ -1,5 +1,6 @@
 //! Icons drawn with a few strokes, and the buttons that carry them.
 
+use super::style::CORNER;
 use crate::picture::layers;
 use eframe::egui::{
     Color32, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, epaint::PathShape, pos2, vec2,
@@ -60,10 +61,10 @@ pub fn draw_button(ui: &mut Ui, icon: Icon, name: &str, on: Option<bool>, side: 
         let visuals = ui.style().interact(&response);
         let mut color = visuals.fg_stroke.color;
         if on == Some(true) {
-            ui.painter().rect_filled(rect, 6.0, ui.visuals().selection.bg_fill);
+            ui.painter().rect_filled(rect, CORNER, ui.visuals().selection.bg_fill);
             color = ui.visuals().selection.stroke.color;
         } else if response.hovered() && enabled || response.has_focus() {
-            ui.painter().rect_filled(rect, 6.0, visuals.weak_bg_fill);
+            ui.painter().rect_filled(rect, CORNER, visuals.weak_bg_fill);
         }
         let shapes = draw(icon, Rect::from_center_size(rect.center(), Vec2::splat(side * 0.6)), color);
         ui.painter().extend(shapes);

@@ -10,6 +10,10 @@ use eframe::egui::{
     self, Color32, CornerRadius, FontFamily, FontId, Margin, Shadow, Stroke, TextStyle, Visuals, emath, vec2,
 };
 
+/// Radius of the corners of buttons and fields, logical pixels: beyond 5 egui takes twice as many triangles to round a corner, and where they are
+/// drawn in software buttons are most of what a frame takes.
+pub const CORNER: u8 = 5;
+
 /// The colour of the tool itself: primary buttons, selection, playhead.
 pub fn accent(theme: Theme) -> Color32 {
     match theme {
@@ -104,7 +108,7 @@ fn visuals(theme: Theme) -> Visuals {
         bg_fill: tone(fill + 0.04),
         bg_stroke: if border > 0.0 { Stroke::new(1.0, tone(border)) } else { Stroke::NONE },
         fg_stroke: Stroke::new(1.2, tone(text)),
-        corner_radius: CornerRadius::same(6),
+        corner_radius: CornerRadius::same(CORNER),
         expansion: 0.0,
     };
     v.widgets.noninteractive = widget(0.0, 0.14, 0.82);

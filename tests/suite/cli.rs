@@ -212,6 +212,17 @@ fn a_pose_travels_from_the_command_line_to_the_check() {
 }
 
 #[test]
+fn a_body_that_was_just_made_begins_with_a_pose_of_its_own_or_the_name_that_is_given() {
+    let folder = bar();
+    let f = folder.path();
+    let made = succeed(f, &["pose", "bar.plush", "--begin", "-o", "one.plush"]);
+    assert!(made.contains("pose Wave has 1 targets"), "{made}");
+    let made = succeed(f, &["pose", "bar.plush", "--begin", "--name", "nod", "-o", "two.plush"]);
+    assert!(made.contains("pose nod has 1 targets"), "{made}");
+    fail(f, 2, &["pose", "bar.plush", "-o", "three.plush"]);
+}
+
+#[test]
 fn keyframes_of_poses_are_worked_out_again_where_targets_have_changed() {
     let folder = tempfile::tempdir().unwrap();
     let (f, pig) = (folder.path(), folder.path().join("pig.plush"));

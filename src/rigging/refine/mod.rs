@@ -18,4 +18,4 @@ mod task;
 mod trim;
 
 pub(super) use improve::KEPT;
-pub use task::{Fit, Start, Task};
+pub use task::{Fit, SEEN, Start, Task};

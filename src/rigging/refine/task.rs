@@ -25,6 +25,9 @@ const FIRST_ACTIVATION: f64 = 0.25;
 /// nobody can see, or type.
 const GRAIN_MM: f64 = 1e-3;
 
+/// Errors that differ by less cannot be told from each other on the table, body lengths: half a millimetre of a hand's length.
+pub const SEEN: f64 = 2e-3;
+
 /// Activations and positions that a pose is begun from.
 pub type Start = (Vec<f64>, Vec<f64>);
 
@@ -104,6 +107,15 @@ impl<'a> Task<'a> {
         let poses = poses.filter_map(with_miss).collect();
         let rings = design.mesh.boundary();
         Self { design, poses, sewable, fixed, trims: Trims::default(), rings, power: POWER, whole: 1.0 }
+    }
+
+    /// The part of its error at rest that nobody sees in any pose ([`SEEN`]).
+    pub(in crate::rigging) fn unseen(&self) -> f64 {
+        let seen_mm = SEEN * self.design.body_length_mm();
+        let part = |(targets, miss): &(Vec<Target>, f64)| {
+            seen_mm * (targets.iter().map(|t| t.weight).sum::<f64>() / miss).sqrt()
+        };
+        self.poses.iter().map(part).fold(f64::INFINITY, f64::min)
     }
 
     /// With more unknowns of cables.

@@ -108,9 +108,13 @@ fn shown(ui: &mut Ui, session: &Session, edited: &mut PathDialog) {
         match seen {
             Ok(previewed) => {
                 picture(ui, session.files.preview.serial(), &previewed.picture);
-                ScrollArea::vertical().id_salt("preview notes").max_height(SHOWN_PX).show(ui, |ui| {
-                    ui.vertical(|ui| told(ui, previewed, tells, &mut edited.import.options.import));
-                });
+                ScrollArea::vertical()
+                    .id_salt("preview notes")
+                    .max_height(SHOWN_PX)
+                    .min_scrolled_height(SHOWN_PX)
+                    .show(ui, |ui| {
+                        ui.vertical(|ui| told(ui, previewed, tells, &mut edited.import.options.import));
+                    });
             }
             Err(why) if tells => {
                 ui.label(RichText::new(sentence(why)).color(ui.visuals().error_fg_color));

@@ -16,7 +16,11 @@ pub fn show(ctx: &Context, session: &Session, actions: &mut Actions) {
         ui.heading(t("Messages"));
         ui.add_space(6.0);
         let most = 0.6 * ui.ctx().content_rect().height();
-        ScrollArea::vertical().max_height(most).auto_shrink([false, true]).show(ui, |ui| lines(ui, session));
+        ScrollArea::vertical()
+            .max_height(most)
+            .min_scrolled_height(most)
+            .auto_shrink([false, true])
+            .show(ui, |ui| lines(ui, session));
         ui.add_space(6.0);
         if ui.button(t("Close")).clicked() {
             actions.push(Action::Overlay(None));

@@ -68,7 +68,9 @@ pub fn show(ctx: &Context, session: &Session, state: &mut State, actions: &mut A
                 }
             });
             let most = 0.74 * ui.ctx().content_rect().height();
-            ScrollArea::vertical().max_height(most).auto_shrink([false, true]).show(ui, |ui| {
+            // At once: left to itself it grows with the page around it, frame by frame, and what a hand is about to press moves.
+            let scroll = ScrollArea::vertical().max_height(most).min_scrolled_height(most).auto_shrink([false, true]);
+            scroll.show(ui, |ui| {
                 left_behind(ui, session, state, shots, actions);
                 examples(ui, state, shots, actions);
                 recent(ui, session, state, shots, actions);

@@ -36,7 +36,6 @@ struct Renderer {
     capsule: wgpu::RenderPipeline,
     layout: wgpu::BindGroupLayout,
     skin: Skin,
-    linear_target: f32,
     views: HashMap<u64, View>,
 }
 
@@ -66,7 +65,8 @@ struct Uniform {
     scale: [f32; 2],
     half_size: [f32; 2],
     pixels_per_point: f32,
-    linear_target: f32,
+    /// To a multiple of the alignment.
+    end: f32,
 }
 
 /// Corners and capsules as the shaders read them.
@@ -127,10 +127,11 @@ impl CallbackTrait for ViewCallback {
 
 impl Renderer {
     fn new(device: &wgpu::Device, format: wgpu::TextureFormat, samples: u32) -> Self {
+        let linear = format!("const LINEAR_TARGET = {};\n", format.is_srgb());
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("plushie"),
             source: wgpu::ShaderSource::Wgsl(
-                (plush::constants() + include_str!("../../../shaders/plushie.wgsl")).into(),
+                (plush::constants() + &linear + include_str!("../../../shaders/plushie.wgsl")).into(),
             ),
         });
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
@@ -151,7 +152,8 @@ impl Renderer {
         let pipeline = |[corners, name]: [&str; 2],
                         bind_group_layouts,
                         buffers: &[Option<wgpu::VertexBufferLayout<'_>>],
-                        topology| {
+                        topology,
+                        blend: Option<wgpu::BlendState>| {
             let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some(name),
                 bind_group_layouts,
@@ -172,11 +174,7 @@ impl Renderer {
                 fragment: Some(wgpu::FragmentState {
                     module: &module,
                     entry_point: Some(&format!("{name}_fragment")),
-                    targets: &[Some(wgpu::ColorTargetState {
-                        format,
-                        blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
-                        write_mask: wgpu::ColorWrites::ALL,
-                    })],
+                    targets: &[Some(wgpu::ColorTargetState { format, blend, write_mask: wgpu::ColorWrites::ALL })],
                     compilation_options: Default::default(),
                 }),
                 multiview_mask: None,
@@ -184,20 +182,17 @@ impl Renderer {
             })
         };
         let (list, strip) = (wgpu::PrimitiveTopology::TriangleList, wgpu::PrimitiveTopology::TriangleStrip);
+        let over = Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING);
+        let skinned = &[Some(&layout), Some(&skin.layout)][..];
         Self {
-            fill: pipeline(["fill"; 2], plain, &[Some(CORNER)], list),
-            picture: pipeline(["picture"; 2], &[Some(&layout), Some(&skin.layout)], &[Some(TEXTURED)], list),
-            felt: pipeline(["felt"; 2], plain, &[Some(WOOLLY), Some(CUT)], list),
-            felt_picture: pipeline(
-                ["felt", "felt_picture"],
-                &[Some(&layout), Some(&skin.layout)],
-                &[Some(WOOLLY), Some(CUT)],
-                list,
-            ),
-            capsule: pipeline(["capsule"; 2], plain, &[Some(CAPSULE)], strip),
+            fill: pipeline(["fill"; 2], plain, &[Some(CORNER)], list, over),
+            picture: pipeline(["picture"; 2], skinned, &[Some(TEXTURED)], list, over),
+            // Opaque, and most of what is drawn.
+            felt: pipeline(["felt"; 2], plain, &[Some(WOOLLY), Some(CUT)], list, None),
+            felt_picture: pipeline(["felt", "felt_picture"], skinned, &[Some(WOOLLY), Some(CUT)], list, None),
+            capsule: pipeline(["capsule"; 2], plain, &[Some(CAPSULE)], strip, over),
             layout,
             skin,
-            linear_target: if format.is_srgb() { 1.0 } else { 0.0 },
             views: HashMap::new(),
         }
     }
@@ -211,7 +206,7 @@ impl Renderer {
             scale: [call.camera.scale / half_size.x, call.camera.scale / half_size.y],
             half_size: [half_size.x * pixels_per_point, half_size.y * pixels_per_point],
             pixels_per_point,
-            linear_target: self.linear_target,
+            end: 0.0,
         };
         queue.write_buffer(&view.uniform, 0, bytemuck::bytes_of(&uniform));
         view.parts.resize_with(call.parts.len(), Part::default);

@@ -168,6 +168,33 @@ fn the_start_page_opens_examples_and_recent_files() {
 }
 
 #[test]
+fn a_page_stands_still_as_soon_as_it_is_seen() {
+    let mut window = window(bar());
+    let stands = |window: &mut Window, name: &str| {
+        for _ in 0..2 {
+            window.step();
+        }
+        let first = window.get_by_label(name).rect();
+        for _ in 0..12 {
+            window.step();
+        }
+        assert_eq!(window.get_by_label(name).rect(), first, "{name}");
+        press(window, Modifiers::NONE, Key::Escape);
+    };
+    click(&mut window, "File");
+    window.get_by_label("Start page").click();
+    window.step();
+    stands(&mut window, "Open example Pig");
+    window.key_press(Key::F1);
+    window.step();
+    stands(&mut window, "Keyboard shortcuts");
+    press(&mut window, Modifiers::NONE, Key::K);
+    window.get_by_label("All messages").click();
+    window.step();
+    stands(&mut window, "Close");
+}
+
+#[test]
 fn a_blueprint_is_seen_before_it_is_written() {
     let mut design = bar();
     design.networks.push(network());

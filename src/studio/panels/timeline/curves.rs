@@ -9,12 +9,16 @@ use crate::picture::palette::Palette;
 use crate::studio::language::tf;
 use crate::studio::session::Session;
 use crate::studio::style;
-use eframe::egui::{Align2, Color32, FontId, Pos2, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
+use eframe::egui::{Align2, Color32, FontId, Mesh, Pos2, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
 
 /// Room above the highest curve, logical pixels.
 const ABOVE: f32 = 26.0;
 /// Winding is shown up to the reach of a winch where that is less than this part above what is wound.
 const NEAR_REACH: f64 = 1.4;
+/// Way between samples of a curve, logical pixels: a smooth one leaves its chords by a tenth of a pixel.
+const SAMPLE: f32 = 6.0;
+/// A dash and the gap after it, logical pixels.
+const DASH: [f32; 2] = [5.0, 4.0];
 
 /// mm to pixels.
 struct Scale {
@@ -46,7 +50,7 @@ pub fn show(ui: &mut Ui, session: &Session, axis: &Axis, drives: Option<&Drives>
         doubted(ui, axis, doubt);
     }
     limits(ui, axis, &scale, &reach);
-    let samples = ((axis.x(end) - axis.x(0.0)) / 3.0).clamp(8.0, 600.0) as usize;
+    let samples = ((axis.x(end) - axis.x(0.0)) / SAMPLE).clamp(8.0, 600.0) as usize;
     let times = (0..=samples).map(|i| end * i as f64 / samples as f64);
     let rows: Vec<(f32, Vec<f64>)> =
         times.map(|time| (axis.x(time), animation::activations_at(design, time))).collect();
@@ -74,9 +78,23 @@ fn limits(ui: &Ui, axis: &Axis, scale: &Scale, reach: &[f64]) {
     let top = pos2(axis.x(axis.span_s), scale.y(scale.most_mm));
     painter.text(top, Align2::RIGHT_BOTTOM, format!("{:.0} mm", scale.most_mm), font, weak);
     for &reach in reach {
-        let ends = [axis.x(0.0), axis.x(axis.span_s)].map(|x| pos2(x, scale.y(reach)));
-        painter.extend(Shape::dashed_line(&ends, Stroke::new(1.0, weak.gamma_multiply(0.6)), 5.0, 4.0));
+        let [left, right] = [axis.x(0.0), axis.x(axis.span_s)];
+        painter.add(level(ui, [left, right], scale.y(reach), weak.gamma_multiply(0.6)));
     }
+}
+
+/// A level dashed line a pixel high. As a stroke each dash would be ten triangles, a third of all that the window draws.
+fn level(ui: &Ui, [left, right]: [f32; 2], y: f32, color: Color32) -> Shape {
+    let pixel = 1.0 / ui.ctx().pixels_per_point();
+    let top = (y / pixel).round() * pixel;
+    let mut mesh = Mesh::default();
+    let mut x = (left / pixel).round() * pixel;
+    while x < right {
+        let end = (x + DASH[0]).min(right);
+        mesh.add_colored_rect(Rect::from_min_max(pos2(x, top), pos2(end, top + pixel)), color);
+        x += DASH[0] + DASH[1];
+    }
+    Shape::mesh(mesh)
 }
 
 /// A stretch that the motors do not play as it is.
