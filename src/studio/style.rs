@@ -10,9 +10,9 @@ use eframe::egui::{
     self, Color32, CornerRadius, FontFamily, FontId, Margin, Shadow, Stroke, TextStyle, Visuals, emath, vec2,
 };
 
-/// Radius of the corners of buttons and fields, logical pixels: beyond 5 egui takes twice as many triangles to round a corner, and where they are
-/// drawn in software buttons are most of what a frame takes.
-pub const CORNER: u8 = 5;
+/// Radius of the corners of buttons and fields, logical pixels: from 5 on egui takes twice as many triangles to round a corner (106 a button, not 58),
+/// and in software they are much of what a frame takes.
+pub const CORNER: u8 = 4;
 
 /// The colour of the tool itself: primary buttons, selection, playhead.
 pub fn accent(theme: Theme) -> Color32 {
