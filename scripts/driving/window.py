@@ -190,13 +190,19 @@ class Window:
         self.rests()
 
     def fill(self, name, text):
-        """Types over what a field holds."""
-        for _ in range(3):
+        """Types over what a field holds; keys that come in the frame of the click that gives it the focus are lost, so each is given ever longer."""
+        for attempt in range(5):
+            pause = 0.5 * attempt * self.rest_s / REST_S
             self.click(name)
+            time.sleep(pause)
             self.key("ctrl+a")
+            time.sleep(pause)
             self.type(text)
-            if self.find(name).value == text:
-                return
+            until = time.monotonic() + 2.0 + pause
+            while time.monotonic() < until:
+                if self.find(name).value == text:
+                    return
+                time.sleep(0.1)
         raise Lost(f"“{name}” does not take “{text}”: {self.find(name).value}")
 
     def command(self, words):

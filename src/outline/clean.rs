@@ -38,6 +38,7 @@ pub(super) fn clean(painting: Painting, import: &Import) -> Result<Imported, Out
     let Painting { shapes, unit_mm, notes, asides, evened } = painting;
     let mut changes = Changes { notes, ..Changes::default() };
     let mut aside = Asides(asides);
+    let painted = shapes.len();
     let shapes = regions::union(shapes)?;
     let all = regions::area(&shapes);
     // Anything that is NaN or infinite is degenerate too.
@@ -48,7 +49,10 @@ pub(super) fn clean(painting: Painting, import: &Import) -> Result<Imported, Out
     if evened.points > 0 {
         changes.notes.push(Note::Evened { points: evened.points, within_mm: units.mm * evened.within });
     }
-    let shapes = without_gaps(shapes, &units, import, &mut changes, &mut aside)?;
+    let mut shapes = without_gaps(shapes, &units, import, &mut changes, &mut aside)?;
+    if painted > 1 {
+        shapes = gaps::without_slits(shapes, gaps::SLIT_FRACTION * units.longer)?;
+    }
     let shapes = without_specks(shapes, all, &mut changes, &mut aside);
     let shapes = filled(shapes, &units, import, &mut changes, &mut aside)?;
     // Parts that touch in a point alone come as separate pieces.

@@ -18,6 +18,10 @@ const OVERLAP: f64 = 0.2;
 const SPECK: f64 = 1e-3;
 /// Parts lie along each other for at least so long, in `r`.
 const LONG: f64 = 8.0;
+/// Slits narrower than this part of the drawing's size are none: 0.05 mm on 250 mm, where parts share a boundary that each has drawn for itself.
+pub(super) const SLIT_FRACTION: f64 = 2e-4;
+/// Silhouettes of more points are not looked at for slits: what is drawn of thousands of strokes is shaved.
+const MAX_SLIT_POINTS: usize = 40_000;
 /// Most bridges.
 const MAX_BRIDGES: usize = 4000;
 
@@ -53,6 +57,22 @@ pub(super) fn closed(shapes: Shapes, gap: f64, all: bool) -> Result<Closed, Outl
     Ok(Closed { bridges: regions::difference(&bridges, &shapes), shapes: joined })
 }
 
+/// Without slits narrower than `width`: what is left of a boundary that two parts share, as far as their points do not agree.
+pub(super) fn without_slits(shapes: Shapes, width: f64) -> Result<Shapes, OutlineError> {
+    if shapes.iter().flatten().map(Vec::len).sum::<usize>() > MAX_SLIT_POINTS {
+        return Ok(shapes);
+    }
+    let r = 0.5 * width;
+    let filled = regions::grown(&regions::grown(&shapes, r), -(1.0 + OVERLAP) * r);
+    let mut slits = regions::difference(&filled, &shapes);
+    // The rest are inner corners, rounded.
+    slits.retain(|piece| 0.5 * polygon::perimeter(&piece[0]) > LONG * r);
+    if slits.is_empty() {
+        return Ok(shapes);
+    }
+    regions::union([shapes, regions::grown(&slits, OVERLAP * r)].concat())
+}
+
 /// What lies between parts that are less than `2 r` apart: where they meet when each is grown, as far as that is no bulge on the outside.
 fn between(shapes: &Shapes, filled: &Shapes, r: f64) -> Shapes {
     let boxes: Vec<(Point, Point)> = shapes.iter().map(|rings| regions::bounding_box(&vec![rings.clone()])).collect();
@@ -85,6 +105,27 @@ mod tests {
 
     fn rectangle(low: Point, high: Point) -> Vec<Vec<Point>> {
         vec![vec![low, [high[0], low[1]], high, [low[0], high[1]]]]
+    }
+
+    #[test]
+    fn a_boundary_that_two_parts_share_leaves_no_slit_behind() {
+        // The same wave from below and from above, in other points: they cross, and gape by up to 0.01 between.
+        let wave = |count: usize| -> Vec<Point> {
+            (0..=count).map(|k| 100.0 * k as f64 / count as f64).map(|x| [x, 50.0 + 8.0 * (x / 16.0).sin()]).collect()
+        };
+        let below = [wave(180), vec![[100.0, 0.0], [0.0, 0.0]]].concat();
+        let above = [wave(97), vec![[100.0, 100.0], [0.0, 100.0]]].concat();
+        let parts = regions::union(vec![vec![below.into_iter().rev().collect()], vec![above]]).unwrap();
+        let whole = without_slits(parts.clone(), 0.04).unwrap();
+        assert_eq!(whole.len(), 1);
+        // Pinholes at their ends are specks, which go elsewhere.
+        assert!(whole[0][1..].iter().all(|hole| polygon::signed_area(hole).abs() < 1e-3));
+        assert_eq!(polygon::perimeter(&whole[0][0]).round(), 400.0);
+        assert!((regions::area(&whole) - 1e4).abs() < 0.5);
+        // One that can be cut stays.
+        let cut =
+            regions::difference(&vec![rectangle([0.0; 2], [50.0, 40.0])], &vec![rectangle([20.0, 10.0], [20.1, 41.0])]);
+        assert!(regions::unlike(&without_slits(cut.clone(), 0.04).unwrap(), &cut) < 1e-2);
     }
 
     #[test]
