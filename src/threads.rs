@@ -1,7 +1,6 @@
-//! Many pieces of work, spread over all processors; and what a thread has worked.
+//! Many pieces of work, spread over all processors.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::time::Duration;
 
 /// Threads at most: a model a thread is enough memory.
 const THREADS: usize = 8;
@@ -33,17 +32,6 @@ pub fn in_order<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) ->
     done.into_iter().map(|(_, result)| result).collect()
 }
 
-/// Processor time that this thread has taken; `None` where the system does not tell.
-pub fn worked() -> Option<Duration> {
-    #[cfg(unix)]
-    {
-        let now = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
-        Some(Duration::new(u64::try_from(now.tv_sec).ok()?, u32::try_from(now.tv_nsec).ok()?))
-    }
-    #[cfg(not(unix))]
-    None
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -66,14 +54,5 @@ mod tests {
     #[should_panic(expected = "the fifth")]
     fn a_panic_goes_on() {
         in_order(&(0..20).collect::<Vec<usize>>(), |&k| assert!(k != 5, "the fifth"));
-    }
-
-    #[test]
-    fn sleep_is_no_work() {
-        let before = worked();
-        std::thread::sleep(Duration::from_millis(20));
-        if let Some((now, before)) = worked().zip(before) {
-            assert!(now - before < Duration::from_millis(10));
-        }
     }
 }

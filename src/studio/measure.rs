@@ -16,7 +16,6 @@ use crate::mesh::{self, Mesh};
 use crate::outline::Point;
 use crate::picture::layers::look;
 use crate::picture::palette::{Palette, Theme};
-use crate::threads;
 use eframe::egui::{self, Event, Modifiers, PointerButton, Pos2, RawInput};
 use std::f64::consts::TAU;
 use std::time::{Duration, Instant};
@@ -156,7 +155,7 @@ impl Hand {
 
     /// One frame; what of it is the interface thread's own work, ms of the processor and by the clock.
     fn frame(&mut self, events: Vec<Event>) -> [f64; 2] {
-        let (begun, worked) = (Instant::now(), threads::worked());
+        let (begun, worked) = (Instant::now(), super::worked());
         let mut input = RawInput {
             screen_rect: Some(self.screen.rect()),
             time: Some(self.started.elapsed().as_secs_f64()),
@@ -172,7 +171,7 @@ impl Hand {
         let background = super::style::color32(Palette::of(Theme::Light).background).to_normalized_gamma_f32();
         self.screen.draw(&self.ctx, output, background);
         let passed = begun.elapsed();
-        let own = threads::worked().zip(worked).map_or(passed, |(now, then)| now.saturating_sub(then));
+        let own = super::worked().zip(worked).map_or(passed, |(now, then)| now.saturating_sub(then));
         [own, passed].map(|time| time.as_secs_f64() * 1e3)
     }
 

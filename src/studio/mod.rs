@@ -205,6 +205,17 @@ fn has_display() -> bool {
     !cfg!(target_os = "linux") || set("WAYLAND_DISPLAY") || set("WAYLAND_SOCKET") || set("DISPLAY")
 }
 
+/// Processor time that this thread has taken; `None` where the system does not tell.
+fn worked() -> Option<std::time::Duration> {
+    #[cfg(unix)]
+    {
+        let now = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
+        Some(std::time::Duration::new(u64::try_from(now.tv_sec).ok()?, u32::try_from(now.tv_nsec).ok()?))
+    }
+    #[cfg(not(unix))]
+    None
+}
+
 fn first_design() -> Design {
     bundled::ALL.first().and_then(|example| example.design().ok()).unwrap_or_else(crate::studio::blank::design)
 }
@@ -224,5 +235,20 @@ fn from_winit(text: &str) -> StudioError {
         StudioError::NoDisplay
     } else {
         StudioError::WindowSystem(text.to_owned())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    #[test]
+    fn sleep_is_no_work() {
+        let before = worked();
+        std::thread::sleep(Duration::from_millis(20));
+        if let Some((now, before)) = worked().zip(before) {
+            assert!(now - before < Duration::from_millis(10));
+        }
     }
 }
