@@ -11,6 +11,8 @@ pub enum What {
     Specks,
     /// Tiny holes filled.
     Pinholes,
+    /// Slits between parts that share a boundary closed.
+    Slits,
     /// Holes filled as asked.
     Holes,
     /// Other pieces left out as asked.
@@ -62,6 +64,7 @@ impl Change {
         let what = match self.what {
             What::Specks => count("tiny island", "tiny islands") + " left out",
             What::Pinholes => count("pinhole", "pinholes") + " closed",
+            What::Slits => count("slit", "slits") + " finer than scissors cut closed (--gap 0 keeps them)",
             What::Holes => count("hole", "holes") + " filled",
             What::Pieces => count("smaller piece", "smaller pieces") + " left out",
             What::ThinParts => count("thin part", "thin parts") + " widened",

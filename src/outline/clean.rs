@@ -50,8 +50,13 @@ pub(super) fn clean(painting: Painting, import: &Import) -> Result<Imported, Out
         changes.notes.push(Note::Evened { points: evened.points, within_mm: units.mm * evened.within });
     }
     let mut shapes = without_gaps(shapes, &units, import, &mut changes, &mut aside)?;
-    if painted > 1 {
-        shapes = gaps::without_slits(shapes, gaps::SLIT_FRACTION * units.longer)?;
+    if painted > 1 && import.gap_mm.is_none() {
+        let before = regions::area(&shapes);
+        let slits;
+        (shapes, slits) = gaps::without_slits(shapes, gaps::SLIT_FRACTION * units.longer)?;
+        let gained = regions::area(&shapes) / before - 1.0;
+        changes.add(What::Slits, slits, gained, false);
+        changes.unasked += gained.max(0.0);
     }
     let shapes = without_specks(shapes, all, &mut changes, &mut aside);
     let shapes = filled(shapes, &units, import, &mut changes, &mut aside)?;

@@ -97,6 +97,24 @@ fn clean_up_is_reported_in_words_and_in_json() {
 }
 
 #[test]
+fn stripes_that_share_a_boundary_are_one_piece_and_what_was_closed_is_told() {
+    // The lower stripe draws what they share from right to left, in one curve; the upper one from left to right, in two.
+    let folder = Folder::new();
+    let lower = "<path fill='red' d='M5 50V90H95V50C65 20 35 80 5 50'/>";
+    let upper = "<path fill='blue' d='M95 50V10H5V50C20 65 35 57.5 50 50S80 35 95 50'/>";
+    let file = folder.put("flag.svg", &svg(&[lower, upper].concat()));
+    let whats = |args: &[&str]| -> Vec<String> {
+        let report = folder.accepted(&file, &[&["--height", "200"], args].concat());
+        let steps = report["clean_up"]["steps"].as_array().unwrap();
+        assert!(report["clean_up"]["unasked"].as_f64().unwrap() < 1e-3, "{report:#}");
+        steps.iter().map(|s| s["what"].as_str().unwrap().to_owned()).collect()
+    };
+    assert_eq!(whats(&[])[0], "slits");
+    let words = folder.new_design(&file, &["--height", "200"]).stdout;
+    assert!(String::from_utf8_lossy(&words).contains("finer than scissors cut closed (--gap 0 keeps them)"));
+}
+
+#[test]
 fn small_drawings_are_warned_of_and_too_few_fibers_refused() {
     let folder = Folder::new();
     let small = folder.put(

@@ -1,5 +1,6 @@
 //! The blueprint before it is written: its sheets as they will be cut, what the motors are told, and remarks.
 
+use super::widgets::scroll;
 use crate::design::Design;
 use crate::fabrication::{Remark, Watch, blueprint_watched};
 use crate::operations::export;
@@ -125,13 +126,10 @@ fn pages(ui: &mut Ui, made: &Made, state: &mut State, actions: &mut Actions) {
             state.pictures.paint(ui, picture, rect);
         }
         Some(Content::Text(text)) => {
-            ScrollArea::both().id_salt("file of the blueprint").max_height(HEIGHT).min_scrolled_height(HEIGHT).show(
-                ui,
-                |ui| {
-                    ui.set_min_height(HEIGHT);
-                    ui.add(Label::new(RichText::new(text).monospace().small()).extend());
-                },
-            );
+            ScrollArea::both().id_salt("file of the blueprint").max_height(HEIGHT).show(ui, |ui| {
+                ui.set_min_height(HEIGHT);
+                ui.add(Label::new(RichText::new(text).monospace().small()).extend());
+            });
         }
         None => {}
     }
@@ -140,9 +138,7 @@ fn pages(ui: &mut Ui, made: &Made, state: &mut State, actions: &mut Actions) {
 
 /// What its maker should know; what is somewhere on the body can be shown there.
 fn remarks(ui: &mut Ui, made: &Made, actions: &mut Actions) {
-    let most =
-        ScrollArea::vertical().id_salt("remarks of the blueprint").max_height(REMARKS).min_scrolled_height(REMARKS);
-    most.auto_shrink([false, true]).show(ui, |ui| {
+    scroll(REMARKS).id_salt("remarks of the blueprint").show(ui, |ui| {
         for remark in &made.remarks {
             ui.horizontal_top(|ui| {
                 let words = RichText::new(&remark.text).small();

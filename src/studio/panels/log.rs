@@ -1,11 +1,11 @@
 //! Everything that the window has said, the newest first.
 
 use super::messages::color;
-use super::widgets::dialog_frame;
+use super::widgets::{dialog_frame, scroll};
 use crate::studio::action::{Action, Actions};
 use crate::studio::language::t;
 use crate::studio::session::{Overlay, Session};
-use eframe::egui::{Context, Id, Label, Modal, RichText, ScrollArea, Ui};
+use eframe::egui::{Context, Id, Label, Modal, RichText, Ui};
 
 pub fn show(ctx: &Context, session: &Session, actions: &mut Actions) {
     if session.overlay() != Some(Overlay::Log) {
@@ -16,11 +16,7 @@ pub fn show(ctx: &Context, session: &Session, actions: &mut Actions) {
         ui.heading(t("Messages"));
         ui.add_space(6.0);
         let most = 0.6 * ui.ctx().content_rect().height();
-        ScrollArea::vertical()
-            .max_height(most)
-            .min_scrolled_height(most)
-            .auto_shrink([false, true])
-            .show(ui, |ui| lines(ui, session));
+        scroll(most).show(ui, |ui| lines(ui, session));
         ui.add_space(6.0);
         if ui.button(t("Close")).clicked() {
             actions.push(Action::Overlay(None));

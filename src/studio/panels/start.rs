@@ -1,6 +1,6 @@
 //! The start page: work that was left behind, designs to begin with as pictures, recent files, and ways to a new plushie.
 
-use super::widgets::{heading, primary};
+use super::widgets::{heading, primary, scroll};
 use super::{buttons, dialogs};
 use crate::design::{Design, bundled, file};
 use crate::engine::Shape;
@@ -15,8 +15,8 @@ use crate::studio::language::{mark, t, tf};
 use crate::studio::pictures::Pictures;
 use crate::studio::session::{Overlay, Session, Task};
 use eframe::egui::{
-    Align2, Context, FontId, Frame, Id, Label, Modal, Rect, RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui,
-    WidgetInfo, vec2,
+    Align2, Context, FontId, Frame, Id, Label, Modal, Rect, RichText, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo,
+    vec2,
 };
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -68,9 +68,7 @@ pub fn show(ctx: &Context, session: &Session, state: &mut State, actions: &mut A
                 }
             });
             let most = 0.74 * ui.ctx().content_rect().height();
-            // At once: left to itself it grows with the page around it, frame by frame, and what a hand is about to press moves.
-            let scroll = ScrollArea::vertical().max_height(most).min_scrolled_height(most).auto_shrink([false, true]);
-            scroll.show(ui, |ui| {
+            scroll(most).show(ui, |ui| {
                 left_behind(ui, session, state, shots, actions);
                 examples(ui, state, shots, actions);
                 recent(ui, session, state, shots, actions);

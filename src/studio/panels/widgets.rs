@@ -3,7 +3,9 @@
 use crate::studio::action::{Action, Actions};
 use crate::studio::session::Session;
 use crate::studio::style;
-use eframe::egui::{Button, Color32, Context, Frame, Key, Margin, Response, RichText, TextEdit, TextStyle, Ui};
+use eframe::egui::{
+    Button, Color32, Context, Frame, Key, Margin, Response, RichText, ScrollArea, TextEdit, TextStyle, Ui,
+};
 
 /// Height of a button that takes the width of its panel, logical pixels.
 const WIDE: f32 = 30.0;
@@ -66,6 +68,12 @@ pub fn passing(ui: &mut Ui, shown: bool, add: impl FnOnce(&mut Ui)) {
     } else {
         ui.skip_ahead_auto_ids(1);
     }
+}
+
+/// What is scrolled in a page over the window, as high as what is in it up to `most` logical pixels. At once: left to itself it grows with the page
+/// around it, half of what is missing a frame, and what a hand is about to press moves.
+pub fn scroll(most: f32) -> ScrollArea {
+    ScrollArea::vertical().max_height(most).min_scrolled_height(most).auto_shrink([false, true])
 }
 
 /// An error as a sentence of its own.

@@ -65,8 +65,8 @@ struct Uniform {
     scale: [f32; 2],
     half_size: [f32; 2],
     pixels_per_point: f32,
-    /// To a multiple of the alignment.
-    end: f32,
+    /// WGSL rounds the size up to the alignment.
+    padding: f32,
 }
 
 /// Corners and capsules as the shaders read them.
@@ -206,7 +206,7 @@ impl Renderer {
             scale: [call.camera.scale / half_size.x, call.camera.scale / half_size.y],
             half_size: [half_size.x * pixels_per_point, half_size.y * pixels_per_point],
             pixels_per_point,
-            end: 0.0,
+            padding: 0.0,
         };
         queue.write_buffer(&view.uniform, 0, bytemuck::bytes_of(&uniform));
         view.parts.resize_with(call.parts.len(), Part::default);
