@@ -29,6 +29,7 @@ mod place;
 mod play;
 mod pose;
 mod progress;
+mod propose;
 mod reading;
 mod remesh;
 mod render;
@@ -95,6 +96,7 @@ pub enum Command {
     Pose(pose::Pose),
     Arrange(arrange::Arrange),
     Starch(starch::Starch),
+    Propose(propose::Propose),
     Rig(rig::Rig),
     Network(network::NetworkCommand),
     Key(key::Key),
@@ -119,6 +121,7 @@ impl Command {
             Self::Remesh(_) => "meshing anew",
             Self::Reshape(_) => "meshing the new outline",
             Self::Rig(_) => "looking for winches and tendons",
+            Self::Propose(_) => "looking for networks",
             Self::Key(_) => "winding to the pose",
             Self::Check(_) => "posing both plushies",
             Self::Export(_) => "making the blueprint",
@@ -194,6 +197,7 @@ pub fn run(
         Command::Pose(command) => command.run(out, cancel),
         Command::Arrange(command) => command.run(out, cancel),
         Command::Starch(command) => command.run(out, cancel),
+        Command::Propose(command) => command.run(out, cancel),
         Command::Rig(command) => command.run(out, cancel),
         Command::Network(command) => command.run(out, cancel),
         Command::Key(command) => command.run(out, cancel),

@@ -357,7 +357,7 @@ fn most_tendons(choice: &TendonChoice) -> usize {
     }
 }
 
-fn parse_phi(text: &str) -> Result<f64, String> {
+pub fn parse_phi(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(phi) if (0.0..=1.0).contains(&phi) => Ok(phi),
         _ => Err(format!("expected a number from 0 to 1, found `{text}`")),

@@ -154,6 +154,11 @@ fn note(note: &Note) -> String {
     }
 }
 
+/// A step of the clean-up, likewise. Its line ends in brackets of its own.
+fn step(step: &Change) -> String {
+    step.remedy().map_or_else(|| step.line(), |remedy| format!("{}; {}", step.line(), option(remedy)))
+}
+
 /// Why there is no outline, and the option that may help.
 fn outline(error: &OutlineError) -> String {
     error.remedy().map_or_else(|| error.to_string(), |remedy| format!("{error}; {}", option(remedy)))
@@ -196,6 +201,6 @@ impl<'a> CleanUp<'a> {
 
     /// A line for each step and note.
     pub fn lines(&self) -> impl Iterator<Item = String> {
-        self.changes.steps.iter().map(Change::line).chain(self.notes.iter().cloned())
+        self.changes.steps.iter().map(step).chain(self.notes.iter().cloned())
     }
 }

@@ -1,7 +1,8 @@
 //! Networks for a pose, tried out by simulation, the best first.
 
 use super::posing::{self, NoSuchPose};
-use super::{Cancelled, Context, Progress};
+use super::{Cancelled, Context, Progress, changed};
+use crate::design::edit::{self, EditError};
 use crate::design::{Design, Target};
 use crate::rigging::{self, Proposal, ProposeOptions};
 use serde::{Deserialize, Serialize};
@@ -55,6 +56,14 @@ pub fn for_targets(
     let proposals = rigging::propose(design, targets, options, &mut found, cancel);
     context.check()?;
     if proposals.is_empty() { Err(Error::NothingFound) } else { Ok(proposals) }
+}
+
+/// Builds a proposal in, slack in every keyframe so far; its index among the networks.
+///
+/// # Errors
+/// It was proposed for another mesh; the design stays as it was.
+pub fn accept(design: &mut Design, proposal: &Proposal) -> Result<usize, EditError> {
+    changed(design, |design| edit::accept_network(design, proposal.network.clone()))
 }
 
 #[cfg(test)]

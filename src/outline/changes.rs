@@ -1,6 +1,6 @@
 //! What the clean-up of a silhouette changed.
 
-use super::notes::Note;
+use super::notes::{Note, Remedy};
 use serde::Serialize;
 
 /// A step of the clean-up that changed something.
@@ -55,6 +55,11 @@ pub struct Changes {
 }
 
 impl Change {
+    /// The setting that would have it otherwise.
+    pub fn remedy(&self) -> Option<Remedy> {
+        (self.what == What::Slits).then_some(Remedy::Gap)
+    }
+
     /// The step in words, for one line.
     pub fn line(&self) -> String {
         let count = |one: &str, many: &str| match self.count {
@@ -64,7 +69,7 @@ impl Change {
         let what = match self.what {
             What::Specks => count("tiny island", "tiny islands") + " left out",
             What::Pinholes => count("pinhole", "pinholes") + " closed",
-            What::Slits => count("slit", "slits") + " finer than scissors cut closed (--gap 0 keeps them)",
+            What::Slits => count("slit", "slits") + " finer than scissors cut closed",
             What::Holes => count("hole", "holes") + " filled",
             What::Pieces => count("smaller piece", "smaller pieces") + " left out",
             What::ThinParts => count("thin part", "thin parts") + " widened",

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-const COMMANDS: [&str; 23] = [
+const COMMANDS: [&str; 24] = [
     "demo",
     "new",
     "mesh",
@@ -14,6 +14,7 @@ const COMMANDS: [&str; 23] = [
     "pose",
     "arrange",
     "starch",
+    "propose",
     "rig",
     "network",
     "key",

@@ -111,7 +111,7 @@ fn stripes_that_share_a_boundary_are_one_piece_and_what_was_closed_is_told() {
     };
     assert_eq!(whats(&[])[0], "slits");
     let words = folder.new_design(&file, &["--height", "200"]).stdout;
-    assert!(String::from_utf8_lossy(&words).contains("finer than scissors cut closed (--gap 0 keeps them)"));
+    assert!(String::from_utf8_lossy(&words).contains("of the area); --gap sets how wide they may be, 0 for none"));
 }
 
 #[test]

@@ -143,6 +143,7 @@ fn what_is_printed_for_programs_says_its_format() {
         (&["key", "keyed.plush", "--pose", "up", "--time", "3", "-o", to, "--force"], "plushwright-key/1"),
         (&["network", "list", "keyed.plush"], "plushwright-networks/1"),
         (&["network", "mute", "keyed.plush", "--winch", "1", "-o", to, "--force"], "plushwright-network-change/1"),
+        (&["propose", "keyed.plush", "--pose", "up", "--tendons", "1"], "plushwright-propose/1"),
         (&["rig", "keyed.plush", "--max-winches", "1", "--rounds", "1", "-o", to, "--force"], "plushwright-rig/1"),
         (&["check", "keyed.plush"], "plushwright-check/1"),
         (&["render", "keyed.plush", "--pose", "up", "-o", picture.to_str().unwrap()], "plushwright-render/1"),

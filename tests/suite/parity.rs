@@ -342,6 +342,17 @@ fn winches_and_tendons_changed_by_hand_are_the_same_both_ways() {
 }
 
 #[test]
+fn a_network_that_is_proposed_and_accepted_is_the_same_both_ways() {
+    let (folder, mut window) = posed();
+    let pose = session(&window).design().poses[0].name.clone();
+    run(folder.path(), &["propose", "bar.plush", "--pose", &pose, "--accept", "1", "-o", "chosen.plush"]);
+    click(&mut window, "Propose networks");
+    click(&mut window, "Accept");
+    assert_eq!(session(&window).design().networks.len(), 1);
+    same(&window, &folder.path().join("chosen.plush"));
+}
+
+#[test]
 fn a_rig_with_fixed_options_is_the_same_both_ways() {
     let (folder, mut window) = posed();
     let fixed = ["--max-winches", "1", "--tendons", "1", "--seed-num", "12", "--join-depth", "2", "--join-len", "2"];

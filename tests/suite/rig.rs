@@ -55,6 +55,36 @@ fn what_sewing_by_hand_costs_is_told_as_a_check_tells_it() {
     assert!(!succeed(f, &["check", "new.plush"]).contains("sewn by hand"));
 }
 
+#[test]
+fn what_is_proposed_is_what_a_check_says_once_it_is_accepted() {
+    let folder = place();
+    let f = folder.path();
+    succeed(f, &["network", "remove", "bar.plush", "--winch", "1"]);
+    let usual = ["propose", "bar.plush", "--pose", "bend", "--tendons", "2"];
+    let told: Value = serde_json::from_str(&succeed(f, &[&usual[..], &["--json"]].concat())).unwrap();
+    let list = told["proposals"].as_array().unwrap();
+    assert!(list.len() > 1 && told["accepted"].is_null(), "{told:#}");
+    let before = std::fs::read(f.join("bar.plush")).unwrap();
+    let table = succeed(f, &[&usual[..], &["--accept", "2", "-o", "new.plush"]].concat());
+    assert!(table.contains("Networks for bend") && table.contains("new.plush: network 2 is "), "{table}");
+    assert!(table.contains("`plushwright key new.plush --again`"), "{table}");
+    assert_eq!(std::fs::read(f.join("bar.plush")).unwrap(), before);
+    let (poses, broken) = checked(f, "new.plush");
+    assert_eq!(list[1]["hard_to_sew"], broken);
+    for (pose, (name, error, _)) in list[1]["poses"].as_array().unwrap().iter().zip(poses) {
+        let told = pose["error_realizable"].as_f64().unwrap();
+        assert!(pose["name"] == name && (told - error).abs() < 1e-6, "{pose} {error}");
+    }
+    let refused = |args: &[&str], code, why| {
+        let output = run(f, &[&usual[..], args].concat());
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.code() == Some(code) && error.contains(why), "{error}");
+    };
+    refused(&["--accept", "99", "-o", "x.plush"], 2, "there is no network 99; there are 1 to ");
+    refused(&["--accept", "0", "-o", "x.plush"], 2, "there is no network 0");
+    assert!(!f.join("x.plush").exists());
+}
+
 #[cfg(unix)]
 #[test]
 fn what_was_found_before_an_interrupt_is_written() {

@@ -137,6 +137,7 @@ fn told(ui: &mut Ui, previewed: &Previewed, tells: bool, import: &mut Import) {
     }
     for change in &previewed.changes.steps {
         ui.label(RichText::new(change.line()).small());
+        switch(ui, change.remedy(), import);
     }
     for note in &previewed.changes.notes {
         ui.label(RichText::new(words::note(note)).small());
