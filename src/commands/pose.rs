@@ -41,7 +41,7 @@ pub struct Pose {
     /// Hold the middle of the body, so that it can neither move nor turn
     #[arg(long)]
     pub pin_middle: bool,
-    /// Begin with a body that was just made: hold its middle where nothing is pinned, and let its tip wave in this pose
+    /// Begin with a body that was just made: hold its middle where nothing is pinned, and let a limb wave in this pose
     #[arg(long)]
     pub begin: bool,
     /// Pull the point X,Y of the body at rest to X2,Y2 (mm; repeatable)

@@ -9,6 +9,7 @@ mod circle;
 mod curve;
 mod generate;
 mod grid;
+pub mod limbs;
 mod locate;
 mod order;
 pub mod quality;

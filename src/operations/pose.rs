@@ -7,7 +7,7 @@ use super::{Cancelled, Context};
 use crate::defaults;
 use crate::design::edit::{self, EditError};
 use crate::design::{Design, Hold, Pin, Pose, Target};
-use crate::mesh::{BodyPoint, Mesh};
+use crate::mesh::{BodyPoint, Mesh, limbs};
 use crate::outline::Point;
 use serde::{Deserialize, Serialize};
 
@@ -123,8 +123,8 @@ pub fn pin_middle(design: &mut Design) -> Result<usize, EditError> {
     put_pin(design, at, Hold::Region { radius_mm, degrees: 0.0 })
 }
 
-/// Begins with a body that nobody has posed yet: holds its middle where nothing is pinned, and adds a pose in which the place that is farthest
-/// from there waves. The number of the pose.
+/// Begins with a body that nobody has posed yet: holds its middle where nothing is pinned, and adds a pose in which the slenderest limb
+/// waves. The number of the pose.
 ///
 /// # Errors
 /// A design without a mesh.
@@ -134,19 +134,18 @@ pub fn begin(design: &mut Design) -> Result<usize, EditError> {
     }
     let mesh = &design.mesh;
     let held = design.pins[0].anchor(mesh);
-    let away = |p: Point| (p[0] - held[0]).hypot(p[1] - held[1]);
-    let tip = (0..mesh.nodes.len()).max_by(|&a, &b| away(mesh.nodes[a]).total_cmp(&away(mesh.nodes[b])));
-    let tip = tip.ok_or(EditError::NoBody { place: held })?;
+    let tip = limbs::tip(mesh, held).ok_or(EditError::NoBody { place: held })?;
     let place = mesh.nodes[tip];
     let at = mesh.node_point(tip).ok_or(EditError::NoBody { place })?;
-    let (sin, cos) = WAVE_DEGREES.to_radians().sin_cos();
     let [dx, dy] = [place[0] - held[0], place[1] - held[1]];
+    // Upwards, as one waves.
+    let (sin, cos) = WAVE_DEGREES.copysign(dx).to_radians().sin_cos();
     let to = rounded([held[0] + cos * dx - sin * dy, held[1] + sin * dx + cos * dy]);
     let name = edit::unused_pose_name(design, "Wave");
     edit::add_pose(design, Pose { name, targets: vec![Target { at, to, weight: 1.0 }] })
 }
 
-/// How far the tip of a body turns about what holds it in its first pose: enough to be seen, little enough to be reached.
+/// How far the tip of a limb turns about what holds it in its first pose: enough to be seen, little enough to be reached.
 const WAVE_DEGREES: f64 = 12.0;
 
 /// Puts a pin in, in the place of one on the same point of the body, and returns its number.

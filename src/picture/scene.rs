@@ -71,6 +71,11 @@ struct Strand {
 }
 
 impl Strands {
+    /// None yet, with memory for so many of two points.
+    pub fn with_capacity(lines: usize) -> Self {
+        Self { points: Vec::with_capacity(2 * lines), lines: Vec::with_capacity(lines) }
+    }
+
     /// Adds a line over the others.
     pub fn push(&mut self, points: impl IntoIterator<Item = Point>, width: f32, color: Color) {
         self.points.extend(points);

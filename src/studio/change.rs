@@ -182,7 +182,7 @@ impl Change {
             Self::AcceptNetwork(_) => mark("Accept network"),
             Self::Network(edit) => edit.label(),
             Self::SetKeyframe(_) => mark("Set keyframe"),
-            Self::FixKeyframe(_) => mark("Fix keyframe"),
+            Self::FixKeyframe(_) => mark("Detach keyframe"),
             Self::RemoveKeyframe(_) => mark("Delete keyframe"),
             Self::MoveKeyframes { keys, .. } if keys.len() == 1 => mark("Move keyframe"),
             Self::MoveKeyframes { .. } => mark("Move keyframes"),

@@ -156,7 +156,7 @@ pub fn remarks(remarks: &[String]) -> Option<String> {
         0 => String::new(),
         more => tf!("\n{more} more are in its README.txt.", more),
     };
-    (!remarks.is_empty()).then(|| tf!("Mind of the blueprint:{remarks}{rest}", remarks = told.concat(), rest))
+    (!remarks.is_empty()).then(|| tf!("Watch out with this blueprint:{remarks}{rest}", remarks = told.concat(), rest))
 }
 
 /// Why there is no blueprint.

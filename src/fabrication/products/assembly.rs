@@ -29,7 +29,7 @@ pub(super) fn make(source: &Source<'_>) -> Result<Part, ExportError> {
     let motor = source.options.motors.choice(source.demands(), source.design.fabrication.spool_radius_mm);
     parts(&mut guide, source, motor);
     if !source.remarks.is_empty() {
-        guide.heading("Mind");
+        guide.heading("Watch out");
         guide.blocks.push(Block::Steps(source.remarks.iter().map(|remark| remark.text.clone()).collect()));
     }
     guide.heading("Steps");

@@ -11,7 +11,7 @@ pub(super) fn make(source: &Source<'_>) -> Result<Part, ExportError> {
 
 fn text(source: &Source<'_>) -> String {
     let remarks: Vec<String> = source.remarks.iter().map(|r| format!("  - {r}\n")).collect();
-    let mind = if remarks.is_empty() { String::new() } else { format!("Mind\n{}\n", remarks.concat()) };
+    let mind = if remarks.is_empty() { String::new() } else { format!("Watch out\n{}\n", remarks.concat()) };
     let guides: Vec<String> =
         source.sections.iter().map(|part| format!("{}\n{}", part.files.join(", "), part.guide)).collect();
     let (name, version) = (&source.design.name, env!("CARGO_PKG_VERSION"));

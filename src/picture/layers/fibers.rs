@@ -23,9 +23,6 @@ pub struct Fibers {
 /// Fibres contracted by less than this fraction of their rest length look passive, however little the others are
 /// contracted: noise of the solver must not turn the body red.
 const LEAST_FULL_CONTRACTION: f64 = 0.08;
-/// Exponent that spreads the middle of the range away from the bottom, so that the eye can tell them apart.
-const SPREADING: f64 = 0.75;
-
 /// Width of the rim of a fibre over a texture on each side, logical pixels, and its strength there at least, of 255.
 const RIM: f32 = 0.8;
 const OVER_TEXTURE: u8 = 200;
@@ -55,15 +52,18 @@ impl Layer for Fibers {
     fn draw(&self, items: &mut Vec<Item>) {
         let palette = Palette::of(self.theme);
         let routings = &self.weave.routings;
-        let activity = activity(&self.weave, &self.shape);
-        let mut order: Vec<usize> = (0..routings.len()).collect();
-        order.sort_by(|&a, &b| activity[a].total_cmp(&activity[b]));
-        let (mut strands, nodes) = (Strands::default(), &self.shape.nodes);
-        for fiber in order {
+        let shades = shades(&self.weave, &self.shape);
+        let paints: Vec<(f32, Color)> = (0..=u8::MAX)
+            .map(|shade| {
+                let t = f32::from(shade) / f32::from(u8::MAX);
+                let width = marks::FIBER_PASSIVE + t * (marks::FIBER_ACTIVE - marks::FIBER_PASSIVE);
+                (width, mix(palette.fiber_passive, palette.fiber_active, t))
+            })
+            .collect();
+        let (mut strands, nodes) = (Strands::with_capacity(routings.len()), &self.shape.nodes);
+        for fiber in rising(&shades) {
             let line = || routings[fiber].iter().filter_map(|&node| nodes.get(node).copied());
-            let t = activity[fiber] as f32;
-            let color = mix(palette.fiber_passive, palette.fiber_active, t);
-            let width = marks::FIBER_PASSIVE + t * (marks::FIBER_ACTIVE - marks::FIBER_PASSIVE);
+            let (width, color) = paints[usize::from(shades[fiber])];
             if self.textured {
                 // Whatever colours the picture has, a line between two rims differs from it or from them.
                 strands.push(line(), width + 2.0 * RIM, palette.casing);
@@ -77,9 +77,44 @@ impl Layer for Fibers {
     }
 }
 
-/// How active each fibre looks, 0 to 1: its contraction by its rest length, relative to the largest of all.
-fn activity(weave: &Weave, shape: &Shape) -> Vec<f64> {
+/// How active each fibre looks: its contraction by its rest length, relative to the largest of all. In as many steps as a colour has.
+fn shades(weave: &Weave, shape: &Shape) -> Vec<u8> {
     let strains = weave.contracted(&shape.fiber_contractions_mm);
     let full = strains.iter().copied().fold(LEAST_FULL_CONTRACTION, f64::max);
-    strains.iter().map(|s| (s / full).powf(SPREADING)).collect()
+    // To the power of 3/4, which spreads the middle of the range away from the bottom, so that the eye can tell them apart.
+    let spread = |part: f64| part.sqrt() * part.sqrt().sqrt();
+    strains.iter().map(|s| (f64::from(u8::MAX) * spread(s / full)).round() as u8).collect()
+}
+
+/// The numbers of the shades from the lowest to the highest, equal ones in their order. Cost: linear, every frame of a drag.
+fn rising(shades: &[u8]) -> Vec<usize> {
+    let mut next = [0; 256];
+    for &shade in shades {
+        next[usize::from(shade)] += 1;
+    }
+    let mut before = 0;
+    for count in &mut next {
+        before += std::mem::replace(count, before);
+    }
+    let mut order = vec![0; shades.len()];
+    for (fiber, &shade) in shades.iter().enumerate() {
+        let place = &mut next[usize::from(shade)];
+        order[*place] = fiber;
+        *place += 1;
+    }
+    order
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_order_is_that_of_a_stable_sort() {
+        let shades: Vec<u8> = (0..1000_u32).map(|k| (k.wrapping_mul(2_654_435_761) >> 24) as u8 / 3 * 3).collect();
+        let mut sorted: Vec<usize> = (0..shades.len()).collect();
+        sorted.sort_by_key(|&fiber| shades[fiber]);
+        assert_eq!(rising(&shades), sorted);
+        assert!(rising(&[]).is_empty());
+    }
 }

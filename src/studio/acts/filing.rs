@@ -171,15 +171,15 @@ pub fn take_import(session: &mut Session, result: Result<Box<New>, Box<Refused>>
 pub fn take_export(session: &mut Session, folder: &Path, result: Result<Vec<String>, String>) {
     match result {
         Ok(remarks) => {
+            if let Some(text) = words::remarks(&remarks) {
+                session.messages.warning(text);
+            }
             let path = files::shown(folder);
             session.messages.done(if folder.join("pattern-a4.pdf").is_file() {
                 tf!("The blueprint is in {path}. To print the pattern at home: pattern-a4.pdf or pattern-letter.pdf there, at 100 %", path)
             } else {
                 tf!("The blueprint is in {path}", path)
             });
-            if let Some(text) = words::remarks(&remarks) {
-                session.messages.warning(text);
-            }
         }
         Err(why) => session.messages.error(tf!("No blueprint was written: {why}", why)),
     }

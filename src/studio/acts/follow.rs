@@ -66,8 +66,8 @@ pub fn take(session: &mut Session, serial: u64, keyed: Result<Vec<Keyed>, Error>
     match followed {
         Ok(()) => session.messages.info(tn!(
             count,
-            "{count} keyframe follows its pose",
-            "{count} keyframes follow their poses"
+            "{count} keyframe was worked out again for its pose",
+            "{count} keyframes were worked out again for their poses"
         )),
         Err(error) => session.messages.warning(tf!("Keyframes do not follow their poses: {error}", error)),
     }

@@ -10,8 +10,23 @@ use crate::studio::session::Session;
 
 /// Around a part that is small or a point, mm of body at least, as a part of the body's length.
 const AROUND: f64 = 0.12;
+/// So far beyond the body at rest, in body lengths, what is shown may not be in a view that fits that.
+const BEYOND: f64 = 0.05;
 /// Around places that somebody looks for: enough of the body to tell where that is.
 const AROUND_PLACES: f64 = 0.4;
+
+/// Fits the body at rest into the views; where the plushies or a goal reach far beyond it, these as well.
+pub fn fit(session: &mut Session) {
+    session.look.fit();
+    let mut points = all(session);
+    let design = session.design();
+    let (low, high) = polygon::bounding_box(&design.mesh.nodes);
+    let far = BEYOND * design.body_length_mm();
+    if points.iter().any(|p| (0..2).any(|k| p[k] < low[k] - far || p[k] > high[k] + far)) {
+        points.extend([low, high]);
+        frame(session, &points, AROUND);
+    }
+}
 
 /// Frames what a menu is about or what is selected; otherwise both plushies as they are.
 pub fn fit_selection(session: &mut Session, at: Hit) {

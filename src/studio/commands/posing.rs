@@ -30,7 +30,7 @@ pub static ALL: [&Command; 12] = [
 pub static BEGIN: Command = Command {
     scope: Scope::Views,
     run: &|session, _| acts::edit::change(session, Change::Begin),
-    ..Command::new("pose.begin", "Pins and a first pose", "Hold the middle of the body, and let its tip wave")
+    ..Command::new("pose.begin", "Pins and a first pose", "Hold the middle of the body, and let a limb wave")
 };
 
 const NO_AXIS: &str = mark("The outline of this plushie is not its own mirror image");

@@ -8,6 +8,11 @@ use std::sync::LazyLock;
 /// One for each tool, in the order of their table.
 pub static ALL: LazyLock<Vec<Command>> = LazyLock::new(|| tools::ALL.into_iter().map(command).collect());
 
+/// The command that takes a tool, by its id.
+pub fn take(id: &str) -> Option<&'static Command> {
+    ALL.iter().find(|command| command.id == id)
+}
+
 fn command(entry: &'static Entry) -> Command {
     let on_views = entry.canvas == Scope::Views;
     Command {

@@ -38,10 +38,14 @@ pub static FIT: Command = Command {
         if session.sketching.open {
             session.sketching.camera = None;
         } else {
-            session.look.fit();
+            frame::fit(session);
         }
     },
-    ..Command::new("view.fit", "Fit view", "Fit the body into the views. Scroll to zoom, drag beside the body to pan")
+    ..Command::new(
+        "view.fit",
+        "Fit view",
+        "Fit the body and its goals into the views. Scroll to zoom, drag beside the body to pan",
+    )
 };
 
 pub static FIT_SELECTION: Command = Command {

@@ -56,8 +56,9 @@ fn progress(ui: &mut Ui, session: &Session, elapsed: Duration, actions: &mut Act
         // How long it takes is not known; the bar comes nearer and nearer to the end.
         let bar = ProgressBar::new(1.0 - (-seconds / HALFWAY_S).exp()).desired_width(ui.available_width() - 70.0);
         let text =
-            if found == 0 { format!("{seconds:.0} s") } else { tf!("{seconds:.0} s, {found} found", seconds, found) };
-        ui.add(bar.text(text)).on_hover_text(t("Trying networks in simulation"));
+            if found == 0 { format!("{seconds:.0} s") } else { tf!("{seconds:.0} s, {found} so far", seconds, found) };
+        ui.add(bar.text(text))
+            .on_hover_text(t("Trying networks in simulation. Better ones take the place of those that are there"));
         if ui.button(t("Cancel")).on_hover_text(ESCAPE.hint(t(CANCEL.tip))).clicked() {
             actions.push(Action::Run(&CANCEL, Hit::Nothing));
         }

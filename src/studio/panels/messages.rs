@@ -26,22 +26,25 @@ pub fn below(ui: &mut Ui, session: &Session, actions: &mut Actions, panel: impl 
 
 fn foot(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     let most = MOST * ui.available_height();
-    Panel::bottom("messages").frame(Frame::new()).resizable(false).show_separator_line(false).show(ui, |ui| {
-        ScrollArea::vertical()
-            .id_salt("messages")
-            .max_height(most)
-            .auto_shrink([false, true])
-            .stick_to_bottom(true)
-            .show(ui, |ui| {
-                ui.spacing_mut().item_spacing.y = 4.0;
-                for message in session.messages.list() {
-                    row(ui, message, actions);
-                }
-            });
+    let panel = Panel::bottom("messages").frame(Frame::new()).resizable(false).show_separator_line(false);
+    let shown = panel.show(ui, |ui| {
+        // The newest on top, from its beginning: that is what somebody looks for.
+        ScrollArea::vertical().id_salt("messages").max_height(most).auto_shrink([false, true]).show(ui, |ui| {
+            ui.spacing_mut().item_spacing.y = 4.0;
+            for message in session.messages.list().iter().rev() {
+                row(ui, message, actions);
+            }
+        });
         if ui.link(t("All messages")).on_hover_text(t(LOG.tip)).clicked() {
             actions.push(Action::Run(&LOG, session.selected()));
         }
     });
+    // A panel has the height of what was in it in the frame before.
+    let (id, height) = (shown.response.id.with("height"), shown.response.rect.height());
+    if ui.data(|data| data.get_temp(id)) != Some(height) {
+        ui.data_mut(|data| data.insert_temp(id, height));
+        ui.ctx().request_repaint();
+    }
 }
 
 fn row(ui: &mut Ui, message: &Message, actions: &mut Actions) {

@@ -79,7 +79,7 @@ fn rows(ui: &mut Ui, session: &Session, breaches: &[Breach], actions: &mut Actio
                 if icons::small_button(ui, Icon::Trash, &name, &tip).clicked() {
                     actions.push(Action::Change(Change::Network(Edit::Remove(Part::Winch(index)))));
                 }
-                sewable::mark(ui, session.design(), index, breaches);
+                sewable::mark(ui, session.design(), index, breaches, actions);
                 // Both plushies have the same; a hidden one is not kept up to date.
                 let views = session.look.views;
                 let shapes = &session.solver.shapes;

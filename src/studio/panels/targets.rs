@@ -23,6 +23,10 @@ const OUT_OF_REACH_TIP: &str = mark(
     "Out of reach: even with all its fibres the body does not come nearer, as the other targets and the pins are. Move the goal \
                                 nearer, take a pin out, or give this target more weight",
 );
+/// Where there is no other target.
+const ALONE_OUT_OF_REACH_TIP: &str = mark(
+    "Out of reach: even with all its fibres the body does not come nearer, as the pins are. Move the goal nearer, or take a pin out",
+);
 /// Weights that are offered.
 const WEIGHTS: std::ops::RangeInclusive<f64> = 0.01..=100.0;
 
@@ -106,8 +110,9 @@ fn row(ui: &mut Ui, session: &Session, pose: usize, index: usize, target: &Targe
             }
             // In the row, so that nothing moves away from under the pointer while the body settles.
             if let Some(missed) = missed {
+                let tip = if session.targets().len() == 1 { ALONE_OUT_OF_REACH_TIP } else { OUT_OF_REACH_TIP };
                 let text = RichText::new(format!("{:.0} mm", missed.ceil())).small().color(ui.visuals().warn_fg_color);
-                let response = ui.label(text).on_hover_text(t(OUT_OF_REACH_TIP));
+                let response = ui.label(text).on_hover_text(t(tip));
                 let spoken = tf!("Out of reach by {missed_mm:.0} mm", missed_mm = missed.ceil());
                 response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &spoken));
             }

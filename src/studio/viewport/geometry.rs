@@ -6,7 +6,7 @@
 use crate::mesh::Mesh;
 use crate::outline::Point;
 use crate::picture::plush::Felt;
-use crate::picture::{Color, Item, Scene, Silhouette, Texture};
+use crate::picture::{Color, Item, Scene, Silhouette, Strands, Texture};
 use bytemuck::{Pod, Zeroable};
 use std::ops::Range;
 use std::sync::Arc;
@@ -136,11 +136,7 @@ impl Geometry {
                     geometry.texture = Some(texture.clone());
                 }
                 Item::Line { points, width, color, closed } => geometry.line(points, *width, *color, *closed),
-                Item::Strands(strands) => {
-                    for (points, width, color) in strands.iter() {
-                        geometry.line(points, width, color, false);
-                    }
-                }
+                Item::Strands(strands) => geometry.strands(strands),
                 Item::Disc { center, radius, fill, stroke } => geometry.disc(*center, *radius, *fill, *stroke),
             }
         }
@@ -202,6 +198,21 @@ impl Geometry {
         for to in ends {
             self.capsule(Capsule { from, to, radius: width / 2.0, inner: FILLED, color: bytes(color) });
             from = to;
+        }
+    }
+
+    fn strands(&mut self, strands: &Strands) {
+        let start = self.capsules.len() as u32;
+        self.capsules.reserve(strands.points().len());
+        for (points, width, color) in strands.iter() {
+            let (radius, color) = (width / 2.0, bytes(color));
+            let piece =
+                |ends: &[Point]| Capsule { from: f32s(ends[0]), to: f32s(ends[1]), radius, inner: FILLED, color };
+            self.capsules.extend(points.windows(2).map(piece));
+        }
+        let end = self.capsules.len() as u32;
+        if end > start {
+            self.note(Batch::Capsules(start..end));
         }
     }
 

@@ -65,6 +65,20 @@ fn messages_stand_beside_the_views_and_all_of_them_in_the_log() {
 }
 
 #[test]
+fn the_newest_message_is_on_top() {
+    let mut window = window(bar());
+    press(&mut window, Modifiers::NONE, Key::K);
+    press(&mut window, Modifiers::SHIFT, Key::N);
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    let texts: Vec<String> = session(&window).messages().list().iter().map(|message| message.text.clone()).collect();
+    assert!(texts.len() > 1, "{texts:?}");
+    let tops: Vec<f32> = texts.iter().map(|text| window.get_by_label(text).rect().top()).collect();
+    assert!(tops.windows(2).all(|pair| pair[0] > pair[1]), "{texts:?} {tops:?}");
+    let foot = window.get_by_label("All messages").rect();
+    assert!(tops[0] < foot.top() && foot.bottom() <= window.get_by_label("Idealized view").rect().bottom());
+}
+
+#[test]
 fn what_is_in_hand_stays_in_hand_when_messages_come_and_go() {
     let mut window = window(bar());
     press(&mut window, Modifiers::SHIFT, Key::N);

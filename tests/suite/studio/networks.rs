@@ -7,7 +7,8 @@ use crate::support::window::{
 use eframe::egui::{Key, Modifiers, accesskit, pos2, vec2};
 use egui_kittest::kittest::Queryable;
 use plushwright::design::animation;
-use plushwright::studio::session::{Propose, Services};
+use plushwright::operations::network::Part;
+use plushwright::studio::session::{Propose, Selection, Services};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -240,6 +241,10 @@ fn networks_that_no_hand_can_sew_are_marked() {
     click(&mut window, "Undo");
     assert_eq!(session(&window).design().sewing.turn_degrees, 75.0);
     marked(&mut window, "right", true);
+    // The mark leads to the place, with the tool for it.
+    click(&mut window, "Network right is hard to sew");
+    assert_eq!(session(&window).selection(), Selection::Part(Part::Winch(1)));
+    assert!(session(&window).has_taken("tool.tendon"));
 }
 
 #[test]

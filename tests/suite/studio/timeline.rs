@@ -33,8 +33,8 @@ fn a_keyframe_follows_its_pose_as_part_of_the_step_that_changed_it_until_it_is_f
     // Fixed, it stays.
     window.get_by_label("Keyframe 1").click();
     settle(&mut window);
-    click(&mut window, "Fix");
-    assert_eq!((keyframe(&window, 0).pose, session(&window).history().undo_label()), (None, Some("Fix keyframe")));
+    click(&mut window, "Detach");
+    assert_eq!((keyframe(&window, 0).pose, session(&window).history().undo_label()), (None, Some("Detach keyframe")));
     click(&mut window, "Pose 1");
     let at = crate::support::window::on_screen(&window, "Idealized view", moved.poses[0].targets[0].to);
     drag(&mut window, at, at + eframe::egui::vec2(0.0, 20.0));
@@ -162,6 +162,23 @@ fn easings_have_handles_that_are_dragged_and_typed() {
     );
     assert_eq!(session(&window).history().undo_label(), Some("Keyframe easing"));
     assert!(window.query_by_label("Slow at the beginning").is_some());
+    back_and_forth(&mut window, 1);
+}
+
+#[test]
+fn a_keyframe_has_a_handle_of_the_way_to_it() {
+    let mut window = three();
+    window.get_by_label("Keyframe 2").click();
+    settle(&mut window);
+    let back = center(&window, "Keyframe 1") - center(&window, "Keyframe 2");
+    let from = center(&window, "Handle of the end before");
+    drag(&mut window, from, from + 0.3 * back);
+    let easing = keyframe(&window, 0).easing;
+    assert!(
+        matches!(easing, plushwright::design::Easing::Slow { out, into } if (into - 0.63).abs() < 0.02 && out < 0.34),
+        "{easing:?}"
+    );
+    assert_eq!(keyframe(&window, 1).easing, plushwright::design::Easing::Smooth);
     back_and_forth(&mut window, 1);
 }
 

@@ -166,6 +166,28 @@ fn the_selection_fills_the_views_and_with_none_the_posed_plushies_do() {
 }
 
 #[test]
+fn a_goal_far_beside_the_body_is_fitted_too() {
+    let mut design = bar();
+    let at = design.mesh.node_point(design.mesh.nearest_node([120.0, 40.0], &design.mesh.nodes)).unwrap();
+    let far = [120.0, 400.0];
+    let targets = vec![plushwright::design::Target { at, to: far, weight: 1.0 }];
+    design.poses.push(plushwright::design::Pose { name: "far".into(), targets });
+    let mut window = window(design);
+    click(&mut window, "far");
+    press(&mut window, Modifiers::NONE, Key::F);
+    window.run_steps(3);
+    for (view, plushie) in [("Idealized view", Plushie::Idealized), ("Realizable view", Plushie::Realizable)] {
+        let rect = window.get_by_label(view).rect();
+        let places = [far, [0.0, 0.0], [120.0, 40.0]];
+        let places = places.map(|p| window.state().as_ref().unwrap().on_screen(plushie, p).unwrap());
+        assert!(places.iter().all(|&p: &Pos2| rect.contains(p)), "{view} {rect:?}: {places:?}");
+    }
+    click(&mut window, "Rest");
+    press(&mut window, Modifiers::NONE, Key::F);
+    assert_eq!(session(&window).look().camera, None);
+}
+
+#[test]
 fn cameras_are_linked_until_they_are_freed() {
     let mut window = window(bar());
     let beside = on_screen(&window, "Realizable view", [60.0, 65.0]);

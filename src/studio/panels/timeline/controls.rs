@@ -77,7 +77,7 @@ fn selected(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     if first.pose.is_some() {
         let tip =
             t("What this keyframe winds stays; otherwise it is worked out again where winches or its pose change");
-        if ui.button(t("Fix")).on_hover_text(tip).clicked() {
+        if ui.button(t("Detach")).on_hover_text(tip).clicked() {
             actions.push(Action::Change(Change::FixKeyframe(keys[0])));
         }
     }
@@ -96,13 +96,9 @@ fn selected(ui: &mut Ui, session: &Session, actions: &mut Actions) {
 /// The pace from keyframes to the next ones.
 fn easing(ui: &mut Ui, keys: &[usize], first: &Keyframe, actions: &mut Actions) {
     let before = first.easing;
-    let mut easing = before;
-    let combo = ComboBox::from_id_salt("easing").selected_text(name(easing)).width(84.0).show_ui(ui, |ui| {
-        let handles = if matches!(before, Easing::Slow { .. }) { before } else { HANDLES };
-        for choice in [Easing::Smooth, Easing::Linear, Easing::Hold, handles] {
-            ui.selectable_value(&mut easing, choice, name(choice));
-        }
-    });
+    let combo = ComboBox::from_id_salt("easing").selected_text(name(before)).width(84.0);
+    let combo = combo.show_ui(ui, |ui| easings(ui, before));
+    let mut easing = combo.inner.flatten().unwrap_or(before);
     combo.response.accessible_name(t("Easing")).on_hover_text(t("How the motion goes on to the next keyframe"));
     let of = |easing| Change::EaseKeyframes { keys: keys.to_vec(), easing };
     if easing != before {
@@ -119,6 +115,16 @@ fn easing(ui: &mut Ui, keys: &[usize], first: &Keyframe, actions: &mut Actions) 
             actions.push(Action::Live(of(easing)));
         }
     }
+}
+
+/// All easings; the one that is chosen instead of this.
+pub fn easings(ui: &mut Ui, before: Easing) -> Option<Easing> {
+    let handles = if matches!(before, Easing::Slow { .. }) { before } else { HANDLES };
+    let mut easing = before;
+    for choice in [Easing::Smooth, Easing::Linear, Easing::Hold, handles] {
+        ui.selectable_value(&mut easing, choice, name(choice)).on_hover_text(tip(choice));
+    }
+    (easing != before).then_some(easing)
 }
 
 /// Several at once: how many, and how long they take together.
@@ -148,5 +154,14 @@ fn name(easing: Easing) -> &'static str {
         Easing::Smooth => t("easing|Smooth"),
         Easing::Hold => t("Hold"),
         Easing::Slow { .. } => t("Handles"),
+    }
+}
+
+fn tip(easing: Easing) -> &'static str {
+    match easing {
+        Easing::Linear => t("At one speed to the next keyframe"),
+        Easing::Smooth => t("Starts and stops gently"),
+        Easing::Hold => t("Stays as it is, and jumps at the next keyframe"),
+        Easing::Slow { .. } => t("Lingers at its ends, as long as you like: drag the handles on the track"),
     }
 }

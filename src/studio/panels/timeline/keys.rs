@@ -1,7 +1,7 @@
 //! Keyframes on the track: selected, moved and stretched, alone or together, and the handles of their easings.
 
 use super::axis::Axis;
-use super::controls::follows;
+use super::controls::{easings, follows};
 use crate::design::{Easing, Keyframe};
 use crate::studio::action::{Action, Actions};
 use crate::studio::change::Change;
@@ -102,6 +102,13 @@ fn diamond(
     }
     response.context_menu(|ui| {
         ui.set_min_width(180.0);
+        ui.menu_button(t("Easing"), |ui| {
+            if let Some(easing) = easings(ui, keyframe.easing) {
+                let keys = if selected { keys.clone() } else { vec![index] };
+                actions.push(Action::Change(Change::EaseKeyframes { keys, easing }));
+                ui.close();
+            }
+        });
         for command in [&EARLIER, &LATER, &COPY, &CUT, &PASTE, &ALL_KEYFRAMES, &REMOVE] {
             buttons::entry(ui, session, command, session.selected(), actions);
         }
@@ -193,9 +200,22 @@ fn end(
     false
 }
 
-/// Handles of the easing after the selected keyframe: how slowly it begins and ends.
+/// A handle of an easing: of which keyframe's, whether that of its end, and its name.
+type Handle = (usize, bool, &'static str);
+
+/// Handles of the easing around the selected keyframe: how slowly the motion to it ends, how slowly that from it begins and ends.
 fn handles(ui: &mut Ui, session: &Session, axis: &Axis, actions: &mut Actions) -> bool {
     let Selection::Keyframe(index) = session.selection() else { return false };
+    let to = index.checked_sub(1).map(|before| (before, true, t("Handle of the end before")));
+    let from = [(index, false, t("Handle of the beginning")), (index, true, t("Handle of the end"))];
+    let mut busy = false;
+    for of in to.into_iter().chain(from) {
+        busy |= handle(ui, session, axis, of, actions);
+    }
+    busy
+}
+
+fn handle(ui: &mut Ui, session: &Session, axis: &Axis, (index, at_end, name): Handle, actions: &mut Actions) -> bool {
     let frames = &session.design().keyframes;
     let (Some(from), Some(to)) = (frames.get(index), frames.get(index + 1)) else { return false };
     let (out, into) = match from.easing {
@@ -204,34 +224,28 @@ fn handles(ui: &mut Ui, session: &Session, axis: &Axis, actions: &mut Actions) -
         Easing::Linear | Easing::Hold => return false,
     };
     let lasts = to.time_s - from.time_s;
-    let y = axis.base() - 13.0;
+    let (end_s, at_s) =
+        if at_end { (to.time_s, to.time_s - into * lasts) } else { (from.time_s, from.time_s + out * lasts) };
+    let center = pos2(axis.x(at_s), axis.base() - 13.0);
     let accent = style::accent(session.look().theme);
-    let mut busy = false;
-    for (side, name) in [t("Handle of the beginning"), t("Handle of the end")].into_iter().enumerate() {
-        let end_s = [from.time_s, to.time_s][side];
-        let at_s = [from.time_s + out * lasts, to.time_s - into * lasts][side];
-        let center = pos2(axis.x(at_s), y);
-        let id = ui.scope_id().with(("easing handle", side));
-        let response = ui.interact(Rect::from_center_size(center, vec2(14.0, 14.0)), id, Sense::click_and_drag());
-        let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal);
-        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
-        let painter = ui.painter_at(axis.rect);
-        painter.line_segment([pos2(axis.x(end_s), axis.base()), center], Stroke::new(1.0, accent));
-        painter.circle(
-            center,
-            if response.hovered() { 5.5 } else { 4.5 },
-            ui.visuals().window_fill,
-            Stroke::new(1.8, accent),
-        );
-        busy |= response.is_pointer_button_down_on();
-        if let Some(pointer) = response.interact_pointer_pos().filter(|_| response.dragged()) {
-            let part = (axis.time(pointer.x) - from.time_s) / lasts;
-            let part = (if side == 0 { part } else { 1.0 - part }).clamp(HANDLE[0], HANDLE[1]);
-            // To the hundredth: what is read off and typed.
-            let part = (100.0 * part).round() / 100.0;
-            let easing = if side == 0 { Easing::Slow { out: part, into } } else { Easing::Slow { out, into: part } };
-            actions.push(Action::Live(Change::EaseKeyframes { keys: vec![index], easing }));
-        }
+    let id = ui.scope_id().with(("easing handle", index, at_end));
+    let response = ui.interact(Rect::from_center_size(center, vec2(14.0, 14.0)), id, Sense::click_and_drag());
+    let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal);
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
+    let painter = ui.painter_at(axis.rect);
+    painter.line_segment([pos2(axis.x(end_s), axis.base()), center], Stroke::new(1.0, accent));
+    let radius = if response.hovered() { 5.5 } else { 4.5 };
+    painter.circle(center, radius, ui.visuals().window_fill, Stroke::new(1.8, accent));
+    let busy = response.is_pointer_button_down_on();
+    if let Some(pointer) = response.interact_pointer_pos().filter(|_| response.dragged()) {
+        let part = (axis.time(pointer.x) - from.time_s) / lasts;
+        let part = (if at_end { 1.0 - part } else { part }).clamp(HANDLE[0], HANDLE[1]);
+        // To the hundredth: what is read off and typed.
+        let part = (100.0 * part).round() / 100.0;
+        let easing = if at_end { Easing::Slow { out, into: part } } else { Easing::Slow { out: part, into } };
+        actions.push(Action::Live(Change::EaseKeyframes { keys: vec![index], easing }));
+    }
+    if !busy {
         response.on_hover_text(t("How slowly the motion begins and ends: drag away from the keyframe for slower"));
     }
     busy
