@@ -6,8 +6,8 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 /// A part of the body is a limb if it has at least and at most so much of its area: a tip that is smaller holds no cable, one that is larger is half of
-/// the body.
-const AREA: [f64; 2] = [0.02, 0.4];
+/// the body, or its head.
+const AREA: [f64; 2] = [0.02, 0.25];
 
 /// One that reaches up counts for so much more, one that reaches down for so much less: a body stands on its legs and waves its arms.
 const RAISED: f64 = 0.5;
