@@ -10,11 +10,7 @@ const LEAF: usize = 12;
 
 /// The order in which the nodes are eliminated.
 pub fn nested_dissection(mesh: &Mesh) -> Vec<usize> {
-    let mut neighbours = vec![Vec::new(); mesh.nodes.len()];
-    for [a, b] in mesh.edges() {
-        neighbours[a].push(b);
-        neighbours[b].push(a);
-    }
+    let neighbours = mesh.neighbours();
     let mut side = vec![0; mesh.nodes.len()];
     let mut order = Vec::with_capacity(mesh.nodes.len());
     let mut fresh = 0;

@@ -37,6 +37,7 @@ pub mod report;
 mod reshape;
 mod retime;
 mod rig;
+mod search;
 mod simulate_controller;
 mod solve;
 mod starch;

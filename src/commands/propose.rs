@@ -3,7 +3,7 @@
 use super::document::Target;
 use super::error::CommandError;
 use super::output::{say, say_json, say_lines};
-use super::rig::{Rules, parse_phi};
+use super::search::{Algorithm2, Rules};
 use super::{document, progress, words};
 use crate::bench::{Cell, Table};
 use crate::defaults;
@@ -44,18 +44,8 @@ pub struct Propose {
     /// Seed of the search: another one may find other networks
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u64,
-    /// Fibers that seed a network (SEED_NUM of Algorithm 2) [default: as in the studio]
-    #[arg(long, value_name = "N")]
-    pub seed_num: Option<usize>,
-    /// Rounds of joining (JOIN_DEPTH)
-    #[arg(long, value_name = "N")]
-    pub join_depth: Option<usize>,
-    /// Largest number of edges of a joining path (JOIN_LEN)
-    #[arg(long, value_name = "N")]
-    pub join_len: Option<usize>,
-    /// 0 (equal tendons) to 1 (long tendons)
-    #[arg(long, value_name = "PHI", value_parser = parse_phi, allow_hyphen_values = true)]
-    pub phi: Option<f64>,
+    #[command(flatten)]
+    pub parameters: Algorithm2,
     /// Build the network of this number into the design
     #[arg(long, value_name = "NUMBER")]
     pub accept: Option<usize>,
@@ -122,7 +112,8 @@ impl Propose {
                 let chosen = number.checked_sub(1).and_then(|index| list.get(index)).ok_or_else(|| {
                     CommandError::Usage(format!("there is no network {number}; there are 1 to {}", list.len()))
                 })?;
-                propose::accept(&mut design, chosen).map_err(|error| CommandError::Failed(error.to_string()))?;
+                propose::accept(&mut design, chosen.network.clone())
+                    .map_err(|error| CommandError::Failed(error.to_string()))?;
                 edit.save(&design, cancel)?;
                 self.tell(&list, Some((number, &design)), out)
             }
@@ -136,12 +127,12 @@ impl Propose {
     }
 
     fn options(&self) -> Options {
-        let usual = Parameters::default();
+        let (given, usual) = (self.parameters, Parameters::default());
         let parameters = Parameters {
-            seed_num: self.seed_num.unwrap_or(usual.seed_num),
-            join_depth: self.join_depth.unwrap_or(usual.join_depth),
-            join_len: self.join_len.unwrap_or(usual.join_len),
-            phi: self.phi.unwrap_or(usual.phi),
+            seed_num: given.seed_num.unwrap_or(usual.seed_num),
+            join_depth: given.join_depth.unwrap_or(usual.join_depth),
+            join_len: given.join_len.unwrap_or(usual.join_len),
+            phi: given.phi.unwrap_or(usual.phi),
             tendon_num: usize::from(self.tendons),
             ..usual
         };

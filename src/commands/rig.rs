@@ -4,6 +4,7 @@ use super::error::CommandError;
 use super::explore::Explore;
 use super::interrupt::Keeping;
 use super::output::{say, say_json, say_lines};
+use super::search::{Algorithm2, Rules};
 use super::{document, progress, words};
 use crate::defaults;
 use crate::design::Design;
@@ -61,18 +62,8 @@ pub struct Rig {
     pub seed: u64,
     #[command(flatten)]
     pub explore: Explore,
-    /// Fibers that seed a network (SEED_NUM of Algorithm 2) [default: several are tried]
-    #[arg(long, value_name = "N")]
-    pub seed_num: Option<usize>,
-    /// Rounds of joining (JOIN_DEPTH) [default: several are tried]
-    #[arg(long, value_name = "N")]
-    pub join_depth: Option<usize>,
-    /// Largest number of edges of a joining path (JOIN_LEN) [default: several are tried]
-    #[arg(long, value_name = "N")]
-    pub join_len: Option<usize>,
-    /// 0 (equal tendons) to 1 (long tendons) [default: several are tried]
-    #[arg(long, value_name = "PHI", value_parser = parse_phi, allow_hyphen_values = true)]
-    pub phi: Option<f64>,
+    #[command(flatten)]
+    pub parameters: Algorithm2,
     /// Print JSON when the search is over
     #[arg(long)]
     pub json: bool,
@@ -93,14 +84,6 @@ impl From<Method> for rig::Method {
             Method::Algorithm2 => Self::Algorithm2,
         }
     }
-}
-
-/// Which rules networks keep.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-pub enum Rules {
-    #[default]
-    Sewing,
-    None,
 }
 
 /// Format of what `rig --json` prints.
@@ -201,9 +184,7 @@ impl Rig {
 
     /// Refuses what belongs to another method, and numbers that no winch gets.
     fn check_parameters(&self) -> Result<(), CommandError> {
-        let given = [("seed-num", self.seed_num.is_some()), ("join-depth", self.join_depth.is_some())];
-        let given = given.into_iter().chain([("join-len", self.join_len.is_some()), ("phi", self.phi.is_some())]);
-        if let Some((name, _)) = given.into_iter().find(|(_, given)| *given && self.method == Method::Joint) {
+        if let Some(name) = self.parameters.given().filter(|_| self.method == Method::Joint) {
             return Err(CommandError::Usage(format!("--{name} is a parameter of --method algorithm2")));
         }
         if (self.ratios || self.slack) && self.method == Method::Algorithm2 {
@@ -234,10 +215,10 @@ impl Rig {
             keep: true,
             max_winches: usize::from(self.max_winches),
             tendons: self.tendons.clone(),
-            seed_num: self.seed_num,
-            join_depth: self.join_depth,
-            join_len: self.join_len,
-            phi: self.phi,
+            seed_num: self.parameters.seed_num,
+            join_depth: self.parameters.join_depth,
+            join_len: self.parameters.join_len,
+            phi: self.parameters.phi,
         }
     }
 
@@ -354,12 +335,5 @@ fn most_tendons(choice: &TendonChoice) -> usize {
     match choice {
         TendonChoice::Between(low, high) => high - low + 1,
         TendonChoice::PerWinch(_) => 1,
-    }
-}
-
-pub fn parse_phi(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(phi) if (0.0..=1.0).contains(&phi) => Ok(phi),
-        _ => Err(format!("expected a number from 0 to 1, found `{text}`")),
     }
 }

@@ -112,12 +112,7 @@ struct Carrier<'a> {
 
 impl<'a> Carrier<'a> {
     fn new(old: &'a Mesh, new: &'a Mesh) -> Self {
-        let mut neighbours = vec![Vec::new(); new.nodes.len()];
-        for [a, b] in new.edges() {
-            neighbours[a].push(b);
-            neighbours[b].push(a);
-        }
-        Self { old, new, neighbours, outside: OUTSIDE * new.body_length(), report: Report::default() }
+        Self { old, new, neighbours: new.neighbours(), outside: OUTSIDE * new.body_length(), report: Report::default() }
     }
 
     fn note(&mut self, what: String, distance_mm: f64) {

@@ -5,8 +5,7 @@ use crate::outline::{Point, polygon};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// A part of the body is a limb if it has at least and at most so much of its area: a tip that is smaller holds no cable, one that is larger is half of
-/// the body, or its head.
+/// A part of the body is a limb if it has at least and at most so much of its area: into less goes no cable, more is a head or half of the body.
 const AREA: [f64; 2] = [0.02, 0.25];
 
 /// One that reaches up counts for so much more, one that reaches down for so much less: a body stands on its legs and waves its arms.
@@ -16,8 +15,8 @@ const RAISED: f64 = 0.5;
 /// length squared by its area is largest, where what reaches up is preferred. The farthest node where nothing is a limb; `None` without nodes.
 pub fn tip(mesh: &Mesh, from: Point) -> Option<usize> {
     let start = mesh.nearest_node(from, &mesh.nodes);
-    let links = links(mesh);
-    let far = distances(mesh, &links, start);
+    let neighbours = mesh.neighbours();
+    let far = distances(mesh, &neighbours, start);
     let areas = areas(mesh);
     let whole: f64 = areas.iter().sum();
     let mut order: Vec<usize> = (0..mesh.nodes.len()).filter(|&n| far[n].is_finite()).collect();
@@ -27,7 +26,7 @@ pub fn tip(mesh: &Mesh, from: Point) -> Option<usize> {
     let mut best: Option<(f64, usize)> = None;
     for &node in &order {
         parts[node] = Some(Part { parent: node, area: areas[node], tip: node });
-        for &other in &links[node] {
+        for &other in &neighbours[node] {
             join(&mut parts, node, other, &far);
         }
         let root = root(&parts, node);
@@ -73,16 +72,6 @@ fn join(parts: &mut [Option<Part>], node: usize, other: usize, far: &[f64]) {
     parts[over] = parts[over].map(|part| Part { area: one.area + two.area, tip, ..part });
 }
 
-/// The nodes beside each node.
-fn links(mesh: &Mesh) -> Vec<Vec<usize>> {
-    let mut links = vec![Vec::new(); mesh.nodes.len()];
-    for [a, b] in mesh.edges() {
-        links[a].push(b);
-        links[b].push(a);
-    }
-    links
-}
-
 /// A third of the area of its triangles for each node.
 fn areas(mesh: &Mesh) -> Vec<f64> {
     let mut areas = vec![0.0; mesh.nodes.len()];
@@ -94,7 +83,7 @@ fn areas(mesh: &Mesh) -> Vec<f64> {
 }
 
 /// From a node to all others along edges; infinite where none leads.
-fn distances(mesh: &Mesh, links: &[Vec<usize>], start: usize) -> Vec<f64> {
+fn distances(mesh: &Mesh, neighbours: &[Vec<usize>], start: usize) -> Vec<f64> {
     let mut far = vec![f64::INFINITY; mesh.nodes.len()];
     if start >= far.len() {
         return far;
@@ -106,7 +95,7 @@ fn distances(mesh: &Mesh, links: &[Vec<usize>], start: usize) -> Vec<f64> {
         if f64::from_bits(bits) > far[node] {
             continue;
         }
-        for &next in &links[node] {
+        for &next in &neighbours[node] {
             let through = far[node] + polygon::length(mesh.nodes[node], mesh.nodes[next]);
             if through < far[next] {
                 far[next] = through;

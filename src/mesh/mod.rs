@@ -102,6 +102,16 @@ impl Mesh {
         edges
     }
 
+    /// The nodes beside each node, by their numbers.
+    pub fn neighbours(&self) -> Vec<Vec<usize>> {
+        let mut beside = vec![Vec::new(); self.nodes.len()];
+        for [a, b] in self.edges() {
+            beside[a].push(b);
+            beside[b].push(a);
+        }
+        beside
+    }
+
     /// Where a body point is when the nodes are at `positions`.
     pub fn position(&self, at: &BodyPoint, positions: &[Point]) -> Point {
         let mut p = [0.0; 2];

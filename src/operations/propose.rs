@@ -1,9 +1,9 @@
 //! Networks for a pose, tried out by simulation, the best first.
 
 use super::posing::{self, NoSuchPose};
-use super::{Cancelled, Context, Progress, changed};
+use super::{Cancelled, Context, Progress};
 use crate::design::edit::{self, EditError};
-use crate::design::{Design, Target};
+use crate::design::{Design, Network, Target};
 use crate::rigging::{self, Proposal, ProposeOptions};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -58,12 +58,12 @@ pub fn for_targets(
     if proposals.is_empty() { Err(Error::NothingFound) } else { Ok(proposals) }
 }
 
-/// Builds a proposal in, slack in every keyframe so far; its index among the networks.
+/// Builds the network of a proposal in, slack in every keyframe so far; its index among the networks.
 ///
 /// # Errors
 /// It was proposed for another mesh; the design stays as it was.
-pub fn accept(design: &mut Design, proposal: &Proposal) -> Result<usize, EditError> {
-    changed(design, |design| edit::accept_network(design, proposal.network.clone()))
+pub fn accept(design: &mut Design, network: Network) -> Result<usize, EditError> {
+    edit::accept_network(design, network)
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use crate::mesh::{Axis, BodyPoint};
 use crate::operations::arrange::{self, Handle, Motion};
 use crate::operations::network::{self, Part};
 use crate::operations::pose::{at_hand, begin, pin_middle, put_pin, put_target, rounded};
-use crate::operations::{retime, starch};
+use crate::operations::{propose, retime, starch};
 use crate::outline::{Drawing, Point};
 use crate::physics::TermKind;
 use crate::sewing::Rules;
@@ -97,7 +97,7 @@ pub enum Change {
     Network(network::Edit),
     SetKeyframe(Keyframe),
     /// What it winds stays, whatever becomes of its pose.
-    FixKeyframe(usize),
+    DetachKeyframe(usize),
     RemoveKeyframe(usize),
     /// Keyframes together, by their numbers.
     MoveKeyframes {
@@ -182,7 +182,7 @@ impl Change {
             Self::AcceptNetwork(_) => mark("Accept network"),
             Self::Network(edit) => edit.label(),
             Self::SetKeyframe(_) => mark("Set keyframe"),
-            Self::FixKeyframe(_) => mark("Detach keyframe"),
+            Self::DetachKeyframe(_) => mark("Detach keyframe"),
             Self::RemoveKeyframe(_) => mark("Delete keyframe"),
             Self::MoveKeyframes { keys, .. } if keys.len() == 1 => mark("Move keyframe"),
             Self::MoveKeyframes { .. } => mark("Move keyframes"),
@@ -250,10 +250,10 @@ impl Change {
             | Self::RemoveHandles { .. }
             | Self::Starch { .. }
             | Self::ClearStarch => return self.pose(design),
-            Self::AcceptNetwork(network) => Made::Part(Part::Winch(edit::accept_network(design, network)?)),
+            Self::AcceptNetwork(network) => Made::Part(Part::Winch(propose::accept(design, network)?)),
             Self::Network(edit) => network::apply(design, &edit)?.map_or(Made::Nothing, Made::Part),
             Self::SetKeyframe(keyframe) => Made::Keyframe(edit::set_keyframe(design, keyframe)?),
-            Self::FixKeyframe(index) => match design.keyframes.get(index).cloned() {
+            Self::DetachKeyframe(index) => match design.keyframes.get(index).cloned() {
                 Some(keyframe) => Made::Keyframe(edit::set_keyframe(design, Keyframe { pose: None, ..keyframe })?),
                 None => Made::Nothing,
             },

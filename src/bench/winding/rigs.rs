@@ -3,7 +3,6 @@
 use crate::bench::{BenchError, drags, shapes};
 use crate::design::{Design, MaterialPoint, Network, Target, Tendon};
 use crate::engine::compile::{View, compile};
-use crate::mesh::Mesh;
 use crate::outline::Point;
 use crate::random::Random;
 use crate::soft_ik::{Actuation, Objective, Question};
@@ -37,7 +36,7 @@ pub fn rig(shape: &str, winches: usize, seed: u64, number: u64, stop: &dyn Fn() 
     let mut random = Random::of(seed, &format!("{shape} winding {winches}"), number);
     let fibers = random.between(FIBERS[0], FIBERS[1]) as usize;
     let mut design = shapes::design(shape, fibers)?;
-    let neighbours = neighbours(&design.mesh);
+    let neighbours = design.mesh.neighbours();
     for k in 0..winches {
         let network = network(&design, &neighbours, format!("winch {}", k + 1), &mut random);
         design.networks.push(network);
@@ -61,15 +60,6 @@ pub fn rig(shape: &str, winches: usize, seed: u64, number: u64, stop: &dyn Fn() 
 fn moved(p: Point, by: f64, random: &mut Random) -> Point {
     let d = random.direction();
     [p[0] + by * d[0], p[1] + by * d[1]]
-}
-
-fn neighbours(mesh: &Mesh) -> Vec<Vec<usize>> {
-    let mut out = vec![Vec::new(); mesh.nodes.len()];
-    for [a, b] in mesh.edges() {
-        out[a].push(b);
-        out[b].push(a);
-    }
-    out
 }
 
 /// A winch at a random node, with tendons along shortest paths to nodes some way off.

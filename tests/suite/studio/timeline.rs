@@ -1,4 +1,4 @@
-//! Keyframes that follow their poses, are fixed, replaced, selected; keys that work after a click into a view.
+//! Keyframes that follow their poses, are detached, replaced, selected; keys that work after a click into a view.
 
 use crate::support::window::{click, drag, press, session, settle, wait, with_network};
 use eframe::egui::{Key, Modifiers};

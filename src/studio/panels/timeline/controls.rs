@@ -78,7 +78,7 @@ fn selected(ui: &mut Ui, session: &Session, actions: &mut Actions) {
         let tip =
             t("What this keyframe winds stays; otherwise it is worked out again where winches or its pose change");
         if ui.button(t("Detach")).on_hover_text(tip).clicked() {
-            actions.push(Action::Change(Change::FixKeyframe(keys[0])));
+            actions.push(Action::Change(Change::DetachKeyframe(keys[0])));
         }
     }
     let pose = follows(first);
@@ -145,7 +145,7 @@ fn together(ui: &mut Ui, keys: &[usize], frames: &[Keyframe], actions: &mut Acti
 
 /// The pose that a keyframe follows.
 pub fn follows(keyframe: &Keyframe) -> String {
-    keyframe.pose.as_ref().map_or_else(|| t("fixed").into(), |pose| tf!("follows {pose}", pose))
+    keyframe.pose.as_ref().map_or_else(|| t("detached").into(), |pose| tf!("follows {pose}", pose))
 }
 
 fn name(easing: Easing) -> &'static str {

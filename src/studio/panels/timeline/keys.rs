@@ -17,6 +17,8 @@ use eframe::egui::{CursorIcon, Pos2, Rect, Role, Sense, Stroke, Ui, WidgetInfo, 
 const SNAP_S: f64 = 0.05;
 /// Handles of the easing, as parts of the time, from where to where they can be dragged.
 const HANDLE: [f64; 2] = [0.05, 0.9];
+/// How far above the keyframes their handles stand, logical pixels.
+const ABOVE: f32 = 13.0;
 /// Those of `Easing::Smooth`.
 const THIRD: f64 = 1.0 / 3.0;
 
@@ -170,7 +172,7 @@ fn end(
     if times.len() < 2 || last_s <= first_s {
         return false;
     }
-    let y = axis.base() - 13.0;
+    let y = axis.base() - ABOVE;
     let accent = style::accent(session.look().theme);
     ui.painter_at(axis.rect).hline(axis.x(first_s)..=axis.x(last_s), y, Stroke::new(2.0, accent));
     let grip = Rect::from_center_size(pos2(axis.x(last_s), y), vec2(12.0, 12.0));
@@ -226,7 +228,7 @@ fn handle(ui: &mut Ui, session: &Session, axis: &Axis, (index, at_end, name): Ha
     let lasts = to.time_s - from.time_s;
     let (end_s, at_s) =
         if at_end { (to.time_s, to.time_s - into * lasts) } else { (from.time_s, from.time_s + out * lasts) };
-    let center = pos2(axis.x(at_s), axis.base() - 13.0);
+    let center = pos2(axis.x(at_s), axis.base() - ABOVE);
     let accent = style::accent(session.look().theme);
     let id = ui.scope_id().with(("easing handle", index, at_end));
     let response = ui.interact(Rect::from_center_size(center, vec2(14.0, 14.0)), id, Sense::click_and_drag());
