@@ -1,4 +1,4 @@
-// Plushies in the window: filled triangles with a fringe, and capsules (round lines, discs, rings).
+// Plushies in the window: filled triangles with a fringe, and capsules (round lines, discs, rings; four vertices each).
 // Coverage is computed here, so one sample a pixel gives smooth edges.
 
 struct View {

@@ -60,6 +60,9 @@ pub struct Rig {
     /// Seed of the search: another one may find other networks
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u64,
+    /// Starts that are raced in the first half of the rounds, before the best go on together: one for every five rounds of it, or at most so many
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=2_000))]
+    pub starts: Option<u16>,
     #[command(flatten)]
     pub explore: Explore,
     #[command(flatten)]
@@ -212,6 +215,7 @@ impl Rig {
             fresh: self.fresh,
             rounds: usize::from(self.rounds),
             seed: self.seed,
+            starts: self.starts.map(usize::from),
             keep: true,
             max_winches: usize::from(self.max_winches),
             tendons: self.tendons.clone(),

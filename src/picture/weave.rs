@@ -6,8 +6,10 @@ use crate::outline::polygon;
 /// What follows from mesh and routings alone: to be kept while [these stay](Self::is_of).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Weave {
-    /// Nodes of each fibre, in the order of [`Design::fiber_routings`].
-    pub routings: Vec<Vec<usize>>,
+    /// Nodes of the fibres in the order of [`Design::fiber_routings`], one after the other: they are read in any order in every frame.
+    nodes: Vec<usize>,
+    /// Where those of each fibre end.
+    ends: Vec<usize>,
     /// Length of each fibre at rest, mm.
     pub lengths_mm: Vec<f64>,
 }
@@ -22,7 +24,22 @@ impl Weave {
             pieces.map(|(a, b)| polygon::length(a, b)).sum()
         };
         let lengths_mm = routings.iter().map(length).collect();
-        Self { routings, lengths_mm }
+        let ends = routings.iter().scan(0, |end, routing| {
+            *end += routing.len();
+            Some(*end)
+        });
+        Self { ends: ends.collect(), nodes: routings.concat(), lengths_mm }
+    }
+
+    /// How many fibres there are.
+    pub fn count(&self) -> usize {
+        self.ends.len()
+    }
+
+    /// The nodes of a fibre.
+    pub fn routing(&self, fiber: usize) -> &[usize] {
+        let start = if fiber == 0 { 0 } else { self.ends[fiber - 1] };
+        &self.nodes[start..self.ends[fiber]]
     }
 
     /// Whether it would be the same for another design.
@@ -32,8 +49,8 @@ impl Weave {
 
     /// Contraction of each fibre as a part of its rest length; zeros for a shape without fibres.
     pub fn contracted(&self, contractions_mm: &[f64]) -> Vec<f64> {
-        if contractions_mm.len() != self.routings.len() {
-            return vec![0.0; self.routings.len()];
+        if contractions_mm.len() != self.count() {
+            return vec![0.0; self.count()];
         }
         let part = |(rest, contraction): (&f64, &f64)| if *rest > 0.0 { (contraction / rest).max(0.0) } else { 0.0 };
         self.lengths_mm.iter().zip(contractions_mm).map(part).collect()
@@ -50,15 +67,16 @@ mod tests {
     fn fibres_are_those_of_mesh_and_routings() {
         let design = sample();
         let weave = Weave::of(&design);
-        assert_eq!(weave.routings, design.fiber_routings());
+        let routings: Vec<&[usize]> = (0..weave.count()).map(|fiber| weave.routing(fiber)).collect();
+        assert_eq!(routings, design.fiber_routings());
         let moved = Design { poses: Vec::new(), ..design.clone() };
         assert!(Weave::is_of(&design, &moved));
         let mut other = design.clone();
-        other.fibers.set = FiberSet::Routings(vec![weave.routings[0].clone()]);
+        other.fibers.set = FiberSet::Routings(vec![weave.routing(0).to_vec()]);
         assert!(!Weave::is_of(&design, &other));
         // Half of its length, and a shape without fibres.
         let half: Vec<f64> = weave.lengths_mm.iter().map(|length| 0.5 * length).collect();
         assert!(weave.contracted(&half).iter().all(|part| (part - 0.5).abs() < 1e-12));
-        assert_eq!(weave.contracted(&[]), vec![0.0; weave.routings.len()]);
+        assert_eq!(weave.contracted(&[]), vec![0.0; weave.count()]);
     }
 }

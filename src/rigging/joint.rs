@@ -84,7 +84,9 @@ pub struct Joint<'a> {
     islands: Vec<Vec<Living<'a>>>,
     /// Islands were peopled so often before.
     peopled: u64,
-    /// The best of islands that were left.
+    /// The best of the islands of earlier heats.
+    heats: Vec<Fit>,
+    /// The best of islands that were left for good.
     remembered: Vec<Fit>,
 }
 
@@ -109,6 +111,7 @@ impl<'a> Joint<'a> {
             linear,
             islands: Vec::new(),
             peopled: 0,
+            heats: Vec::new(),
             remembered: Vec::new(),
         };
         joint.people(stop);
@@ -135,13 +138,18 @@ impl<'a> Joint<'a> {
         let closely = in_order(&looked, |fit| task.wound(task.improve(fit.clone(), STEPS, false, stop), STEPS, stop));
         let mut closely: Vec<Fit> = closely.into_iter().flatten().collect();
         closely.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-        self.islands = vec![Vec::new(); self.breadth.islands.min(closely.len())];
-        let count = self.islands.len().max(1);
-        for (k, fit) in closely.into_iter().enumerate() {
+        self.spread(closely);
+        self.peopled += 1;
+    }
+
+    /// Peoples the islands by these, best first, one after the other.
+    fn spread(&mut self, sorted: Vec<Fit>) {
+        let count = self.breadth.islands.min(sorted.len());
+        self.islands = vec![Vec::new(); count];
+        for (k, fit) in sorted.into_iter().enumerate() {
             self.islands[k % count].push(Living::new(fit));
         }
         self.islands.iter_mut().for_each(keep);
-        self.peopled += 1;
     }
 
     /// Leaves the islands for new ones, with another task and sampler where the rules are others there. The best are remembered.
@@ -152,9 +160,29 @@ impl<'a> Joint<'a> {
         topology: Topology,
         stop: &(dyn Fn() -> bool + Sync),
     ) {
-        self.remembered.extend(self.islands.iter().filter_map(|island| Some(island.first()?.fit.clone())));
+        self.end_heat();
+        self.remembered.append(&mut self.heats);
         (self.task, self.sampler, self.topology) = (task, sampler, topology);
         self.people(stop);
+    }
+
+    /// Leaves the islands for new ones until [`Self::gather`].
+    pub fn heat(&mut self, stop: &(dyn Fn() -> bool + Sync)) {
+        self.end_heat();
+        self.people(stop);
+    }
+
+    /// The islands are peopled by the best of all heats and of the present ones.
+    pub fn gather(&mut self) {
+        self.end_heat();
+        let mut all = std::mem::take(&mut self.heats);
+        all.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        all.dedup_by(|a, b| is_same(a, b));
+        self.spread(all);
+    }
+
+    fn end_heat(&mut self) {
+        self.heats.extend(self.islands.iter().filter_map(|island| Some(island.first()?.fit.clone())));
     }
 
     /// One more round. Does nothing where no layout was found.
@@ -263,9 +291,13 @@ impl<'a> Joint<'a> {
         self.islands.iter().flatten().map(|living| &living.fit)
     }
 
+    fn all(&self) -> impl Iterator<Item = &Fit> {
+        self.living().chain(&self.heats).chain(&self.remembered)
+    }
+
     /// The best so far; its poses are wound from rest.
     pub fn best(&self) -> Option<&Fit> {
-        self.living().chain(&self.remembered).min_by(|a, b| a.cost.total_cmp(&b.cost))
+        self.all().min_by(|a, b| a.cost.total_cmp(&b.cost))
     }
 
     /// The best of the present islands.
@@ -275,9 +307,9 @@ impl<'a> Joint<'a> {
 
     /// The best few, by their worst pose.
     pub fn finalists(&self, count: usize) -> Vec<Fit> {
-        let mut all: Vec<Fit> = self.living().chain(&self.remembered).cloned().collect();
+        let mut all: Vec<Fit> = self.all().cloned().collect();
         all.sort_by(|a, b| a.worst().total_cmp(&b.worst()));
-        all.dedup_by(|a, b| (a.cost - b.cost).abs() <= SAME * b.cost);
+        all.dedup_by(|a, b| is_same(a, b));
         all.truncate(count);
         all
     }
@@ -293,8 +325,13 @@ impl<'a> Joint<'a> {
 /// The best few that differ.
 fn keep(island: &mut Vec<Living>) {
     island.sort_by(|a, b| a.fit.cost.total_cmp(&b.fit.cost));
-    island.dedup_by(|a, b| (a.fit.cost - b.fit.cost).abs() <= SAME * b.fit.cost);
+    island.dedup_by(|a, b| is_same(&a.fit, &b.fit));
     island.truncate(ALIVE);
+}
+
+/// Whether the worse of two is in the valley of the better one.
+fn is_same(worse: &Fit, better: &Fit) -> bool {
+    (worse.cost - better.cost).abs() <= SAME * better.cost
 }
 
 /// A layout after random changes that are kept where the linear model says that they help.

@@ -4,6 +4,7 @@
 //! | --- | --- |
 //! | `search` | a rig for all poses, without a hand: all winches together, or winch by winch |
 //! | `joint` | the search for all winches together: islands of layouts, changed and improved |
+//! | `schedule` | when the search leaves its islands, gathers the best, drops the rules |
 //! | `layout`, `moves` | where winches and cables are at rest; random layouts, and random changes of one |
 //! | `refine` | all points of a layout and all activations improved together, on exact sensitivities |
 //! | `linear_score` | layouts ranked by the body linearised at rest, before any is simulated |
@@ -39,6 +40,7 @@ mod prune;
 mod rank;
 mod refine;
 mod robust;
+mod schedule;
 mod search;
 mod sewable;
 mod trial;

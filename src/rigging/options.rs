@@ -19,6 +19,8 @@ pub struct RigOptions {
     /// Rounds of search, and the seed of its random numbers ([`Method::Joint`] alone).
     pub rounds: usize,
     pub seed: u64,
+    /// Starts that are raced in the first half of the rounds, before the best go on; `None`: as many as that half allows ([`Method::Joint`] alone).
+    pub starts: Option<usize>,
     /// Whether a search that is told to stop ends with the best that it has, instead of [`RigError::Cancelled`] ([`Method::Joint`] alone).
     pub keep: bool,
     pub max_winches: usize,
@@ -39,6 +41,7 @@ impl Default for RigOptions {
             trims: Trims::default(),
             rounds: defaults::RIG_ROUNDS,
             seed: 1,
+            starts: None,
             keep: false,
             max_winches: 3,
             tendons: TendonChoice::default(),

@@ -10,6 +10,7 @@ use super::options::{Method, Progress, RigError, RigOptions, TendonChoice};
 use super::prune::{SERVED, pruned};
 use super::refine::{Fit, SEEN, Start, Task};
 use super::robust::{self, Sewn};
+use super::schedule::{Schedule, Turn};
 use super::sewable::Sewable;
 use crate::design::{Design, Network, Pose, Target, remesh};
 use crate::engine::compile::{View, compile};
@@ -29,9 +30,6 @@ const FINALISTS: usize = 5;
 const SHARPENING: usize = 40;
 /// The best of those are improved for what a hand makes of them, too.
 const STEADIED: usize = 3;
-/// Rounds after which islands are left for new ones, if none has left less than this part of the worst pose's error.
-const PATIENCE: usize = 25;
-const GAIN: f64 = 0.99;
 /// Most holes of a tendon where no rule is asked for.
 pub(super) const FREE_HOLES: usize = 20;
 
@@ -218,21 +216,23 @@ fn layouts(
     let school = Topology { most_holes: design.sewing.most_holes, ..topology.clone() };
     let breadth = if options.rules { Breadth::RULES } else { Breadth::FREE };
     let mut joint = Joint::new(&lawful, &samplers[0], school.clone(), breadth, options.seed, &stop);
-    let (mut best, mut since, mut lawfully, mut begun) = (f64::INFINITY, 0, true, 0);
+    let mut schedule = Schedule::new(options);
+    let mut varied = false;
     for round in 0..options.rounds {
-        let schooled = round - begun >= (options.rounds - begun) / 2;
-        if lawfully && !options.rules && (schooled || since > PATIENCE) {
-            joint.turn_to(&free, &samplers[1], topology.clone(), &stop);
-            // Once: it is the same on all islands that follow.
-            if begun == 0
-                && let Some((layout, poses)) = of_algorithm2(&free, options, cancel)
-            {
-                joint.take(layout, &poses, &stop);
+        match schedule.turn(round) {
+            Turn::Go => (),
+            Turn::Anew => joint.leave(&lawful, &samplers[0], school.clone(), &stop),
+            Turn::Heat => joint.heat(&stop),
+            Turn::Gather => joint.gather(),
+            Turn::Free => {
+                joint.turn_to(&free, &samplers[1], topology.clone(), &stop);
+                // Once: it is the same on all islands that follow.
+                if !std::mem::replace(&mut varied, true)
+                    && let Some((layout, poses)) = of_algorithm2(&free, options, cancel)
+                {
+                    joint.take(layout, &poses, &stop);
+                }
             }
-            (best, since, lawfully) = (f64::INFINITY, 0, false);
-        } else if since > PATIENCE {
-            joint.leave(&lawful, &samplers[0], school.clone(), &stop);
-            (best, since, lawfully, begun) = (f64::INFINITY, 0, true, round);
         }
         let (Some(fit), Some(here)) = (joint.best(), joint.best_here()) else { break };
         let (worst, holes) = (fit.worst(), fit.layout.holes());
@@ -240,8 +240,7 @@ fn layouts(
         if worst <= SERVED {
             break;
         }
-        since = if here.worst() < GAIN * best { 0 } else { since + 1 };
-        best = best.min(here.worst());
+        schedule.note(here.worst());
         joint.advance(&stop);
         if stop() {
             break;

@@ -51,7 +51,6 @@ impl Layer for Fibers {
 
     fn draw(&self, items: &mut Vec<Item>) {
         let palette = Palette::of(self.theme);
-        let routings = &self.weave.routings;
         let shades = shades(&self.weave, &self.shape);
         let paints: Vec<(f32, Color)> = (0..=u8::MAX)
             .map(|shade| {
@@ -60,9 +59,9 @@ impl Layer for Fibers {
                 (width, mix(palette.fiber_passive, palette.fiber_active, t))
             })
             .collect();
-        let (mut strands, nodes) = (Strands::with_capacity(routings.len()), &self.shape.nodes);
+        let (mut strands, nodes) = (Strands::with_capacity(self.weave.count()), &self.shape.nodes);
         for fiber in rising(&shades) {
-            let line = || routings[fiber].iter().filter_map(|&node| nodes.get(node).copied());
+            let line = || self.weave.routing(fiber).iter().filter_map(|&node| nodes.get(node).copied());
             let (width, color) = paints[usize::from(shades[fiber])];
             if self.textured {
                 // Whatever colours the picture has, a line between two rims differs from it or from them.

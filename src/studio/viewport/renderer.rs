@@ -34,6 +34,7 @@ struct Renderer {
     felt: wgpu::RenderPipeline,
     felt_picture: wgpu::RenderPipeline,
     capsule: wgpu::RenderPipeline,
+    quads: Quads,
     layout: wgpu::BindGroupLayout,
     skin: Skin,
     views: HashMap<u64, View>,
@@ -56,6 +57,16 @@ struct Part {
     felt_corners: Option<wgpu::Buffer>,
     capsules: Option<wgpu::Buffer>,
 }
+
+/// Corners of the triangles of four vertices each, as many as any part has capsules. A capsule is drawn by indices and not as an instance: software
+/// rasterisers begin anew at every instance, and a mesh has ten thousand fibres.
+#[derive(Default)]
+struct Quads {
+    corners: Option<wgpu::Buffer>,
+    count: u32,
+}
+
+const QUAD: [u32; 6] = [0, 1, 2, 2, 1, 3];
 
 /// `View` of the shader.
 #[derive(Clone, Copy, Pod, Zeroable)]
@@ -92,7 +103,7 @@ const CUT: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
 };
 const CAPSULE: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
     array_stride: size_of::<Capsule>() as u64,
-    step_mode: wgpu::VertexStepMode::Instance,
+    step_mode: wgpu::VertexStepMode::Vertex,
     attributes: &wgpu::vertex_attr_array![
         0 => Float32x2, 1 => Float32x2, 2 => Float32, 3 => Float32, 4 => Unorm8x4
     ],
@@ -152,7 +163,6 @@ impl Renderer {
         let pipeline = |[corners, name]: [&str; 2],
                         bind_group_layouts,
                         buffers: &[Option<wgpu::VertexBufferLayout<'_>>],
-                        topology,
                         blend: Option<wgpu::BlendState>| {
             let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some(name),
@@ -168,7 +178,7 @@ impl Renderer {
                     buffers,
                     compilation_options: Default::default(),
                 },
-                primitive: wgpu::PrimitiveState { topology, ..Default::default() },
+                primitive: wgpu::PrimitiveState::default(),
                 depth_stencil: None,
                 multisample: wgpu::MultisampleState { count: samples.max(1), ..Default::default() },
                 fragment: Some(wgpu::FragmentState {
@@ -181,16 +191,16 @@ impl Renderer {
                 cache: None,
             })
         };
-        let (list, strip) = (wgpu::PrimitiveTopology::TriangleList, wgpu::PrimitiveTopology::TriangleStrip);
         let over = Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING);
         let skinned = &[Some(&layout), Some(&skin.layout)][..];
         Self {
-            fill: pipeline(["fill"; 2], plain, &[Some(CORNER)], list, over),
-            picture: pipeline(["picture"; 2], skinned, &[Some(TEXTURED)], list, over),
+            fill: pipeline(["fill"; 2], plain, &[Some(CORNER)], over),
+            picture: pipeline(["picture"; 2], skinned, &[Some(TEXTURED)], over),
             // Opaque, and most of what is drawn.
-            felt: pipeline(["felt"; 2], plain, &[Some(WOOLLY), Some(CUT)], list, None),
-            felt_picture: pipeline(["felt", "felt_picture"], skinned, &[Some(WOOLLY), Some(CUT)], list, None),
-            capsule: pipeline(["capsule"; 2], plain, &[Some(CAPSULE)], strip, over),
+            felt: pipeline(["felt"; 2], plain, &[Some(WOOLLY), Some(CUT)], None),
+            felt_picture: pipeline(["felt", "felt_picture"], skinned, &[Some(WOOLLY), Some(CUT)], None),
+            capsule: pipeline(["capsule"; 2], plain, &[Some(CAPSULE)], over),
+            quads: Quads::default(),
             layout,
             skin,
             views: HashMap::new(),
@@ -212,6 +222,7 @@ impl Renderer {
         view.parts.resize_with(call.parts.len(), Part::default);
         for (part, geometry) in view.parts.iter_mut().zip(&call.parts) {
             part.take(device, queue, geometry);
+            self.quads.reach(device, queue, geometry.capsules.len() as u32);
             if let Some(texture) = &geometry.texture {
                 self.skin.follow(device, queue, texture);
             }
@@ -245,7 +256,12 @@ impl Renderer {
         pass.set_vertex_buffer(0, buffer.slice(..));
         match batch {
             Batch::Fill(range) | Batch::Picture(range) => pass.draw(range.clone(), 0..1),
-            Batch::Capsules(range) => pass.draw(0..4, range.clone()),
+            Batch::Capsules(range) => {
+                let Some(corners) = &self.quads.corners else { return };
+                pass.set_index_buffer(corners.slice(..), wgpu::IndexFormat::Uint32);
+                let corner = |capsule: u32| capsule * QUAD.len() as u32;
+                pass.draw_indexed(corner(range.start)..corner(range.end), 0, 0..1);
+            }
             Batch::Felt(_) => {
                 let (Some(cloth), Some(cut), Some(corners)) = (&part.geometry.cloth, &part.cut, &part.felt_corners)
                 else {
@@ -273,13 +289,24 @@ impl Part {
         upload(&mut self.corners, bytemuck::cast_slice(&geometry.corners));
         upload(&mut self.textured, bytemuck::cast_slice(&geometry.textured));
         upload(&mut self.felt, bytemuck::cast_slice(&geometry.felt));
-        upload(&mut self.capsules, bytemuck::cast_slice(&geometry.capsules));
+        upload_quads(device, queue, &mut self.capsules, &geometry.capsules);
         let known = |cloth: &Arc<Cloth>| self.geometry.cloth.as_ref().is_some_and(|known| Arc::ptr_eq(known, cloth));
         if let Some(cloth) = geometry.cloth.as_ref().filter(|cloth| !known(cloth)) {
             upload(&mut self.cut, bytemuck::cast_slice(&cloth.points));
             upload(&mut self.felt_corners, bytemuck::cast_slice(&cloth.corners));
         }
         self.geometry = geometry.clone();
+    }
+}
+
+impl Quads {
+    /// At least so many.
+    fn reach(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, count: u32) {
+        if count > self.count {
+            self.count = count.next_power_of_two();
+            let corners: Vec<u32> = (0..self.count).flat_map(|quad| QUAD.map(|corner| 4 * quad + corner)).collect();
+            upload(device, queue, &mut self.corners, bytemuck::cast_slice(&corners));
+        }
     }
 }
 
@@ -302,9 +329,25 @@ impl View {
 
 /// Writes `bytes`, into a larger buffer if need be.
 fn upload(device: &wgpu::Device, queue: &wgpu::Queue, buffer: &mut Option<wgpu::Buffer>, bytes: &[u8]) {
-    let large_enough = buffer.take().filter(|buffer| buffer.size() >= bytes.len() as u64);
-    let buffer = buffer.insert(large_enough.unwrap_or_else(|| vertex_buffer(device, bytes.len() as u64)));
-    queue.write_buffer(buffer, 0, bytes);
+    queue.write_buffer(reserve(device, buffer, bytes.len()), 0, bytes);
+}
+
+/// Writes four vertices for each capsule, into a larger buffer if need be.
+fn upload_quads(device: &wgpu::Device, queue: &wgpu::Queue, buffer: &mut Option<wgpu::Buffer>, capsules: &[Capsule]) {
+    const VERTEX: usize = size_of::<Capsule>();
+    let Some(bytes) = wgpu::BufferSize::new((4 * VERTEX * capsules.len()) as u64) else { return };
+    let buffer = reserve(device, buffer, 4 * VERTEX * capsules.len());
+    let Some(mut view) = queue.write_buffer_with(buffer, 0, bytes) else { return };
+    for (k, capsule) in capsules.iter().enumerate() {
+        let quad = [*capsule; 4];
+        view.slice(4 * VERTEX * k..4 * VERTEX * (k + 1)).copy_from_slice(bytemuck::cast_slice(&quad));
+    }
+}
+
+/// The buffer, or a larger one in its place, for at least so many bytes.
+fn reserve<'b>(device: &wgpu::Device, buffer: &'b mut Option<wgpu::Buffer>, bytes: usize) -> &'b wgpu::Buffer {
+    let large_enough = buffer.take().filter(|buffer| buffer.size() >= bytes as u64);
+    buffer.insert(large_enough.unwrap_or_else(|| vertex_buffer(device, bytes as u64)))
 }
 
 fn vertex_buffer(device: &wgpu::Device, at_least: u64) -> wgpu::Buffer {

@@ -43,15 +43,14 @@ impl Layer for Contraction {
         if !self.fibers {
             return;
         }
-        let routings = &self.weave.routings;
         let percents = percents(&self.weave, &self.shape);
-        let mut order: Vec<usize> = (0..routings.len()).collect();
+        let mut order: Vec<usize> = (0..self.weave.count()).collect();
         order.sort_by(|&a, &b| percents[a].total_cmp(&percents[b]));
-        let (mut strands, nodes) = (Strands::default(), &self.shape.nodes);
+        let (mut strands, nodes) = (Strands::with_capacity(order.len()), &self.shape.nodes);
         for fiber in order {
             let place = self.bar.place(percents[fiber]);
             let width = WIDTHS[0] + place as f32 * (WIDTHS[1] - WIDTHS[0]);
-            let line = routings[fiber].iter().filter_map(|&node| nodes.get(node).copied());
+            let line = self.weave.routing(fiber).iter().filter_map(|&node| nodes.get(node).copied());
             strands.push(line, width, self.bar.color_at(place));
         }
         items.push(Item::Strands(strands));
