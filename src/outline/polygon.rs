@@ -4,7 +4,8 @@ use super::Point;
 
 /// The sides of a polygon, each as its two ends, the closing side last.
 pub fn sides(polygon: &[Point]) -> impl Iterator<Item = (Point, Point)> + '_ {
-    polygon.iter().zip(polygon.iter().cycle().skip(1)).map(|(&a, &b)| (a, b))
+    let closing = polygon.last().copied().zip(polygon.first().copied());
+    polygon.windows(2).map(|ends| (ends[0], ends[1])).chain(closing)
 }
 
 /// Area by the shoelace formula, positive for a counter-clockwise polygon.

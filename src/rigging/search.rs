@@ -24,6 +24,9 @@ use std::sync::atomic::{self, AtomicBool};
 /// Bodies of more fibres are searched on a mesh of about so many, and what is found is improved on their own.
 const COARSE: usize = 430;
 const FINE: usize = 700;
+/// It gets there over meshes that are so many times finer, each than the one before: on one that is ten times finer a limb bends so much more
+/// easily that activations lead to other states.
+const FINER: usize = 3;
 /// Layouts that are finished and compared by what a check says of them.
 const FINALISTS: usize = 5;
 /// Steps by which the worst pose is improved in the end.
@@ -75,6 +78,7 @@ fn together(
     let coarse = coarser(design);
     let searched = coarse.as_ref().unwrap_or(design);
     let found = layouts(searched, options, &topology, progress, cancel)?;
+    let found = if coarse.is_some() { refined(design, found, options, cancel) } else { found };
     let verified = judged(design, &found, coarse.is_some(), options, cancel)?;
     let best = chosen(verified, options.rules).filter(|(_, poses)| helps(poses));
     let Some((rigged, poses)) = best else {
@@ -169,6 +173,26 @@ fn as_sewn(mut verified: Vec<Candidate>, friction: f64, cancel: &AtomicBool) -> 
     sewn
 }
 
+/// What was found on a coarse mesh, improved on those between that and the body's own; as it was where that is not possible.
+fn refined(design: &Design, found: Vec<Fit>, options: &RigOptions, cancel: &AtomicBool) -> Vec<Fit> {
+    let stop = || cancel.load(atomic::Ordering::Relaxed);
+    let meshes = between(design.mesh.edges().len()).into_iter().map_while(|fibers| on_mesh(design, fibers));
+    meshes.fold(found, |found, between| {
+        let outline = rim(&between.mesh);
+        let sewable = sewable(&between, &outline);
+        let task = Task::new(&between, options.rules.then_some(&sewable), &between.networks).trimming(options.trims);
+        let moved: Vec<Fit> = in_order(&found, |fit| task.transferred(fit, &stop)).into_iter().flatten().collect();
+        if stop() || moved.is_empty() { found } else { moved }
+    })
+}
+
+/// Numbers of fibres of the meshes between [`COARSE`] and a body's own number.
+fn between(own: usize) -> Vec<usize> {
+    std::iter::successors(Some(FINER * COARSE), |fibers| Some(FINER * fibers))
+        .take_while(|fibers| 2 * fibers < own)
+        .collect()
+}
+
 /// How many winches and tendons there may be.
 fn topology(design: &Design, options: &RigOptions) -> Topology {
     let count = |winch: usize| match &options.tendons {
@@ -184,10 +208,15 @@ pub(super) fn coarser(design: &Design) -> Option<Design> {
     if design.mesh.edges().len() <= FINE {
         return None;
     }
-    let (mesh, set) = remesh::body(&design.outline, &MeshSpec::fibers(COARSE), 1).ok()?;
-    let mut coarse = design.clone();
-    remesh::carry(&mut coarse, mesh, set);
-    Some(coarse)
+    on_mesh(design, COARSE)
+}
+
+/// The design on a mesh of about so many fibres, where its outline takes one.
+fn on_mesh(design: &Design, fibers: usize) -> Option<Design> {
+    let (mesh, set) = remesh::body(&design.outline, &MeshSpec::fibers(fibers), 1).ok()?;
+    let mut other = design.clone();
+    remesh::carry(&mut other, mesh, set);
+    Some(other)
 }
 
 /// The rules for new networks beside those that are there.
@@ -366,6 +395,12 @@ mod tests {
             Verified { name: "pose".into(), error, real: error, sewn, rest: 0.2, pull_n }
         };
         (design, poses.iter().map(pose).collect())
+    }
+
+    #[test]
+    fn what_is_found_goes_over_to_fine_meshes_by_steps() {
+        assert!(between(701).is_empty() && between(2500).is_empty());
+        assert_eq!((between(5000), between(10_000)), (vec![1290], vec![1290, 3870]));
     }
 
     #[test]

@@ -38,13 +38,18 @@ pub fn outside<'a>(rings: impl Iterator<Item = &'a [Point]> + Clone, a: Point, b
 
 /// [`outside`] without the parts that are no more than `grazing` beside the rings in their middle and halfway from there to their ends, mm.
 fn beyond<'a>(rings: impl Iterator<Item = &'a [Point]> + Clone, a: Point, b: Point, grazing: f64) -> f64 {
-    let mut cuts = vec![0.0, 1.0];
-    for (p, q) in rings.clone().flat_map(polygon::sides) {
-        cuts.extend(crossing(a, b, p, q));
+    let mut cuts = Vec::new();
+    for ring in rings.clone() {
+        cuts.extend(polygon::sides(ring).filter_map(|(p, q)| crossing(a, b, p, q)));
     }
-    cuts.sort_by(f64::total_cmp);
     let at = |c: &[f64], part: f64| polygon::lerp(a, b, c[0] + part * (c[1] - c[0]));
     let inside = |p: Point| rings.clone().map(|ring| winding(ring, p)).sum::<i32>() != 0;
+    // Most pieces.
+    if cuts.is_empty() && inside(at(&[0.0, 1.0], 0.5)) {
+        return 0.0;
+    }
+    cuts.extend([0.0, 1.0]);
+    cuts.sort_by(f64::total_cmp);
     let grazes = |p: Point| rings.clone().any(|ring| polygon::distance(ring, p) <= grazing);
     let parts = cuts
         .windows(2)
