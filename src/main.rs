@@ -35,7 +35,7 @@ fn main() -> ExitCode {
 
 /// Has the allocator keep up to 256 MB of freed memory. By default glibc gives blocks of more than 128 KiB back to the system at once, and
 /// gets them again, page by page, in the next frame of a drag: with a software rasteriser that is a third of the frame (1.2 million page faults
-/// in 240 frames of 10 000 fibres; 0.09 million with this). What is kept shows in the resident memory, and is freed before anything else.
+/// in 240 frames of 10 000 fibres; 0.09 million with this). What is kept counts as resident memory of the program.
 fn keep_freed_memory() {
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
     {

@@ -4,7 +4,8 @@
 //! best few live, and in every round have children, by a random change of points or by winches of one another. The children are improved
 //! ([`Task::improve`]), wound from rest ([`Task::wound`]), and the best that differ live on. Islands do not see each other, so that the
 //! first good valley is not everybody's; from time to time the worst one is given up, and peopled anew by the best. Where rules are kept, half
-//! of the children are chosen from many by the body linearised around their parent ([`Breadth`]). Islands that gain nothing any more are left for new ones. The work is counted in
+//! of the children are chosen from many by the body linearised around their parent ([`Breadth`]). Islands that gain nothing any more are left for new ones, and
+//! several heats, each on islands of its own, go before ([`super::schedule`]). The work is counted in
 //! rounds, and the same seed gives the same bits for any number of threads.
 
 use super::layout::Layout;

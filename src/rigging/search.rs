@@ -246,7 +246,7 @@ fn layouts(
     let breadth = if options.rules { Breadth::RULES } else { Breadth::FREE };
     let mut joint = Joint::new(&lawful, &samplers[0], school.clone(), breadth, options.seed, &stop);
     let mut schedule = Schedule::new(options);
-    let mut varied = false;
+    let mut has_algorithm2 = false;
     for round in 0..options.rounds {
         match schedule.turn(round) {
             Turn::Go => (),
@@ -256,7 +256,7 @@ fn layouts(
             Turn::Free => {
                 joint.turn_to(&free, &samplers[1], topology.clone(), &stop);
                 // Once: it is the same on all islands that follow.
-                if !std::mem::replace(&mut varied, true)
+                if !std::mem::replace(&mut has_algorithm2, true)
                     && let Some((layout, poses)) = of_algorithm2(&free, options, cancel)
                 {
                     joint.take(layout, &poses, &stop);

@@ -66,6 +66,7 @@ struct Quads {
     count: u32,
 }
 
+/// Corners of both triangles among the four vertices, which the shader numbers row by row.
 const QUAD: [u32; 6] = [0, 1, 2, 2, 1, 3];
 
 /// `View` of the shader.
