@@ -143,7 +143,8 @@ impl Tour<'_> {
         let out = &mut *self.out;
         let mut progress = |step: &Progress| {
             if printed.is_ok() {
-                printed = say(out, &format!("     {}", words::progress(step)));
+                let told = words::progress(step);
+                printed = told.lines().try_for_each(|line| say(out, &format!("     {line}")));
             }
         };
         let mut context = Context::telling(self.cancel, &mut progress);

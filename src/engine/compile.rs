@@ -161,7 +161,12 @@ pub fn winch_reach_mm(design: &Design, network: &Network) -> f64 {
 
 /// Winding at which a tendon of this length is as short as it may be, mm.
 fn limit(settings: &TendonSettings, tendon: &Tendon, length: f64) -> f64 {
-    (settings.max_contraction * length + tendon.slack_mm) / tendon.ratio
+    limit_of(settings, length, tendon.slack_mm, tendon.ratio)
+}
+
+/// Winding at which a cable of this length, slack at assembly and ratio of spools is as short as it may be, mm.
+pub fn limit_of(settings: &TendonSettings, length: f64, slack_mm: f64, ratio: f64) -> f64 {
+    (settings.max_contraction * length + slack_mm) / ratio
 }
 
 /// The objective that `targets` are for a compiled plushie.

@@ -1,13 +1,14 @@
 //! All winches together: islands of layouts, changed at random, each improved by its exact sensitivities.
 //!
-//! Random layouts, each bettered for the body linearised at rest ([`Linear`]), are tried first. The best found islands: on each, the
-//! best few live, and in every round have children, by a random change of points or by winches of one another. The children are improved
-//! ([`Task::improve`]), wound from rest ([`Task::wound`]), and the best that differ live on. Islands do not see each other, so that the
-//! first good valley is not everybody's; from time to time the worst one is given up, and peopled anew by the best. Where rules are kept, half
-//! of the children are chosen from many by the body linearised around their parent ([`Breadth`]). Islands that gain nothing any more are left for new ones, and
-//! several heats, each on islands of its own, go before ([`super::schedule`]). The work is counted in
-//! rounds, and the same seed gives the same bits for any number of threads.
+//! Random layouts, each annealed for the body linearised where its poses should take it ([`Linear::at_goals`]), are tried first. The best
+//! found islands: on each, the best few live, and in every round have children, by a random change of points or by winches of one another.
+//! The children are improved ([`Task::improve`]), wound from rest ([`Task::wound`]), and the best that differ live on. Islands do not see each
+//! other, so that the first good valley is not everybody's; from time to time the worst one is given up, and peopled anew by the best. Where
+//! rules are kept, half of the children are annealed for the body linearised around their parent ([`Breadth`]). Islands that gain nothing any
+//! more are left for new ones, and several heats, each on islands of its own, go before ([`super::schedule`]). The work is counted in rounds,
+//! and the same seed gives the same bits for any number of threads.
 
+use super::annealing::{Annealing, Cooling};
 use super::layout::Layout;
 use super::linear_score::Linear;
 use super::moves::{Sampler, Topology};
@@ -16,9 +17,11 @@ use crate::random::Random;
 use crate::threads::in_order;
 use std::sync::{Arc, OnceLock};
 
-/// Random layouts at the beginning, bettered by so many changes in the linear model, and those of them that are looked at closely.
-const FIRST: usize = 64;
-const BETTERED: usize = 60;
+/// Random layouts at the beginning, annealed in the linear model, and those of them that are looked at closely.
+const FIRST: Cooling = Cooling { steps: 1000, hot: 0.1, cold: 0.02 };
+/// A few before them all, so that there is something to show, and to keep, in a second or two.
+const QUICKLY: usize = 8;
+const QUICK: Cooling = Cooling { steps: 200, ..FIRST };
 const CLOSELY: usize = 16;
 /// Layouts that live on an island.
 const ALIVE: usize = 4;
@@ -28,8 +31,8 @@ const ERA: usize = 25;
 const CROSSED: usize = 6;
 /// Most random changes of a child; one more has half the chance of one less.
 const MOST_CHANGES: usize = 5;
-/// A child that is chosen is the best of so many by the body linearised around its parent.
-const SCREENED: usize = 16;
+/// How a child is annealed: from hotter, as it should leave its parent's valley.
+const CHILD_COOLING: Cooling = Cooling { steps: 100, hot: 0.5, cold: 0.05 };
 /// Steps of improvement: of a first look, of a child, of the last one.
 const LOOK: usize = 4;
 const STEPS: usize = 12;
@@ -40,23 +43,33 @@ const BEHIND: f64 = 2.0;
 /// Two layouts whose costs differ by less than this part are the same valley.
 const SAME: f64 = 1e-3;
 
+/// A search of few rounds begins with so many layouts for each.
+const LAYOUTS_A_ROUND: usize = 4;
+
 /// How broadly a search looks.
 #[derive(Clone, Copy, Debug)]
 pub struct Breadth {
+    /// Layouts that a start begins with, at most.
+    layouts: usize,
     islands: usize,
     /// Children of a round on each island.
     children: usize,
-    /// Whether every other child is chosen from many, or all are taken as they come.
-    chosen: bool,
+    /// Whether every other child is annealed, or all are taken as they come.
+    annealed: bool,
 }
 
 impl Breadth {
     /// Where rules are kept, few valleys are left, and what a change does is much what the linear model says: three of three seeds end with
     /// the robot's error at 0.5 to 0.8 of that of [`Self::FREE`].
-    pub const RULES: Self = Self { islands: 2, children: 8, chosen: true };
+    pub const RULES: Self = Self { layouts: 48, islands: 2, children: 8, annealed: true };
     /// Without rules there are many valleys, and the best change most, out of the linear model's sight: four of four seeds end with the E's
     /// error at about half of that of [`Self::RULES`].
-    pub const FREE: Self = Self { islands: 4, children: 4, chosen: false };
+    pub const FREE: Self = Self { layouts: 48, islands: 4, children: 4, annealed: false };
+
+    /// As it is worth for so many rounds.
+    pub fn within(self, rounds: usize) -> Self {
+        Self { layouts: self.layouts.min(LAYOUTS_A_ROUND * rounds), ..self }
+    }
 }
 
 /// A layout that lives on an island.
@@ -81,7 +94,8 @@ pub struct Joint<'a> {
     breadth: Breadth,
     seed: u64,
     round: u64,
-    linear: Option<Linear<'a>>,
+    /// In which layouts are annealed before they are tried for the first time.
+    model: Option<Linear<'a>>,
     islands: Vec<Vec<Living<'a>>>,
     /// Islands were peopled so often before.
     peopled: u64,
@@ -92,16 +106,15 @@ pub struct Joint<'a> {
 }
 
 impl<'a> Joint<'a> {
-    /// Tries the first layouts.
+    /// Tries the first layouts, annealed in the model.
     pub fn new(
         task: &'a Task<'a>,
         sampler: &'a Sampler<'a>,
         topology: Topology,
-        breadth: Breadth,
-        seed: u64,
+        (breadth, seed): (Breadth, u64),
+        model: Option<Linear<'a>>,
         stop: &(dyn Fn() -> bool + Sync),
     ) -> Self {
-        let linear = Linear::at_rest(task);
         let mut joint = Self {
             task,
             sampler,
@@ -109,28 +122,33 @@ impl<'a> Joint<'a> {
             breadth,
             seed,
             round: 0,
-            linear,
+            model,
             islands: Vec::new(),
             peopled: 0,
             heats: Vec::new(),
             remembered: Vec::new(),
         };
-        joint.people(stop);
+        joint.people(QUICKLY, QUICK, stop);
+        joint.heat(stop);
         joint
     }
 
     /// Peoples the islands.
-    fn people(&mut self, stop: &(dyn Fn() -> bool + Sync)) {
+    fn people(&mut self, layouts: usize, cooling: Cooling, stop: &(dyn Fn() -> bool + Sync)) {
         let (task, sampler, topology) = (self.task, self.sampler, &self.topology);
-        let numbers: Vec<u64> = (0..FIRST as u64).map(|k| self.peopled * FIRST as u64 + k).collect();
-        let layouts = in_order(&numbers, |&number| {
+        let numbers: Vec<u64> = (0..layouts as u64).map(|k| (self.peopled << 32) + k).collect();
+        let looked = in_order(&numbers, |&number| {
+            if stop() {
+                return None;
+            }
             let random = &mut Random::of(self.seed, "layout", number);
-            let layout = sampler.layout(topology, random);
-            let linear = self.linear.as_ref();
-            linear.map_or(layout.clone(), |linear| bettered(sampler, topology, linear, layout, random))
-        });
-        let looked = in_order(&layouts, |layout| {
-            let begun = task.begin(layout.clone(), stop)?;
+            let mut layout = sampler.layout(topology, random);
+            if let Some(linear) = &self.model {
+                layout = Annealing { task, sampler, topology, linear, stop: &stop }.run(layout, cooling, random);
+            }
+            let starts = self.model.as_ref().and_then(|model| model.starts(&layout));
+            let there = starts.and_then(|starts| task.taken(layout.clone(), &starts, stop));
+            let begun = there.or_else(|| task.begin(layout, stop))?;
             Some(task.improve(begun, LOOK, false, stop))
         });
         let mut looked: Vec<Fit> = looked.into_iter().flatten().collect();
@@ -164,13 +182,13 @@ impl<'a> Joint<'a> {
         self.end_heat();
         self.remembered.append(&mut self.heats);
         (self.task, self.sampler, self.topology) = (task, sampler, topology);
-        self.people(stop);
+        self.people(self.breadth.layouts, FIRST, stop);
     }
 
     /// Leaves the islands for new ones until [`Self::gather`].
     pub fn heat(&mut self, stop: &(dyn Fn() -> bool + Sync)) {
         self.end_heat();
-        self.people(stop);
+        self.people(self.breadth.layouts, FIRST, stop);
     }
 
     /// The islands are peopled by the best of all heats and of the present ones.
@@ -208,17 +226,24 @@ impl<'a> Joint<'a> {
     /// The child number `k` of a round on an island; `None` where it is far behind those that live there.
     fn child(&self, island: usize, k: usize, stop: &dyn Fn() -> bool) -> Option<Fit> {
         let (task, living) = (self.task, &self.islands[island]);
-        let Breadth { islands, children, chosen } = self.breadth;
+        let Breadth { islands, children, annealed, .. } = self.breadth;
         let number = (self.round * islands as u64 + island as u64) * children as u64 + k as u64;
         let random = &mut Random::of(self.seed, "child", number);
-        // Each parent has one child that is chosen and one that is not.
-        let parent = &living[if chosen { k / 2 } else { k } % living.len()];
+        // Each parent has one child that is annealed and one that is not.
+        let parent = &living[if annealed { k / 2 } else { k } % living.len()];
         let around = || parent.around.get_or_init(|| Linear::at(task, &parent.fit)).as_ref();
-        let layout = match (chosen && k.is_multiple_of(2)).then(around).flatten() {
-            None => self.varied(&parent.fit.layout, living, random),
-            Some(around) => self.promising(around, &parent.fit.layout, living, random),
-        };
-        let begun = task.resume(layout, &parent.fit, stop)?;
+        let begun = match (annealed && k.is_multiple_of(2)).then(around).flatten() {
+            None => task.resume(self.varied(&parent.fit.layout, living, random), &parent.fit, stop),
+            Some(around) => {
+                let layout = self.crossed(&parent.fit.layout, living, random);
+                let (sampler, topology) = (self.sampler, &self.topology);
+                let layout =
+                    Annealing { task, sampler, topology, linear: around, stop }.run(layout, CHILD_COOLING, random);
+                let starts = around.starts(&layout);
+                let there = starts.and_then(|starts| task.taken(layout.clone(), &starts, stop));
+                there.or_else(|| task.resume(layout, &parent.fit, stop))
+            }
+        }?;
         let looked = task.improve(begun, LOOK, false, stop);
         // Most children are far behind by now, and would stay there.
         let behind = living.last().is_some_and(|last| looked.cost > BEHIND * last.fit.cost);
@@ -227,10 +252,7 @@ impl<'a> Joint<'a> {
 
     /// A layout after random changes, perhaps with winches of another one.
     fn varied(&self, layout: &Layout, living: &[Living], random: &mut Random) -> Layout {
-        let mut layout = layout.clone();
-        if random.index(CROSSED) == 0 {
-            layout = self.sampler.crossed(&layout, &living[random.index(living.len())].fit.layout, random);
-        }
+        let mut layout = self.crossed(layout, living, random);
         for _ in 0..MOST_CHANGES {
             layout = self.sampler.changed(&layout, &self.topology, random);
             if random.index(2) == 0 {
@@ -240,12 +262,12 @@ impl<'a> Joint<'a> {
         layout
     }
 
-    /// The best of many varied layouts by the body around what the layout reaches.
-    fn promising(&self, around: &Linear, layout: &Layout, living: &[Living], random: &mut Random) -> Layout {
-        let varied = (0..SCREENED).map(|_| self.varied(layout, living, random));
-        let scored = varied.map(|layout| (around.left(&layout) + self.task.broken(&layout), layout));
-        let best = scored.min_by(|a, b| a.0.total_cmp(&b.0));
-        best.map_or_else(|| layout.clone(), |(_, layout)| layout)
+    /// A layout, now and then with winches of another one.
+    fn crossed(&self, layout: &Layout, living: &[Living], random: &mut Random) -> Layout {
+        if random.index(CROSSED) > 0 {
+            return layout.clone();
+        }
+        self.sampler.crossed(layout, &living[random.index(living.len())].fit.layout, random)
     }
 
     /// Goes on with another task and its sampler: the same poses by other rules. Layouts that it does not take are dropped.
@@ -333,23 +355,4 @@ fn keep(island: &mut Vec<Living>) {
 /// Whether the worse of two is in the valley of the better one.
 fn is_same(worse: &Fit, better: &Fit) -> bool {
     (worse.cost - better.cost).abs() <= SAME * better.cost
-}
-
-/// A layout after random changes that are kept where the linear model says that they help.
-pub(super) fn bettered(
-    sampler: &Sampler,
-    topology: &Topology,
-    linear: &Linear,
-    layout: Layout,
-    random: &mut Random,
-) -> Layout {
-    let (mut best, mut left) = (layout.clone(), linear.left(&layout));
-    for _ in 0..BETTERED {
-        let changed = sampler.changed(&best, topology, random);
-        let now = linear.left(&changed);
-        if now < left {
-            (best, left) = (changed, now);
-        }
-    }
-    best
 }

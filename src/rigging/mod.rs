@@ -7,8 +7,8 @@
 //! | `schedule` | when the search leaves its islands, gathers the best, drops the rules |
 //! | `layout`, `moves` | where winches and cables are at rest; random layouts, and random changes of one |
 //! | `refine` | all points of a layout and all activations improved together, on exact sensitivities |
-//! | `linear_score` | layouts ranked by the body linearised at rest, before any is simulated |
-//! | `sewable` | the rules of sewing as figures that a search brings to zero |
+//! | `linear_score`, `annealing` | layouts ranked by the body linearised at rest, at its goals or in between, and annealed there, before any is simulated |
+//! | `sewable`, `depths` | the rules of sewing as figures that a search brings to zero; how deep points lie in a body |
 //! | `prune` | points, tendons and winches that cost little are left out |
 //! | `greedy` | the paper's loop: solve, discover, try out, accept, winch by winch (section 3) |
 //! | `propose/` | networks for one pose, for somebody to choose from, as they are found |
@@ -23,10 +23,12 @@
 //! what a simulated network really reaches, wound from rest.
 
 pub mod activation;
+mod annealing;
 mod candidate;
 mod checked;
 pub mod criteria;
 pub mod criterion;
+mod depths;
 pub mod generator;
 pub mod generators;
 mod greedy;

@@ -64,20 +64,20 @@ impl<'a> Sampler<'a> {
         [0, 1].map(|axis| a[axis] + s * (b[axis] - a[axis]) + t * (c[axis] - a[axis]))
     }
 
-    fn depth(&self, p: Point) -> f64 {
-        self.sewable.map_or(f64::INFINITY, |s| s.depth(p))
+    fn depth(&self, p: Point, enough: f64) -> f64 {
+        self.sewable.map_or(f64::INFINITY, |s| s.depth(p, enough))
     }
 
     /// A point at least so deep inside the body, or the deepest of many.
     fn at_depth(&self, depth: f64, random: &mut Random) -> Point {
         let mut best = self.anywhere(random);
-        let mut reached = self.depth(best);
+        let mut reached = self.depth(best, depth);
         for _ in 0..DRAWS {
             if reached >= depth {
                 break;
             }
             let other = self.anywhere(random);
-            let deep = self.depth(other);
+            let deep = self.depth(other, depth);
             if deep > reached {
                 (best, reached) = (other, deep);
             }

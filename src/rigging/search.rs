@@ -5,6 +5,7 @@ use super::checked::Checked;
 use super::greedy;
 use super::joint::{Breadth, Joint};
 use super::layout::{Layout, rigs_of};
+use super::linear_score::Linear;
 use super::moves::{Sampler, Topology};
 use super::options::{Method, Progress, RigError, RigOptions, TendonChoice};
 use super::prune::{SERVED, pruned};
@@ -244,7 +245,9 @@ fn layouts(
     let samplers = [Some(&sewable), None].map(|sewable| Sampler::new(&design.mesh, sewable));
     let school = Topology { most_holes: design.sewing.most_holes, ..topology.clone() };
     let breadth = if options.rules { Breadth::RULES } else { Breadth::FREE };
-    let mut joint = Joint::new(&lawful, &samplers[0], school.clone(), breadth, options.seed, &stop);
+    let first = Linear::at_goals(&lawful, cancel).or_else(|| Linear::at_rest(&lawful));
+    let mut joint =
+        Joint::new(&lawful, &samplers[0], school.clone(), (breadth.within(options.rounds), options.seed), first, &stop);
     let mut schedule = Schedule::new(options);
     let mut has_algorithm2 = false;
     for round in 0..options.rounds {

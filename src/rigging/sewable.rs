@@ -3,6 +3,7 @@
 //! [`sewing::judge`] says which rules are broken; here every rule gives a number for every place where it could be, zero where it is
 //! kept, in an order that depends on the layout's shape alone: so it can be differentiated by the points' places.
 
+use super::depths::Depths;
 use super::layout::{Layout, Spot};
 use crate::outline::polygon::distance_to_segment;
 use crate::outline::{Outline, Point, polygon};
@@ -24,8 +25,8 @@ const TOLERANCE_MM: f64 = 0.1;
 /// A body and the rules that cables in it should keep.
 pub struct Sewable<'a> {
     pub rules: Rules,
-    /// The seam, and the rim of the mesh: chords of the seam's curves, inside of it or outside.
-    bodies: [Body<'a>; 2],
+    /// In the seam, and in the rim of the mesh: chords of the seam's curves, inside of it or outside.
+    depths: Depths<'a>,
     outline: &'a Outline,
     rim: &'a Outline,
     gap_mm: f64,
@@ -38,16 +39,24 @@ impl<'a> Sewable<'a> {
     pub fn new(rules: Rules, outline: &'a Outline, rim: &'a Outline, gap_mm: f64, fixed: Vec<sewing::Rig>) -> Self {
         let bodies = [outline, rim].map(Body::new);
         let housing_mm = sewing::largest_housing(&bodies[0], rules.housing_mm);
-        Self { rules: Rules { housing_mm, ..rules }, bodies, outline, rim, gap_mm, fixed }
+        Self { rules: Rules { housing_mm, ..rules }, depths: Depths::new(bodies), outline, rim, gap_mm, fixed }
     }
 
-    /// Distance to the seam, negative outside of the body.
-    pub fn depth(&self, p: Point) -> f64 {
-        self.bodies[0].depth(p).min(self.bodies[1].depth(p))
+    /// Distance to the seam, negative outside of the body; where it is `enough`, a distance that it has at least.
+    pub fn depth(&self, p: Point, enough: f64) -> f64 {
+        self.depths.up_to(p, enough)
+    }
+
+    /// By how much a point is nearer to the seam than it may be.
+    fn shallow(&self, p: Point, least: f64) -> f64 {
+        below(self.depth(p, least + MARGIN_MM), least)
     }
 
     /// Length of a piece outside of the body, mm.
     pub fn outside(&self, a: Point, b: Point) -> f64 {
+        if self.depths.holds(a, b) {
+            return 0.0;
+        }
         let of = |outline: &Outline| sewing::outside(outline.polygons(), a, b);
         of(self.outline).max(of(self.rim))
     }
@@ -57,7 +66,7 @@ impl<'a> Sewable<'a> {
         let rigs = layout.rigs();
         let inside = |cable: &Vec<Point>| cable.windows(2).all(|s| self.outside(s[0], s[1]) <= TOLERANCE_MM);
         rigs.iter().flat_map(|rig| &rig.cables).all(inside)
-            && self.bodies.iter().all(|body| {
+            && self.depths.bodies.iter().all(|body| {
                 let broken = |rigs: &[sewing::Rig]| sewing::judge(&self.rules, body, rigs, self.gap_mm).len();
                 broken(&[&rigs, &self.fixed[..]].concat()) == broken(&self.fixed)
             })
@@ -65,21 +74,26 @@ impl<'a> Sewable<'a> {
 
     /// By how much every rule is broken at every place: 0 where it is kept, 1 by about as much as the rule allows.
     pub fn violations(&self, layout: &Layout) -> Vec<f64> {
-        self.figures(layout, None)
+        self.figures(layout, None, f64::INFINITY).values
+    }
+
+    /// The sum of the squares of [`Self::violations`], or a part of it that is more than the limit.
+    pub fn broken(&self, layout: &Layout, limit: f64) -> f64 {
+        self.figures(layout, None, limit).squares
     }
 
     /// [`Self::violations`] after one spot has moved; `known` before that. Only what may have changed is worked out.
     pub fn violations_after(&self, layout: &Layout, moved: Spot, known: &[f64]) -> Vec<f64> {
-        self.figures(layout, Some((moved, known)))
+        self.figures(layout, Some((moved, known)), f64::INFINITY).values
     }
 
-    fn figures(&self, layout: &Layout, moved: Option<(Spot, &[f64])>) -> Vec<f64> {
+    fn figures<'k>(&self, layout: &Layout, moved: Option<(Spot, &'k [f64])>, limit: f64) -> Figures<'k> {
         let Rules { housing_mm, between_housings_mm, .. } = self.rules;
         // Those that stay come last: no spot is theirs.
         let (rigs, own) = ([&layout.rigs(), &self.fixed[..]].concat(), layout.winches.len());
-        let mut out = Figures { moved, values: Vec::new() };
+        let mut out = Figures { moved, values: Vec::new(), squares: 0.0, limit };
         for (k, rig) in rigs.iter().enumerate().take(own) {
-            out.put(out.winch(k), || below(self.depth(rig.winch), 0.5 * housing_mm));
+            out.put(out.winch(k), || self.shallow(rig.winch, 0.5 * housing_mm));
             for (i, other) in rigs.iter().enumerate().filter(|(i, _)| *i < k || *i >= own) {
                 let apart = || below(distance(rig.winch, other.winch), housing_mm + between_housings_mm);
                 out.put(out.winch(k) || out.winch(i), apart);
@@ -104,7 +118,7 @@ impl<'a> Sewable<'a> {
             }
         }
         self.crowding(layout, &mut out);
-        out.values
+        out
     }
 
     fn cable(&self, winch: usize, own: usize, cable: &[Point], out: &mut Figures) {
@@ -112,12 +126,12 @@ impl<'a> Sewable<'a> {
         let changed = |out: &Figures, k: usize| out.place(winch, own, k);
         out.put(out.cable(winch, own), || above(cable.len().saturating_sub(2) as f64, rules.most_holes as f64));
         for (k, p) in cable.iter().enumerate().skip(1) {
-            out.put(changed(out, k), || below(self.depth(*p), rules.hole_to_seam_mm));
+            out.put(changed(out, k), || self.shallow(*p, rules.hole_to_seam_mm));
         }
         for (k, s) in cable.windows(2).enumerate() {
             out.put(changed(out, k) || changed(out, k + 1), || {
                 let place = |i: usize| polygon::lerp(s[0], s[1], i as f64 / (PLACES + 1) as f64);
-                let near: f64 = (1..=PLACES).map(|i| below(self.depth(place(i)), CLEAR_MM)).sum();
+                let near: f64 = (1..=PLACES).map(|i| self.shallow(place(i), CLEAR_MM)).sum();
                 self.outside(s[0], s[1]) / OUTSIDE_MM + NEAR * near
             });
         }
@@ -151,14 +165,21 @@ impl<'a> Sewable<'a> {
 struct Figures<'k> {
     moved: Option<(Spot, &'k [f64])>,
     values: Vec<f64>,
+    squares: f64,
+    /// When the squares are more, nothing more is worked out.
+    limit: f64,
 }
 
 impl Figures<'_> {
     fn put(&mut self, changed: bool, value: impl FnOnce() -> f64) {
+        if self.squares > self.limit {
+            return;
+        }
         let value = match self.moved {
             Some((_, known)) if !changed => known[self.values.len()],
             _ => value(),
         };
+        self.squares += value * value;
         self.values.push(value);
     }
 
@@ -194,9 +215,9 @@ fn distance(a: Point, b: Point) -> f64 {
 }
 
 /// By how much pieces of cables leave a posed body, as [`Sewable::violations`] counts: its rings and cables in the pose, mm.
-pub fn posed_violation(rings: &[Vec<Point>], cables: &[Vec<Point>]) -> f64 {
+pub fn posed_violation<'c>(rings: &[Vec<Point>], cables: impl Iterator<Item = &'c [Point]>) -> f64 {
     let outside = |s: &[Point]| sewing::outside(rings.iter().map(Vec::as_slice), s[0], s[1]) - TOLERANCE_MM;
-    let pieces = cables.iter().flat_map(|cable| cable.windows(2));
+    let pieces = cables.flat_map(|cable| cable.windows(2));
     pieces.map(|s| (outside(s).max(0.0) / OUTSIDE_MM).powi(2)).sum()
 }
 

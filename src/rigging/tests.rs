@@ -1,5 +1,6 @@
 //! The joint search on a bar that bends: slopes, what is reached, rules kept, the same bits.
 
+use super::annealing::{Annealing, Cooling};
 use super::joint::{Breadth, Joint};
 use super::layout::{Layout, Placed};
 use super::linear_score::Linear;
@@ -11,6 +12,7 @@ use crate::design::{Design, Pin, Pose, Target};
 use crate::engine::{Setpoint, solve_once};
 use crate::mesh::{self, BodyPoint};
 use crate::outline::{Outline, Point};
+use crate::random::Random;
 use crate::sewing::Rules;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -88,7 +90,8 @@ fn the_search_keeps_every_rule_and_gives_the_same_bits() {
     let sampler = Sampler::new(&design.mesh, Some(&sewable));
     let topology = Topology { tendons: vec![[1, 1]; 2], most_holes: 4 };
     let search = || {
-        let mut joint = Joint::new(&task, &sampler, topology.clone(), Breadth::RULES, 7, GO);
+        let goals = Linear::at_goals(&task, &AtomicBool::new(false));
+        let mut joint = Joint::new(&task, &sampler, topology.clone(), (Breadth::RULES.within(2), 7), goals, GO);
         (0..2).for_each(|_| joint.advance(GO));
         joint.finalists(1).remove(0)
     };
@@ -191,4 +194,32 @@ fn the_body_around_a_fit_tells_what_small_changes_do() {
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
     let cosine = dot(&told, &found) / (dot(&told, &told) * dot(&found, &found)).sqrt();
     assert!(cosine > 0.9, "{cosine}: {told:?} {found:?}");
+}
+
+/// Layouts that are annealed around the goals get there better than as they come, already where they are tried for the first time.
+#[test]
+fn what_is_annealed_around_the_goals_comes_nearer_to_them() {
+    let design = bar(150);
+    let task = Task::new(&design, None, &[]);
+    let sampler = Sampler::new(&design.mesh, None);
+    let topology = Topology { tendons: vec![[1, 1]; 2], most_holes: 4 };
+    let linear = Linear::at_goals(&task, &AtomicBool::new(false)).unwrap();
+    let annealing = Annealing { task: &task, sampler: &sampler, topology: &topology, linear: &linear, stop: GO };
+    let (mut plain, mut better) = (Vec::new(), Vec::new());
+    for number in 0..6 {
+        let random = &mut Random::of(3, "layout", number);
+        let layout = sampler.layout(&topology, random);
+        let cooling = Cooling { steps: 300, hot: 0.1, cold: 0.02 };
+        let annealed = annealing.run(layout.clone(), cooling, random);
+        let whole = annealing.cost(&annealed, f64::INFINITY);
+        assert!(whole <= annealing.cost(&layout, f64::INFINITY));
+        // A part of a cost is more than the limit that it was asked up to, and never more than the whole.
+        let part = annealing.cost(&annealed, 0.5 * whole);
+        assert!(part > 0.5 * whole && part <= whole);
+        plain.extend(task.begin(layout, GO).map(|fit| fit.worst()));
+        let starts = linear.starts(&annealed).unwrap();
+        better.extend(task.taken(annealed, &starts, GO).map(|fit| fit.worst()));
+    }
+    let least = |all: &[f64]| all.iter().copied().fold(f64::INFINITY, f64::min);
+    assert!(least(&better) < 0.3 && least(&better) < 0.6 * least(&plain), "{better:?} {plain:?}");
 }

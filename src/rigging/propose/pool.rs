@@ -3,7 +3,6 @@
 use super::kinds;
 use super::proposal::Paper;
 use crate::random::Random;
-use crate::rigging::joint::bettered;
 use crate::rigging::layout::Layout;
 use crate::rigging::linear_score::Linear;
 use crate::rigging::moves::{Sampler, Topology};
@@ -22,6 +21,8 @@ const SMALL: usize = 3;
 const DRAWN: usize = 6;
 /// Children of each layout in a round.
 const CHILDREN: usize = 2;
+/// Changes by which a random layout is bettered in the linear model.
+const BETTERED: usize = 60;
 /// Steps of improvement: of a new layout, of a child.
 const STEPS: usize = 20;
 const CHILD_STEPS: usize = 10;
@@ -170,4 +171,17 @@ impl<'a> Pool<'a> {
         let chosen = self.alive.iter().skip(some.start).take(some.len());
         chosen.filter(|(fit, _)| fit.violation <= KEPT).cloned().collect()
     }
+}
+
+/// A layout after random changes that are kept where the linear model says that they help.
+fn bettered(sampler: &Sampler, topology: &Topology, linear: &Linear, layout: Layout, random: &mut Random) -> Layout {
+    let (mut best, mut left) = (layout.clone(), linear.left(&layout));
+    for _ in 0..BETTERED {
+        let changed = sampler.changed(&best, topology, random);
+        let now = linear.left(&changed);
+        if now < left {
+            (best, left) = (changed, now);
+        }
+    }
+    best
 }

@@ -168,7 +168,7 @@ impl<'a> Task<'a> {
             objective.targets.iter().map(square).sum::<f64>() / self.poses[k].1
         };
         let misses: Vec<f64> = poses.iter().enumerate().map(|(k, posture)| miss(k, posture)).collect();
-        let violation = self.sewable.map_or(0.0, |s| s.violations(&layout).iter().map(|v| v * v).sum::<f64>());
+        let violation = self.sewable.map_or(0.0, |s| s.broken(&layout, f64::INFINITY));
         let posed = poses.iter().map(|posture| self.posed_violation(built, &posture.x));
         let violation = violation + if self.sewable.is_some() { posed.sum() } else { 0.0 };
         let winches = &built.actuation.winches;
@@ -181,9 +181,9 @@ impl<'a> Task<'a> {
         Fit { layout, poses, misses, violation, cost }
     }
 
-    /// What a layout's broken rules at rest add to `C`.
-    pub fn broken(&self, layout: &Layout) -> f64 {
-        self.sewable.map_or(0.0, |s| RULES * s.violations(layout).iter().map(|v| v * v).sum::<f64>())
+    /// What a layout's broken rules at rest add to `C`, or a part of that which is more than the limit.
+    pub fn broken(&self, layout: &Layout, limit: f64) -> f64 {
+        self.sewable.map_or(0.0, |s| RULES * s.broken(layout, limit / RULES))
     }
 
     /// By how much cables leave the body in a pose.
@@ -191,8 +191,8 @@ impl<'a> Task<'a> {
         let ring = |nodes: &Vec<usize>| nodes.iter().map(|&n| [x[2 * n], x[2 * n + 1]]).collect();
         let rings: Vec<Vec<Point>> = self.rings.iter().map(ring).collect();
         let elements = &built.plushie.model.contractile.elements;
-        let cables = elements.iter().map(|e| e.routing.iter().map(|point| point.at(x)).collect());
-        posed_violation(&rings, &cables.collect::<Vec<_>>())
+        let cables: Vec<Vec<Point>> = elements.iter().map(|e| e.routing.iter().map(|p| p.at(x)).collect()).collect();
+        posed_violation(&rings, cables.iter().map(Vec::as_slice))
     }
 
     /// A layout tried for the first time: every pose is begun with all winches wound a little. `None` where that is no equilibrium.
