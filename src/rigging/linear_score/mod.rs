@@ -13,7 +13,7 @@
 //!
 //! Around rest the model is far from large motions, but says which way a cable pulls at all. Around what a layout reaches already, it says
 //! which change of that layout is worth a simulation. Around what a fibre on every edge reaches, it is exact where it counts: a layout that
-//! takes the body to its targets leaves nothing there, however far from rest they are.
+//! holds the body in that shape leaves nothing there, however far from rest it is.
 
 mod pulls;
 
