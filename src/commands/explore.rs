@@ -2,6 +2,7 @@
 
 use super::error::CommandError;
 use super::output::{CURVE_HEADING, CURVE_MARK, Kind, Output, Replace, say_lines};
+use super::words;
 use crate::bench::plot::{Plot, Series};
 use crate::bench::{Cell, Table};
 use crate::operations::explore::Point;
@@ -98,7 +99,7 @@ fn plot(points: &[Arc<Point>]) -> Plot {
     let most = points.iter().map(|point| point.winches).max().unwrap_or(0);
     let curve = |winches: usize| {
         let own = points.iter().filter(|point| point.winches == winches);
-        let label = format!("{winches} winch{}", if winches == 1 { "" } else { "es" });
+        let label = words::count(winches, "winch", "winches");
         Series::line(label, own.map(|point| (point.tendons as f64, 100.0 * point.worst)).collect())
     };
     Plot {

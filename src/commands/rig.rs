@@ -127,7 +127,11 @@ impl Told {
             Progress::Rig(rigging::Progress::Round { round, rounds, worst, holes }) => {
                 self.rounds = Some([round + 1, *rounds]);
                 let worst = format!("{:.1}", 100.0 * worst);
-                progress::at(*round, *rounds, &format!("worst pose {worst} % of its error at rest, {holes} holes"));
+                progress::at(
+                    *round,
+                    *rounds,
+                    &format!("worst pose {worst} % of its error at rest, {}", words::count(*holes, "hole", "holes")),
+                );
                 Some((worst, *holes))
             }
             Progress::Rig(rigging::Progress::Accepted { errors, .. } | rigging::Progress::Found { errors, .. }) => {
@@ -242,7 +246,7 @@ impl Rig {
             return say_json(out, FORMAT, &Summary { design: path, winches, tendons, interrupted, poses });
         }
         let ended = if interrupted { ", the best so far" } else { "" };
-        say(out, &format!("{path}: {winches} winches, {tendons} tendons{ended}"))
+        say(out, &format!("{path}: {}{ended}", words::built(winches, tendons)))
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::error::CommandError;
 use super::output::say;
+use super::words;
 use crate::defaults;
 use crate::design::Design;
 use crate::operations::check::{self, Error, Figures, Note};
@@ -39,13 +40,12 @@ pub fn print(figures: &Figures, out: &mut dyn Write) -> Result<(), CommandError>
     say(
         out,
         &format!(
-            "{}: {} fibers, {} nodes, {} triangles, {} winches, {} tendons, {:.1} mm long",
+            "{}: {} fibers, {} nodes, {} triangles, {}, {:.1} mm long",
             figures.name,
             figures.fibers,
             figures.nodes,
             figures.triangles,
-            figures.winches,
-            figures.tendons,
+            words::built(figures.winches, figures.tendons),
             figures.body_length_mm
         ),
     )?;

@@ -98,22 +98,33 @@ pub fn balanced<'a>(unbalanced: impl IntoIterator<Item = &'a Unbalanced>) -> Res
     if told.is_empty() { Ok(()) } else { Err(CommandError::NotConverged(told.join("; "))) }
 }
 
+/// So many of something.
+pub fn count(count: usize, one: &str, several: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { several })
+}
+
+/// So many winches and tendons.
+pub fn built(winches: usize, tendons: usize) -> String {
+    format!("{}, {}", count(winches, "winch", "winches"), count(tendons, "tendon", "tendons"))
+}
+
 /// One line about a step of an operation.
 pub fn progress(step: &Progress) -> String {
     match step {
         Progress::Rig(rigging::Progress::Candidates { winch, count }) => {
-            format!("winch {}: {count} candidate networks", winch + 1)
+            format!("winch {}: {}", winch + 1, self::count(*count, "candidate network", "candidate networks"))
         }
         Progress::Rig(rigging::Progress::Accepted { winch, tendons, errors }) => {
             let errors: Vec<String> =
                 errors.iter().map(|(name, error)| format!("{name} {:.1} %", 100.0 * error)).collect();
-            format!("winch {}: {tendons} tendons; {}", winch + 1, errors.join(", "))
+            format!("winch {}: {}; {}", winch + 1, count(*tendons, "tendon", "tendons"), errors.join(", "))
         }
         Progress::Rig(rigging::Progress::Round { round, rounds, worst, holes }) => {
             format!(
-                "round {} of {rounds}: worst pose {:.1} % of its error at rest, {holes} holes",
+                "round {} of {rounds}: worst pose {:.1} % of its error at rest, {}",
                 round + 1,
-                100.0 * worst
+                100.0 * worst,
+                count(*holes, "hole", "holes")
             )
         }
         Progress::Rig(rigging::Progress::Found { winches, tendons, errors, sewn }) => {
@@ -123,13 +134,13 @@ pub fn progress(step: &Progress) -> String {
             let by_hand: Vec<String> = by_hand.collect();
             let errors: Vec<String> =
                 errors.iter().map(|(name, error)| format!("{name} {:.2} %", 100.0 * error)).collect();
-            let found = format!("{winches} winches, {tendons} tendons; {}", errors.join(", "));
+            let found = format!("{}; {}", built(*winches, *tendons), errors.join(", "));
             if by_hand.is_empty() {
                 return found;
             }
             format!("{found}\nsewn by hand, holes {} mm off: {}", defaults::SEWN_HOLE_MM, by_hand.join(", "))
         }
-        Progress::Proposals(list) => format!("{} networks so far", list.len()),
+        Progress::Proposals(list) => format!("{} so far", count(list.len(), "network", "networks")),
         Progress::Picture { done, of } => format!("picture {} of {of}", done + 1),
         Progress::Keyed { done, of } => format!("pose {} of {of}", done + 1),
         Progress::Part { done, of } => format!("part {} of {of}", done + 1),
@@ -141,8 +152,11 @@ pub fn explored(point: &Point) -> String {
     let Point { winches, tendons, takes, worst, .. } = point;
     let [taken, in_all] = takes;
     format!(
-        "up to {winches} winches of {tendons} tendons: worst pose {:.1} % of its error at rest, with {taken} winches, {in_all} tendons",
-        100.0 * worst
+        "up to {} of {}: worst pose {:.1} % of its error at rest, with {}",
+        count(*winches, "winch", "winches"),
+        count(*tendons, "tendon", "tendons"),
+        100.0 * worst,
+        built(*taken, *in_all)
     )
 }
 

@@ -3,7 +3,7 @@
 use super::layout::Layout;
 use super::linear_score::Linear;
 use super::moves::{Sampler, Topology};
-use super::refine::Task;
+use super::refine::{Fit, Task};
 use crate::random::Random;
 
 /// How long, and from how hot to how cold. A change that costs `r` times as much is taken with a chance of `r^(-1/T)`: costs run over orders of
@@ -50,6 +50,21 @@ impl Annealing<'_, '_> {
             }
         }
         best.unwrap_or(now)
+    }
+
+    /// What the best layout that random changes lead to reaches: from the model's states and the windings that serve best there, or as `otherwise`
+    /// begins it.
+    pub fn fit(
+        &self,
+        layout: Layout,
+        cooling: Cooling,
+        random: &mut Random,
+        otherwise: impl FnOnce(Layout) -> Option<Fit>,
+    ) -> Option<Fit> {
+        let layout = self.run(layout, cooling, random);
+        let starts = self.linear.starts(&layout);
+        let there = starts.and_then(|starts| self.task.taken(layout.clone(), &starts, self.stop));
+        there.or_else(|| otherwise(layout))
     }
 
     /// A cost, or a part of one that is more than the limit.

@@ -3,10 +3,10 @@
 //! Random layouts, each annealed for the body linearised where its poses should take it ([`Linear::at_goals`]), are tried first. The best
 //! found islands: on each, the best few live, and in every round have children, by a random change of points or by winches of one another.
 //! The children are improved ([`Task::improve`]), wound from rest ([`Task::wound`]), and the best that differ live on. Islands do not see each
-//! other, so that the first good valley is not everybody's; from time to time the worst one is given up, and peopled anew by the best. Where
-//! rules are kept, half of the children are annealed for the body linearised around their parent ([`Breadth`]). Islands that gain nothing any
-//! more are left for new ones, and several heats, each on islands of its own, go before ([`super::schedule`]). The work is counted in rounds,
-//! and the same seed gives the same bits for any number of threads.
+//! other, so that the first good valley is not everybody's; from time to time the worst one is given up, and peopled anew by the best. Half
+//! of the children are annealed for the body linearised around their parent ([`Linear::at`]). Islands that gain nothing any more are left for
+//! new ones, and several heats, each on islands of its own, go before ([`super::schedule`]). The work is counted in rounds, and the same seed
+//! gives the same bits for any number of threads.
 
 use super::annealing::{Annealing, Cooling};
 use super::layout::Layout;
@@ -23,6 +23,12 @@ const FIRST: Cooling = Cooling { steps: 1000, hot: 0.1, cold: 0.02 };
 const QUICKLY: usize = 8;
 const QUICK: Cooling = Cooling { steps: 200, ..FIRST };
 const CLOSELY: usize = 16;
+/// Layouts that a start begins with: at most, and of a search of few rounds for each of these.
+const LAYOUTS: usize = 48;
+const LAYOUTS_A_ROUND: usize = 4;
+/// Islands, and children of a round on each.
+const ISLANDS: usize = 2;
+const CHILDREN: usize = 8;
 /// Layouts that live on an island.
 const ALIVE: usize = 4;
 /// Rounds after which the worst island is given up.
@@ -43,35 +49,6 @@ const BEHIND: f64 = 2.0;
 /// Two layouts whose costs differ by less than this part are the same valley.
 const SAME: f64 = 1e-3;
 
-/// A search of few rounds begins with so many layouts for each.
-const LAYOUTS_A_ROUND: usize = 4;
-
-/// How broadly a search looks.
-#[derive(Clone, Copy, Debug)]
-pub struct Breadth {
-    /// Layouts that a start begins with, at most.
-    layouts: usize,
-    islands: usize,
-    /// Children of a round on each island.
-    children: usize,
-    /// Whether every other child is annealed, or all are taken as they come.
-    annealed: bool,
-}
-
-impl Breadth {
-    /// Where rules are kept, few valleys are left, and what a change does is much what the linear model says: three of three seeds end with
-    /// the robot's error at 0.5 to 0.8 of that of [`Self::FREE`].
-    pub const RULES: Self = Self { layouts: 48, islands: 2, children: 8, annealed: true };
-    /// Without rules there are many valleys, and the best change most, out of the linear model's sight: four of four seeds end with the E's
-    /// error at about half of that of [`Self::RULES`].
-    pub const FREE: Self = Self { layouts: 48, islands: 4, children: 4, annealed: false };
-
-    /// As it is worth for so many rounds.
-    pub fn within(self, rounds: usize) -> Self {
-        Self { layouts: self.layouts.min(LAYOUTS_A_ROUND * rounds), ..self }
-    }
-}
-
 /// A layout that lives on an island.
 #[derive(Clone)]
 struct Living<'a> {
@@ -91,7 +68,8 @@ pub struct Joint<'a> {
     task: &'a Task<'a>,
     sampler: &'a Sampler<'a>,
     topology: Topology,
-    breadth: Breadth,
+    /// Layouts that a start begins with.
+    layouts: usize,
     seed: u64,
     round: u64,
     /// In which layouts are annealed before they are tried for the first time.
@@ -111,7 +89,7 @@ impl<'a> Joint<'a> {
         task: &'a Task<'a>,
         sampler: &'a Sampler<'a>,
         topology: Topology,
-        (breadth, seed): (Breadth, u64),
+        (rounds, seed): (usize, u64),
         model: Option<Linear<'a>>,
         stop: &(dyn Fn() -> bool + Sync),
     ) -> Self {
@@ -119,7 +97,7 @@ impl<'a> Joint<'a> {
             task,
             sampler,
             topology,
-            breadth,
+            layouts: LAYOUTS.min(LAYOUTS_A_ROUND * rounds),
             seed,
             round: 0,
             model,
@@ -142,14 +120,15 @@ impl<'a> Joint<'a> {
                 return None;
             }
             let random = &mut Random::of(self.seed, "layout", number);
-            let mut layout = sampler.layout(topology, random);
-            if let Some(linear) = &self.model {
-                layout = Annealing { task, sampler, topology, linear, stop: &stop }.run(layout, cooling, random);
-            }
-            let starts = self.model.as_ref().and_then(|model| model.starts(&layout));
-            let there = starts.and_then(|starts| task.taken(layout.clone(), &starts, stop));
-            let begun = there.or_else(|| task.begin(layout, stop))?;
-            Some(task.improve(begun, LOOK, false, stop))
+            let layout = sampler.layout(topology, random);
+            let begin = |layout| task.begin(layout, stop);
+            let begun = match &self.model {
+                None => begin(layout),
+                Some(linear) => {
+                    Annealing { task, sampler, topology, linear, stop: &stop }.fit(layout, cooling, random, begin)
+                }
+            };
+            Some(task.improve(begun?, LOOK, false, stop))
         });
         let mut looked: Vec<Fit> = looked.into_iter().flatten().collect();
         looked.sort_by(|a, b| a.cost.total_cmp(&b.cost));
@@ -163,7 +142,7 @@ impl<'a> Joint<'a> {
 
     /// Peoples the islands by these, best first, one after the other.
     fn spread(&mut self, sorted: Vec<Fit>) {
-        let count = self.breadth.islands.min(sorted.len());
+        let count = ISLANDS.min(sorted.len());
         self.islands = vec![Vec::new(); count];
         for (k, fit) in sorted.into_iter().enumerate() {
             self.islands[k % count].push(Living::new(fit));
@@ -182,13 +161,13 @@ impl<'a> Joint<'a> {
         self.end_heat();
         self.remembered.append(&mut self.heats);
         (self.task, self.sampler, self.topology) = (task, sampler, topology);
-        self.people(self.breadth.layouts, FIRST, stop);
+        self.people(self.layouts, FIRST, stop);
     }
 
     /// Leaves the islands for new ones until [`Self::gather`].
     pub fn heat(&mut self, stop: &(dyn Fn() -> bool + Sync)) {
         self.end_heat();
-        self.people(self.breadth.layouts, FIRST, stop);
+        self.people(self.layouts, FIRST, stop);
     }
 
     /// The islands are peopled by the best of all heats and of the present ones.
@@ -210,9 +189,8 @@ impl<'a> Joint<'a> {
         if (self.round as usize).is_multiple_of(ERA) {
             self.give_up();
         }
-        let children = self.breadth.children;
-        let places = (0..self.islands.len()).flat_map(|island| (0..children).map(move |k| (island, k)));
-        let places: Vec<(usize, usize)> = places.collect();
+        let places: Vec<(usize, usize)> =
+            (0..self.islands.len()).flat_map(|island| (0..CHILDREN).map(move |k| (island, k))).collect();
         let tried = in_order(&places, |&(island, k)| Some((island, self.child(island, k, stop)?)));
         if stop() {
             return;
@@ -226,22 +204,18 @@ impl<'a> Joint<'a> {
     /// The child number `k` of a round on an island; `None` where it is far behind those that live there.
     fn child(&self, island: usize, k: usize, stop: &dyn Fn() -> bool) -> Option<Fit> {
         let (task, living) = (self.task, &self.islands[island]);
-        let Breadth { islands, children, annealed, .. } = self.breadth;
-        let number = (self.round * islands as u64 + island as u64) * children as u64 + k as u64;
+        let number = (self.round * ISLANDS as u64 + island as u64) * CHILDREN as u64 + k as u64;
         let random = &mut Random::of(self.seed, "child", number);
         // Each parent has one child that is annealed and one that is not.
-        let parent = &living[if annealed { k / 2 } else { k } % living.len()];
+        let parent = &living[k / 2 % living.len()];
+        let resume = |layout| task.resume(layout, &parent.fit, stop);
         let around = || parent.around.get_or_init(|| Linear::at(task, &parent.fit)).as_ref();
-        let begun = match (annealed && k.is_multiple_of(2)).then(around).flatten() {
-            None => task.resume(self.varied(&parent.fit.layout, living, random), &parent.fit, stop),
-            Some(around) => {
+        let begun = match k.is_multiple_of(2).then(around).flatten() {
+            None => resume(self.varied(&parent.fit.layout, living, random)),
+            Some(linear) => {
                 let layout = self.crossed(&parent.fit.layout, living, random);
                 let (sampler, topology) = (self.sampler, &self.topology);
-                let layout =
-                    Annealing { task, sampler, topology, linear: around, stop }.run(layout, CHILD_COOLING, random);
-                let starts = around.starts(&layout);
-                let there = starts.and_then(|starts| task.taken(layout.clone(), &starts, stop));
-                there.or_else(|| task.resume(layout, &parent.fit, stop))
+                Annealing { task, sampler, topology, linear, stop }.fit(layout, CHILD_COOLING, random, resume)
             }
         }?;
         let looked = task.improve(begun, LOOK, false, stop);

@@ -115,8 +115,8 @@ impl<'a> Sampler<'a> {
             }
             let points = [&[from], &way[..]].concat();
             let length: f64 = points.windows(2).map(|s| polygon::length(s[0], s[1])).sum();
-            let clear = points.windows(2).all(|s| self.is_clear(s[0], s[1]));
-            if clear && best.as_ref().is_none_or(|(least, _)| length < *least) {
+            let shorter = best.as_ref().is_none_or(|(least, _)| length < *least);
+            if shorter && points.windows(2).all(|s| self.is_clear(s[0], s[1])) {
                 best = Some((length, way));
             }
         }

@@ -3,7 +3,7 @@
 use super::candidate::unused_name;
 use super::checked::Checked;
 use super::greedy;
-use super::joint::{Breadth, Joint};
+use super::joint::Joint;
 use super::layout::{Layout, rigs_of};
 use super::linear_score::Linear;
 use super::moves::{Sampler, Topology};
@@ -79,8 +79,8 @@ fn together(
     let coarse = coarser(design);
     let searched = coarse.as_ref().unwrap_or(design);
     let found = layouts(searched, options, &topology, progress, cancel)?;
-    let found = if coarse.is_some() { refined(design, found, options, cancel) } else { found };
-    let verified = judged(design, &found, coarse.is_some(), options, cancel)?;
+    let found = if coarse.is_some() { carried(design, found, options, cancel) } else { found };
+    let verified = judged(design, &found, options, cancel)?;
     let best = chosen(verified, options.rules).filter(|(_, poses)| helps(poses));
     let Some((rigged, poses)) = best else {
         return Err(RigError::NothingFound);
@@ -114,41 +114,22 @@ fn chosen(mut verified: Vec<Candidate>, sewn: bool) -> Option<Candidate> {
 fn judged(
     design: &Design,
     found: &[Fit],
-    coarse: bool,
     options: &RigOptions,
     cancel: &AtomicBool,
 ) -> Result<Vec<Candidate>, RigError> {
     let is_raised = || cancel.load(atomic::Ordering::Relaxed);
     if !is_raised() {
-        let verified = judge(design, found, coarse, options, options.rules, cancel);
+        let verified = in_order(found, |fit| verified(design, fit, cancel));
+        let told = if options.rules { as_sewn(verified, design.tendons.friction, cancel) } else { verified };
         if !is_raised() {
-            return Ok(verified);
+            return Ok(told);
         }
     }
-    let best = &found[..found.len().min(1)];
-    if options.keep {
-        Ok(judge(design, best, coarse, options, false, &AtomicBool::new(false)))
-    } else {
-        Err(RigError::Cancelled)
+    if !options.keep {
+        return Err(RigError::Cancelled);
     }
-}
-
-fn judge(
-    design: &Design,
-    found: &[Fit],
-    coarse: bool,
-    options: &RigOptions,
-    sewn: bool,
-    cancel: &AtomicBool,
-) -> Vec<Candidate> {
-    let (outline, stop) = (rim(&design.mesh), || cancel.load(atomic::Ordering::Relaxed));
-    let sewable = sewable(design, &outline);
-    let task = Task::new(design, options.rules.then_some(&sewable), &design.networks).trimming(options.trims);
-    // What was found on a coarse mesh is improved on the body's own.
-    let moved =
-        coarse.then(|| in_order(found, |fit| task.transferred(fit, &stop)).into_iter().flatten().collect::<Vec<Fit>>());
-    let verified = in_order(moved.as_deref().unwrap_or(found), |fit| verified(design, fit, cancel));
-    if sewn { as_sewn(verified, design.tendons.friction, cancel) } else { verified }
+    let best = found.iter().min_by(|a, b| a.worst().total_cmp(&b.worst()));
+    Ok(best.into_iter().map(|fit| verified(design, fit, &AtomicBool::new(false))).collect())
 }
 
 /// Rigs with what a hand leaves of them, those left out that cannot be [`chosen`] any more: sewing makes no rig better than it is drawn, and winding
@@ -174,17 +155,21 @@ fn as_sewn(mut verified: Vec<Candidate>, friction: f64, cancel: &AtomicBool) -> 
     sewn
 }
 
-/// What was found on a coarse mesh, improved on those between that and the body's own; as it was where that is not possible.
-fn refined(design: &Design, found: Vec<Fit>, options: &RigOptions, cancel: &AtomicBool) -> Vec<Fit> {
+/// What was found on a coarse mesh, improved on those between that and the body's own, and there; as it was where that is not possible, and from
+/// where it is interrupted.
+fn carried(design: &Design, found: Vec<Fit>, options: &RigOptions, cancel: &AtomicBool) -> Vec<Fit> {
     let stop = || cancel.load(atomic::Ordering::Relaxed);
-    let meshes = between(design.mesh.edges().len()).into_iter().map_while(|fibers| on_mesh(design, fibers));
-    meshes.fold(found, |found, between| {
-        let outline = rim(&between.mesh);
-        let sewable = sewable(&between, &outline);
-        let task = Task::new(&between, options.rules.then_some(&sewable), &between.networks).trimming(options.trims);
+    let improved = |found: Vec<Fit>, design: &Design| {
+        let outline = rim(&design.mesh);
+        let sewable = sewable(design, &outline);
+        let task = Task::new(design, options.rules.then_some(&sewable), &design.networks).trimming(options.trims);
         let moved: Vec<Fit> = in_order(&found, |fit| task.transferred(fit, &stop)).into_iter().flatten().collect();
         if stop() || moved.is_empty() { found } else { moved }
-    })
+    };
+    let meshes = between(design.mesh.edges().len()).into_iter();
+    let meshes = meshes.map_while(|fibers| if stop() { None } else { on_mesh(design, fibers) });
+    let found = meshes.fold(found, |found, between| improved(found, &between));
+    improved(found, design)
 }
 
 /// Numbers of fibres of the meshes between [`COARSE`] and a body's own number.
@@ -244,10 +229,8 @@ fn layouts(
     }
     let samplers = [Some(&sewable), None].map(|sewable| Sampler::new(&design.mesh, sewable));
     let school = Topology { most_holes: design.sewing.most_holes, ..topology.clone() };
-    let breadth = if options.rules { Breadth::RULES } else { Breadth::FREE };
     let first = Linear::at_goals(&lawful, cancel).or_else(|| Linear::at_rest(&lawful));
-    let mut joint =
-        Joint::new(&lawful, &samplers[0], school.clone(), (breadth.within(options.rounds), options.seed), first, &stop);
+    let mut joint = Joint::new(&lawful, &samplers[0], school.clone(), (options.rounds, options.seed), first, &stop);
     let mut schedule = Schedule::new(options);
     let mut has_algorithm2 = false;
     for round in 0..options.rounds {

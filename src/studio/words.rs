@@ -5,7 +5,7 @@ use crate::motion::MotionError;
 use crate::operations::{MoreFibers, Progress, key, new_design, play, preview, remesh, reshape, rig};
 use crate::outline::{Change, Changes, Note, OutlineError, Remedy};
 use crate::rigging::{self, RigError};
-use crate::studio::language::{mark, t, tf};
+use crate::studio::language::{mark, t, tf, tn};
 
 /// The choice in the dialog of the export that gives motors the time they need.
 pub const STRETCH: &str = mark("Stretch what is too quick");
@@ -106,6 +106,13 @@ pub fn unkeyed(error: &key::Error) -> String {
     }
 }
 
+/// So many winches and tendons.
+pub fn built(winches: usize, tendons: usize) -> String {
+    let winches = tn!(winches, "{winches} winch", "{winches} winches");
+    let tendons = tn!(tendons, "{tendons} tendon", "{tendons} tendons");
+    format!("{winches}, {tendons}")
+}
+
 /// A step of an operation.
 pub fn progress(step: &Progress) -> String {
     match step {
@@ -124,10 +131,8 @@ pub fn progress(step: &Progress) -> String {
                 percent = 100.0 * worst
             )
         }
-        Progress::Rig(rigging::Progress::Found { winches, tendons, .. }) => {
-            tf!("{winches} winches with {tendons} tendons", winches, tendons)
-        }
-        Progress::Proposals(list) => tf!("{count} networks so far", count = list.len()),
+        Progress::Rig(rigging::Progress::Found { winches, tendons, .. }) => built(*winches, *tendons),
+        Progress::Proposals(list) => tn!(count = list.len(), "{count} network so far", "{count} networks so far"),
         Progress::Picture { done, of } => tf!("Picture {number} of {of}", number = done + 1, of),
         Progress::Keyed { done, of } => tf!("Pose {number} of {of}", number = done + 1, of),
         Progress::Part { done, of } => tf!("Part {number} of {of}", number = done + 1, of),

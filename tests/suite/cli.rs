@@ -544,7 +544,7 @@ fn networks_are_listed_changed_and_what_is_hard_to_sew_told() {
         succeed(f, &[&["network", action, "bar.plush", "-o", "bar.plush"][..], args].concat())
     };
     let told = network("new", &["--through", "20,20", "--through", "60,30", "--through", "110,20"]);
-    assert!(told.starts_with("bar.plush: new winch; 1 winches, 1 tendons\n"), "{told}");
+    assert!(told.starts_with("bar.plush: new winch; 1 winch, 1 tendon\n"), "{told}");
     let told = network("move", &["--winch", "winch 1", "--tendon", "1", "--hole", "1", "--to", "60,38"]);
     assert!(told.contains("hard to sew: winch 1, tendon 1: hole 1 from the winch is 2.0 mm from the seam"), "{told}");
     network("color", &["--winch", "1", "--color", "#0a141e"]);

@@ -130,7 +130,7 @@ fn more_winches_and_tendons_are_compared_in_a_table_a_file_and_a_plot() {
     assert!(worst(&rows[2]) <= worst(&rows[1]), "{csv}");
     let svg = std::fs::read_to_string(f.join("curve.svg")).unwrap();
     assert!(svg.contains("tendons of each winch") && svg.contains("<svg"), "{svg}");
-    assert!(told.contains("up to 1 winches of 2 tendons") && told.contains("worst pose (% of rest)"), "{told}");
+    assert!(told.contains("up to 1 winch of 2 tendons") && told.contains("worst pose (% of rest)"), "{told}");
     // The best of them is kept, and a check says the figure of the table: with the friction that a new design has.
     let json: Value = serde_json::from_str(&succeed(f, &["check", "best.plush", "--json"])).unwrap();
     let error = json["poses"][0]["error_realizable_friction"].as_f64().unwrap();

@@ -1,12 +1,15 @@
 //! The best pose that winding from rest reaches, on rigs made from a seed.
 
 use plushwright::bench::winding::rigs::{Rig, rig};
+use plushwright::design;
 use plushwright::engine::compile::{Plushie, View, compile, objective};
 use plushwright::engine::target_error;
 use plushwright::engine::{self, Effort, Outcome, Quality, Request, Shape, Solver};
 use plushwright::soft_ik::contraction::GaussNewton;
 use plushwright::soft_ik::winding::{Care, Search, distance, wound};
 use plushwright::soft_ik::{self, Actuation, Budget, Method, Objective, Posture, Question, Tracker};
+use std::cell::Cell;
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -90,6 +93,34 @@ fn the_deepest_valley_is_shown_where_the_first_is_not_the_deepest() {
             assert!(posed.error(x) <= deepest, "{shape} {number}, {what}: {}", posed.error(x));
         }
         assert!(shown.wound && shown.converged && shown.play.unwrap().error >= shown.target_error);
+    }
+}
+
+/// A winch whose range ends just behind the place where its body snaps: the last step there is longer than the shortest one, and was asked for
+/// again and again.
+#[test]
+fn a_snap_within_the_last_step_of_the_way_ends_it() {
+    /// Where the body snaps, mm of cable, and the shortest step.
+    const SNAP: f64 = 31.805706500496484;
+    const STEP: f64 = SNAP / 1024.0;
+    let design = design::file::read(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/designs/snap.plush")));
+    let design = design.unwrap();
+    let mut plushie = compile(&design, View::Realizable).unwrap();
+    let mut actuation = Actuation { winches: plushie.winches.clone(), fixed: vec![0.0; plushie.tendons.len()] };
+    let objective = objective(&design, &plushie, &design.poses[0].targets);
+    for sixteenths in 2..20 {
+        actuation.winches[0].upper = SNAP + STEP * (0.5 + sixteenths as f64) / 16.0;
+        let mut question = Question { model: &mut plushie.model, actuation: &actuation, objective: &objective };
+        let start = at_rest(&mut question);
+        let asked = Cell::new(0);
+        let stop = || {
+            asked.set(asked.get() + 1);
+            asked.get() > 2_000
+        };
+        // Walking alone.
+        let care = Care { polished: 0, proved: false, ..Care::THOROUGH };
+        Search::new(&question, &start, care).run(&mut question, &stop);
+        assert!(!stop(), "{sixteenths} sixteenths: no end");
     }
 }
 

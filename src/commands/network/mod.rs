@@ -5,6 +5,7 @@ mod list;
 
 use super::error::CommandError;
 use super::output::{say, say_json};
+use super::words;
 use crate::files::shown;
 use crate::motion::winch_labels;
 use crate::operations::Context;
@@ -67,7 +68,7 @@ impl NetworkCommand {
             return say_json(out, FORMAT, &changed);
         }
         let done = change.label().to_lowercase();
-        say(out, &format!("{}: {done}; {winches} winches, {tendons} tendons", shown(target.path(from))))?;
+        say(out, &format!("{}: {done}; {}", shown(target.path(from)), words::built(winches, tendons)))?;
         let names = winch_labels(&design);
         breaches.iter().try_for_each(|breach| say(out, &format!("hard to sew: {}", breach.words(&names))))
     }

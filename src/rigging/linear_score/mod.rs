@@ -165,17 +165,18 @@ impl<'a> Linear<'a> {
         Some(Self { mesh, fixed, tendons, rings, states, poses })
     }
 
-    /// The squared way that is left of every pose, as a part of the whole, squared again and summed: as `C` counts. Infinite for a
-    /// layout outside of the body.
-    pub fn left(&self, layout: &Layout) -> f64 {
-        self.everywhere(layout).map_or(f64::INFINITY, |everywhere| self.left_by(&everywhere))
-    }
-
-    /// [`Self::left`] and what `C` counts for cables that leave the body in its states, or a part of these that is more than the limit.
+    /// The squared way that is left of every pose, as a part of the whole, squared again and summed, and cables that leave the body in its states:
+    /// as `C` counts, or a part of that which is more than the limit. Infinite for a layout outside of the body at rest.
     pub fn cost(&self, layout: &Layout, limit: f64) -> f64 {
         let Some(everywhere) = self.everywhere(layout) else { return f64::INFINITY };
         let outside = self.outside(&everywhere);
-        if outside > limit { outside } else { outside + self.left_by(&everywhere) }
+        if outside > limit { outside } else { outside + self.left(&everywhere) }
+    }
+
+    /// [`Self::cost`] without what cables outside of the body add.
+    #[cfg(test)]
+    pub fn missed(&self, layout: &Layout) -> f64 {
+        self.everywhere(layout).map_or(f64::INFINITY, |everywhere| self.left(&everywhere))
     }
 
     /// Windings and positions of every pose from which a layout is to be tried.
@@ -185,7 +186,7 @@ impl<'a> Linear<'a> {
         self.poses.iter().map(start).collect()
     }
 
-    fn left_by(&self, everywhere: &Everywhere) -> f64 {
+    fn left(&self, everywhere: &Everywhere) -> f64 {
         let left = |pose: &Pose| {
             self.pulled(pose, everywhere).map_or(f64::INFINITY, |left| (left.square / pose.whole).powi(2))
         };

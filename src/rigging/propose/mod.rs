@@ -1,6 +1,6 @@
 //! Networks for one pose, for somebody to choose from.
 //!
-//! One more winch is searched for beside those that are there: random layouts bettered in the linear model, improved by exact
+//! One more winch is searched for beside those that are there: random layouts annealed in the linear model, improved by exact
 //! sensitivities ([`Task::improve`]), changed at random, thinned out; and the networks of Algorithm 2, moved until they can be sewn. What is
 //! proposed differs in kind ([`kinds`]), and every figure of it is what a check says of the design with this network ([`figures`]).
 //!
@@ -35,7 +35,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Batches of new layouts; after the first one something is shown.
-const BATCHES: usize = 6;
+const BATCHES: usize = 4;
 /// Batches that are shown at once where that takes longer than a batch: on a finer mesh than that of the search.
 const EARLY: usize = 2;
 /// Rounds in which all layouts that are alive have children.
@@ -74,7 +74,7 @@ pub fn propose(
     let most = options.parameters.tendon_num.max(1);
     let most_holes = if options.rules { design.sewing.most_holes } else { FREE_HOLES };
     let topology = Topology { tendons: vec![[if options.fewer { 1 } else { most }, most]], most_holes };
-    let mut pool = Pool::new(&task, &sampler, topology, options.seed);
+    let mut pool = Pool::new(&task, &sampler, topology, options.seed, cancel);
     for batch in 0..BATCHES {
         pool.begin(batch, &stop);
         if !coarser || batch < EARLY {

@@ -3,6 +3,7 @@
 use super::kinds;
 use super::proposal::Paper;
 use crate::random::Random;
+use crate::rigging::annealing::{Annealing, Cooling};
 use crate::rigging::layout::Layout;
 use crate::rigging::linear_score::Linear;
 use crate::rigging::moves::{Sampler, Topology};
@@ -10,19 +11,19 @@ use crate::rigging::prune::{PRICE, without_a_point, without_a_tendon};
 use crate::rigging::refine::{Fit, KEPT, Task};
 use crate::threads::in_order;
 use std::ops::Range;
+use std::sync::atomic::AtomicBool;
 
 /// Layouts that are alive, all of different kind.
 pub(super) const ALIVE: usize = 8;
-/// Layouts begun in a batch, each the best of so many random ones in the linear model.
+/// Layouts begun in a batch, each annealed in the linear model.
 const BEGUN: usize = 4;
 /// In the first few, after each of which something is shown.
 const FIRST: usize = 2;
 const SMALL: usize = 3;
-const DRAWN: usize = 6;
+const COOLING: Cooling = Cooling { steps: 400, hot: 0.1, cold: 0.02 };
 /// Children of each layout in a round.
 const CHILDREN: usize = 2;
-/// Changes by which a random layout is bettered in the linear model.
-const BETTERED: usize = 60;
+const AROUND: Cooling = Cooling { steps: 100, hot: 0.5, cold: 0.05 };
 /// Steps of improvement: of a new layout, of a child.
 const STEPS: usize = 20;
 const CHILD_STEPS: usize = 10;
@@ -39,15 +40,23 @@ type Stop<'s> = &'s (dyn Fn() -> bool + Sync);
 pub(super) struct Pool<'a> {
     task: &'a Task<'a>,
     sampler: &'a Sampler<'a>,
-    linear: Option<Linear<'a>>,
+    /// In which layouts are annealed before they are tried for the first time.
+    model: Option<Linear<'a>>,
     topology: Topology,
     seed: u64,
     alive: Vec<(Fit, Origin)>,
 }
 
 impl<'a> Pool<'a> {
-    pub fn new(task: &'a Task<'a>, sampler: &'a Sampler<'a>, topology: Topology, seed: u64) -> Self {
-        Self { task, sampler, linear: Linear::at_rest(task), topology, seed, alive: Vec::new() }
+    pub fn new(
+        task: &'a Task<'a>,
+        sampler: &'a Sampler<'a>,
+        topology: Topology,
+        seed: u64,
+        cancel: &AtomicBool,
+    ) -> Self {
+        let model = Linear::at_goals(task, cancel).or_else(|| Linear::at_rest(task));
+        Self { task, sampler, model, topology, seed, alive: Vec::new() }
     }
 
     /// Begins new layouts.
@@ -63,21 +72,16 @@ impl<'a> Pool<'a> {
         let [fewest, most] = self.topology.tendons[0];
         let count = most - number % (most - fewest + 1);
         let topology = Topology { tendons: vec![[count; 2]], ..self.topology.clone() };
-        let mut best: Option<(f64, Layout)> = None;
-        for _ in 0..DRAWN {
-            if stop() {
-                return None;
+        let (task, sampler) = (self.task, self.sampler);
+        let layout = sampler.layout(&topology, random);
+        let begin = |layout| task.begin(layout, stop);
+        let begun = match &self.model {
+            None => begin(layout),
+            Some(linear) => {
+                Annealing { task, sampler, topology: &topology, linear, stop }.fit(layout, COOLING, random, begin)
             }
-            let layout = self.sampler.layout(&topology, random);
-            let Some(linear) = &self.linear else { break };
-            let layout = bettered(self.sampler, &topology, linear, layout, random);
-            let left = linear.left(&layout);
-            if best.as_ref().is_none_or(|(least, _)| left < *least) {
-                best = Some((left, layout));
-            }
-        }
-        let layout = best.map_or_else(|| self.sampler.layout(&topology, random), |(_, layout)| layout);
-        self.improved(self.task.begin(layout, stop)?, STEPS, stop)
+        };
+        self.improved(begun?, STEPS, stop)
     }
 
     fn improved(&self, fit: Fit, steps: usize, stop: Stop) -> Option<Fit> {
@@ -104,11 +108,22 @@ impl<'a> Pool<'a> {
             let parent = &self.alive[k / CHILDREN].0;
             let number = round * ALIVE * CHILDREN + k;
             let random = &mut Random::of(self.seed, "proposal's child", number as u64);
+            let (task, sampler, topology) = (self.task, self.sampler, &self.topology);
+            let resume = |layout| task.resume(layout, parent, stop);
             let mut layout = parent.layout.clone();
-            for _ in 0..=random.index(2) {
-                layout = self.sampler.changed(&layout, &self.topology, random);
-            }
-            self.improved(self.task.resume(layout, parent, stop)?, CHILD_STEPS, stop)
+            // One child is annealed around what its parent reaches, the others are as they come.
+            let begun = match k.is_multiple_of(CHILDREN).then(|| Linear::at(task, parent)).flatten() {
+                Some(linear) => {
+                    Annealing { task, sampler, topology, linear: &linear, stop }.fit(layout, AROUND, random, resume)
+                }
+                None => {
+                    for _ in 0..=random.index(2) {
+                        layout = sampler.changed(&layout, topology, random);
+                    }
+                    resume(layout)
+                }
+            };
+            self.improved(begun?, CHILD_STEPS, stop)
         });
         if stop() {
             return;
@@ -171,17 +186,4 @@ impl<'a> Pool<'a> {
         let chosen = self.alive.iter().skip(some.start).take(some.len());
         chosen.filter(|(fit, _)| fit.violation <= KEPT).cloned().collect()
     }
-}
-
-/// A layout after random changes that are kept where the linear model says that they help.
-fn bettered(sampler: &Sampler, topology: &Topology, linear: &Linear, layout: Layout, random: &mut Random) -> Layout {
-    let (mut best, mut left) = (layout.clone(), linear.left(&layout));
-    for _ in 0..BETTERED {
-        let changed = sampler.changed(&best, topology, random);
-        let now = linear.left(&changed);
-        if now < left {
-            (best, left) = (changed, now);
-        }
-    }
-    best
 }

@@ -118,7 +118,8 @@ fn networks_of_algorithm_2_come_with_their_stages_and_are_moved_until_they_can_b
     let moved = |sewable: Option<&Sewable>| {
         let task = Task::new(&posed, sewable, &[]);
         let sampler = Sampler::new(&posed.mesh, sewable);
-        let mut pool = Pool::new(&task, &sampler, Topology { tendons: vec![[1, 2]], most_holes: 8 }, 1);
+        let topology = Topology { tendons: vec![[1, 2]], most_holes: 8 };
+        let mut pool = Pool::new(&task, &sampler, topology, 1, &go);
         layouts.iter().for_each(|layout| pool.take(layout.clone(), &|| false));
         pool.best(ALIVE)
     };

@@ -94,7 +94,9 @@ impl Walk {
             let (next, count) = question.settle_to(&beta, &guess, &passing(self.pace.balance), stop);
             spent += count;
             let moved = distance(&next.x, &self.now.x);
-            if moved <= TOO_FAR * self.stride || t - self.t <= SHORTEST_STEP || stop() {
+            // The last step of a way is as long as what is left of it: up to a quarter longer, or shorter.
+            let shortest = self.step.min(t - self.t) <= SHORTEST_STEP;
+            if moved <= TOO_FAR * self.stride || shortest || stop() {
                 break (next, t, moved, count);
             }
             self.step = ((t - self.t) * (AIM * self.stride / moved).max(0.25)).max(SHORTEST_STEP);

@@ -9,6 +9,7 @@ use crate::studio::commands::discovery::{CANCEL_CURVE, CURVE};
 use crate::studio::language::{t, tf, tn};
 use crate::studio::session::{Curve, Session};
 use crate::studio::style;
+use crate::studio::words;
 use eframe::egui::{
     Align2, Color32, FontId, Pos2, Rect, RichText, Role, Sense, Spinner, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
@@ -119,15 +120,10 @@ fn name(point: &Point) -> String {
 
 fn details(point: &Point) -> String {
     let Point { takes: [winches, tendons], holes, thread_mm, worst, poses, .. } = point;
+    let holes = tn!(holes = *holes, "{holes} hole", "{holes} holes");
     let mut lines = vec![
         name(point),
-        tf!(
-            "{winches} winches, {tendons} tendons, {holes} holes, {thread_mm:.0} mm of cable",
-            winches,
-            tendons,
-            holes,
-            thread_mm
-        ),
+        tf!("{built}, {holes}, {thread_mm:.0} mm of cable", built = words::built(*winches, *tendons), holes, thread_mm),
         tf!("Worst pose {percent:.1} % of its error at rest", percent = 100.0 * worst),
     ];
     lines.extend(poses.iter().map(|p| {
