@@ -16,6 +16,11 @@ pub struct Cooling {
     pub cold: f64,
 }
 
+impl Cooling {
+    /// Around what a parent reaches: from hotter than a first layout, as a child should leave its parent's valley.
+    pub const AROUND: Self = Self { steps: 100, hot: 0.5, cold: 0.05 };
+}
+
 /// No cost is less than this: what is below nobody sees.
 const LEAST: f64 = 1e-7;
 

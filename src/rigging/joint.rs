@@ -37,8 +37,6 @@ const ERA: usize = 25;
 const CROSSED: usize = 6;
 /// Most random changes of a child; one more has half the chance of one less.
 const MOST_CHANGES: usize = 5;
-/// How a child is annealed: from hotter, as it should leave its parent's valley.
-const CHILD_COOLING: Cooling = Cooling { steps: 100, hot: 0.5, cold: 0.05 };
 /// Steps of improvement: of a first look, of a child, of the last one.
 const LOOK: usize = 4;
 const STEPS: usize = 12;
@@ -215,7 +213,7 @@ impl<'a> Joint<'a> {
             Some(linear) => {
                 let layout = self.crossed(&parent.fit.layout, living, random);
                 let (sampler, topology) = (self.sampler, &self.topology);
-                Annealing { task, sampler, topology, linear, stop }.fit(layout, CHILD_COOLING, random, resume)
+                Annealing { task, sampler, topology, linear, stop }.fit(layout, Cooling::AROUND, random, resume)
             }
         }?;
         let looked = task.improve(begun, LOOK, false, stop);

@@ -23,7 +23,6 @@ const SMALL: usize = 3;
 const COOLING: Cooling = Cooling { steps: 400, hot: 0.1, cold: 0.02 };
 /// Children of each layout in a round.
 const CHILDREN: usize = 2;
-const AROUND: Cooling = Cooling { steps: 100, hot: 0.5, cold: 0.05 };
 /// Steps of improvement: of a new layout, of a child.
 const STEPS: usize = 20;
 const CHILD_STEPS: usize = 10;
@@ -113,9 +112,12 @@ impl<'a> Pool<'a> {
             let mut layout = parent.layout.clone();
             // One child is annealed around what its parent reaches, the others are as they come.
             let begun = match k.is_multiple_of(CHILDREN).then(|| Linear::at(task, parent)).flatten() {
-                Some(linear) => {
-                    Annealing { task, sampler, topology, linear: &linear, stop }.fit(layout, AROUND, random, resume)
-                }
+                Some(linear) => Annealing { task, sampler, topology, linear: &linear, stop }.fit(
+                    layout,
+                    Cooling::AROUND,
+                    random,
+                    resume,
+                ),
                 None => {
                     for _ in 0..=random.index(2) {
                         layout = sampler.changed(&layout, topology, random);

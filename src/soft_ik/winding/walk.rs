@@ -94,7 +94,8 @@ impl Walk {
             let (next, count) = question.settle_to(&beta, &guess, &passing(self.pace.balance), stop);
             spent += count;
             let moved = distance(&next.x, &self.now.x);
-            // The last step of a way is as long as what is left of it: up to a quarter longer, or shorter.
+            // The last step takes what is left of the way, up to a quarter more than was asked for. Asked for again it would be the same, so it
+            // is what was asked for that tells whether there is a shorter one.
             let shortest = self.step.min(t - self.t) <= SHORTEST_STEP;
             if moved <= TOO_FAR * self.stride || shortest || stop() {
                 break (next, t, moved, count);
