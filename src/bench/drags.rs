@@ -172,7 +172,7 @@ mod tests {
     static CANCEL: std::sync::atomic::AtomicBool = std::sync::atomic::AtomicBool::new(false);
 
     fn session(seed: u64) -> Session<'static> {
-        Session { seed, stop: &|| false, cancel: &CANCEL, progress: &|_| {} }
+        Session { seed, stop: &|| false, cancel: &CANCEL, progress: &|_| {}, found: &|_| {} }
     }
 
     #[test]

@@ -112,7 +112,7 @@ mod tests {
     #[test]
     fn a_fine_mesh_of_an_ordinary_material_bends_as_a_beam() {
         let cancel = AtomicBool::new(false);
-        let session = Session { seed: 1, stop: &|| false, cancel: &cancel, progress: &|_| {} };
+        let session = Session { seed: 1, stop: &|| false, cancel: &cancel, progress: &|_| {}, found: &|_| {} };
         let (_, fine) = relative_deflection(3000, 1.5, &session).unwrap();
         assert!((fine - 1.0).abs() < 0.03, "{fine}");
         let (_, coarse) = relative_deflection(300, 1000.0, &session).unwrap();

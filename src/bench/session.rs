@@ -14,6 +14,8 @@ pub struct Session<'a> {
     pub cancel: &'a AtomicBool,
     /// Told what is being worked on, in a few words.
     pub progress: &'a dyn Fn(&str),
+    /// Told what was found on the way by a study of many minutes, in a line.
+    pub found: &'a dyn Fn(&str),
 }
 
 /// Why a study has no result.

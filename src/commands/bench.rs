@@ -1,6 +1,7 @@
 //! `bench`: whole studies of the solvers, as tables, CSV and plots.
 
 use super::error::CommandError;
+use super::interrupt::Keeping;
 use super::output::{check_folder, say_json, say_lines, write_folder};
 use super::progress;
 use super::reading::Reading;
@@ -390,7 +391,10 @@ impl Bench {
             check_folder(folder, FORMAT)?;
         }
         let stop = || cancel.load(Ordering::SeqCst);
-        let session = Session { seed: common.seed, stop: &stop, cancel, progress: &|what| progress::now(what) };
+        let (now, found) = (|what: &str| progress::now(what), |what: &str| progress::aside(|| eprintln!("{what}")));
+        let session = Session { seed: common.seed, stop: &stop, cancel, progress: &now, found: &found };
+        // It ends with what it has by then.
+        let keeping = matches!(self.study, Study::Networks { .. }).then(Keeping::begin);
         let report = match (&self.study, window) {
             (Study::Window { fibers, frames, late, look, .. }, Some(window)) => {
                 let (fibers, look) = (fibers.clone(), look.clone());
@@ -400,13 +404,18 @@ impl Bench {
             (study, _) => study.run(&session),
         };
         let (report, failed) = report.map_err(|error| failure(error, cancel))?;
+        let interrupted = stop();
         if let Some(folder) = &common.out {
-            write(&report, folder, cancel)?;
+            let go = AtomicBool::new(false);
+            write(&report, folder, if keeping.is_some() { &go } else { cancel })?;
         }
         if common.json {
             say_json(out, FORMAT, &report.json())?
         } else {
             say_lines(out, &report.text())?
+        }
+        if interrupted {
+            return Err(CommandError::Cancelled);
         }
         failed.map_or(Ok(()), |what| Err(CommandError::Failed(what)))
     }

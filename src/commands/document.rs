@@ -97,19 +97,37 @@ impl Edit<'_> {
 }
 
 impl Edit<'_> {
+    /// Writes what a search of minutes has found, as [`Self::save`], though the program be told to stop. Where it may not go where it should, it
+    /// goes to a file beside that, which the error names.
+    ///
+    /// # Errors
+    /// As [`Self::save`].
+    pub fn save_found(&self, design: &Design) -> Result<(), CommandError> {
+        let refused = match self.save(design, &AtomicBool::new(false)) {
+            Err(refused) => refused,
+            saved => return saved,
+        };
+        let numbered = (2_u32..).map(|n| format!("found-{n}.plush"));
+        let mut names = std::iter::once("found.plush".to_owned()).chain(numbered);
+        let beside = names.find_map(|name| Some(self.to.with_extension(name)).filter(|path| !path.exists()));
+        match beside.map(|path| (file::save(design, Some(self.from.into()), &path, None), path)) {
+            Some((Ok(_), path)) => Err(refused.adding(&format!("what was found is in {}", shown(&path)))),
+            _ => Err(refused),
+        }
+    }
+
     /// Writes what an interrupted command has found. Where it would take the place of finished work that was asked to be forgotten, it goes
     /// to a file beside that, `NAME.interrupted.plush`. Returns the file.
     ///
     /// # Errors
-    /// As [`Self::save`].
+    /// As [`Self::save_found`].
     pub fn save_interrupted(&self, design: &Design, fresh: bool) -> Result<PathBuf, CommandError> {
-        let go = AtomicBool::new(false);
         let had_work = match &self.place {
             Place::Back { .. } => file::read(self.from).is_ok_and(|before| !before.networks.is_empty()),
             Place::Away(..) => false,
         };
         if !(fresh && had_work) {
-            return self.save(design, &go).map(|()| self.to.to_owned());
+            return self.save_found(design).map(|()| self.to.to_owned());
         }
         let path = self.to.with_extension("interrupted.plush");
         file::save(design, Some(self.from.into()), &path, None).map_err(unwritten)?;

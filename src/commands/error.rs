@@ -53,6 +53,15 @@ impl CommandError {
         one_line(&self.to_string())
     }
 
+    /// The same with more to say where its own text is all there is, or as a failure.
+    #[must_use]
+    pub fn adding(self, more: &str) -> Self {
+        match self {
+            Self::Usage(text) => Self::Usage(format!("{text}; {more}")),
+            other => Self::Failed(format!("{other}; {more}")),
+        }
+    }
+
     /// An input file that cannot be used, with the reason.
     pub fn input(path: &Path, reason: impl ToString) -> Self {
         Self::Input { path: path.to_owned(), reason: reason.to_string() }

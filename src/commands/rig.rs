@@ -100,7 +100,7 @@ struct Summary {
     tendons: usize,
     /// Whether the search was interrupted, and this is the best that it had.
     interrupted: bool,
-    /// What `check` says of every pose: rms distance of the targets in body lengths.
+    /// What `check` says of every pose: rms distance of the targets in body lengths. None where it was interrupted before that.
     poses: Vec<PoseError>,
 }
 
@@ -171,20 +171,25 @@ impl Rig {
         let path = if rigged.interrupted {
             edit.save_interrupted(&design, self.fresh)?
         } else {
-            edit.save(&design, cancel)?;
+            edit.save_found(&design)?;
             self.target.path(&self.design).to_owned()
         };
         // What cannot be told is found all the same.
         printed?;
         self.tell(out, &design, &path, &told, rigged.interrupted)?;
-        for note in rigged.notes.iter().filter(|note| matches!(note, Note::AtRest { .. })) {
-            if !self.json {
-                say(out, &format!("note: {note}"))?;
+        for note in &rigged.notes {
+            match note {
+                _ if self.json => (),
+                Note::AtRest { .. } => say(out, &format!("note: {note}"))?,
+                Note::Coarse => {
+                    say(out, &format!("note: {note}; `plushwright key {} --again` does", shown(&path)))?;
+                }
+                Note::Key(_) => (),
             }
         }
         words::balanced(rigged.notes.iter().filter_map(|note| match note {
             Note::Key(key::Note::Unbalanced(unbalanced)) => Some(unbalanced),
-            Note::AtRest { .. } => None,
+            Note::AtRest { .. } | Note::Coarse => None,
         }))?;
         if rigged.interrupted { Err(interrupted(&path, &told)) } else { Ok(()) }
     }
@@ -284,7 +289,7 @@ impl Rig {
         if let Some(best) = best(&points) {
             put(best, &mut design)?;
         }
-        edit.save(&design, cancel)?;
+        edit.save_found(&design)?;
         self.tell(out, &design, self.target.path(&self.design), &Told::default(), false)
     }
 }
@@ -319,7 +324,7 @@ fn interrupted(path: &Path, told: &Told) -> CommandError {
     let path = shown(path);
     let by = told.rounds.map_or(String::new(), |[round, rounds]| format!(" by round {round} of {rounds}"));
     CommandError::Interrupted(format!(
-        "{path} has the best networks{by}; `plushwright check {path}` says how good they are, the same command with --fresh searches to the end"
+        "{path} has the best networks{by}, not checked yet: `plushwright check {path}` says how good they are, the same command with --fresh searches to the end"
     ))
 }
 

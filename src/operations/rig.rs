@@ -1,14 +1,14 @@
 //! Winches and tendons for all poses, and the poses on a timeline where there is none.
 
-use super::{Cancelled, Context, Progress, key};
+use super::key::{self, Keyed};
+use super::{Cancelled, Context, Progress};
 use crate::defaults;
 use crate::design::edit::{self, EditError};
 use crate::design::{Design, Easing, Keyframe, Network};
 use crate::mesh::Mesh;
 use crate::motion;
-use crate::rigging::{self, RigError};
+use crate::rigging::{self, Found, RigError};
 use std::fmt;
-use std::sync::atomic::AtomicBool;
 
 pub use crate::rigging::{Method, RigOptions as Options, TendonChoice, Trims};
 
@@ -50,12 +50,17 @@ pub enum Note {
     Key(key::Note),
     /// This keyframe was set by hand for winches that are gone: it is at rest now.
     AtRest { time_s: f64 },
+    /// Keyframes of poses wind what a search that was told to stop did on a coarser mesh.
+    Coarse,
 }
 
 impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
             Self::Key(key::Note::Unbalanced(unbalanced)) => unbalanced.fmt(f),
+            Self::Coarse => f.write_str(
+                "the search was stopped on a coarser mesh, so keyframes come only near their poses until they are worked out again",
+            ),
             Self::AtRest { time_s } => {
                 write!(
                     f,
@@ -73,7 +78,7 @@ pub struct Rigged {
     /// The timeline, where the design had none.
     pub keyframes: Vec<Keyframe>,
     pub notes: Vec<Note>,
-    /// Whether the search was told to stop, and this is the best that it had by then.
+    /// Whether the search was told to stop, and this is the best that it had by then: its keyframes wind what the search did.
     pub interrupted: bool,
     /// Whether the networks replace those that are there.
     fresh: bool,
@@ -94,20 +99,22 @@ pub fn prepare(design: &Design, options: &Options, context: &mut Context) -> Res
     let acting = design.acting();
     let bare = options.fresh.then(|| without_networks(design));
     let from = bare.as_ref().unwrap_or(&acting);
-    let mut rigged = rigging::rig(from, options, &mut progress, cancel)?;
-    let interrupted = context.check().is_err();
-    if interrupted && !options.keep {
-        return Err(Cancelled.into());
-    }
-    let go = AtomicBool::new(false);
-    let context = &mut Context::new(if interrupted { &go } else { cancel });
-    let notes = if rigged.keyframes.is_empty() {
-        lay_out(&mut rigged, context)?
+    let Found { design: mut rigged, wound_mm, coarse } = rigging::rig(from, options, &mut progress, cancel)?;
+    let winding = Winding { wound_mm: if options.keep { &wound_mm } else { &[] }, context: &Context::new(cancel) };
+    let mut notes = if rigged.keyframes.is_empty() {
+        lay_out(&mut rigged, &winding)?
     } else if options.fresh {
-        key_again(&mut rigged, &design.keyframes, context)?
+        key_again(&mut rigged, &design.keyframes, &winding)?
     } else {
         Vec::new()
     };
+    let interrupted = winding.context.check().is_err();
+    if interrupted && !options.keep {
+        return Err(Cancelled.into());
+    }
+    if coarse && rigged.keyframes.iter().any(|keyframe| keyframe.pose.is_some()) {
+        notes.push(Note::Coarse);
+    }
     let networks = rigged.networks.split_off(from.networks.len());
     let replaced = design.keyframes.is_empty() || options.fresh;
     let mut keyframes = if replaced { rigged.keyframes } else { Vec::new() };
@@ -126,26 +133,53 @@ fn without_networks(design: &Design) -> Design {
     bare
 }
 
-/// Solves every keyframe of a pose anew for the present winches; the others are at rest.
-fn key_again(design: &mut Design, before: &[Keyframe], context: &mut Context) -> Result<Vec<Note>, Error> {
+/// What winches wind in a pose: solved for, or, once that is told to stop, as the search had it.
+struct Winding<'a> {
+    wound_mm: &'a [(String, Vec<f64>)],
+    context: &'a Context<'a>,
+}
+
+impl Winding<'_> {
+    fn keyed(&self, design: &Design, pose: Option<&String>, time_s: f64) -> Result<Keyed, Error> {
+        let options = key::Options { pose: pose.cloned(), time_s, easing: Easing::default() };
+        let solved = match (self.context.check(), pose) {
+            (Err(cancelled), Some(_)) => Err(cancelled.into()),
+            _ => key::prepare(design, &options, self.context),
+        };
+        let known = || self.wound_mm.iter().find(|(name, _)| Some(name) == pose);
+        match solved {
+            Err(key::Error::Cancelled(cancelled)) => {
+                let activations_mm = known().ok_or(cancelled)?.1.clone();
+                let keyframe = Keyframe { time_s, activations_mm, pose: options.pose, easing: options.easing };
+                Ok(Keyed { keyframe, notes: Vec::new() })
+            }
+            solved => Ok(solved?),
+        }
+    }
+}
+
+/// Every keyframe of a pose anew for the present winches; the others are at rest.
+fn key_again(design: &mut Design, before: &[Keyframe], winding: &Winding) -> Result<Vec<Note>, Error> {
     let by_hand = before.iter().filter(|k| k.pose.is_none() && k.activations_mm.iter().any(|a| *a != 0.0));
     let mut notes: Vec<Note> = by_hand.map(|k| Note::AtRest { time_s: k.time_s }).collect();
-    for keyed in key::again(design, &key::on_timeline(design), context)? {
-        keyed.clone().apply(design)?;
+    for pose in key::on_timeline(design) {
+        let keyed = winding.keyed(design, Some(&pose), 0.0)?;
+        for keyframe in design.keyframes.iter_mut().filter(|keyframe| keyframe.pose.as_ref() == Some(&pose)) {
+            keyframe.activations_mm.clone_from(&keyed.keyframe.activations_mm);
+        }
         notes.extend(keyed.notes.into_iter().map(Note::Key));
     }
     Ok(notes)
 }
 
 /// Lays the poses on the timeline, [`defaults::KEYFRAME_SPACING_S`] apart or as far as the motors need, with rest at both ends.
-fn lay_out(design: &mut Design, context: &Context) -> Result<Vec<Note>, Error> {
+fn lay_out(design: &mut Design, winding: &Winding) -> Result<Vec<Note>, Error> {
     let names: Vec<String> = design.poses.iter().filter(|p| !p.targets.is_empty()).map(|p| p.name.clone()).collect();
-    let stops = std::iter::once(None).chain(names.into_iter().map(Some)).chain([None]);
+    let stops = std::iter::once(None).chain(names.iter().map(Some)).chain([None]);
     let mut notes = Vec::new();
     for (index, pose) in stops.enumerate() {
-        let options =
-            key::Options { pose, time_s: index as f64 * defaults::KEYFRAME_SPACING_S, easing: Easing::default() };
-        let keyed = key::run(design, &options, context)?;
+        let keyed = winding.keyed(design, pose, index as f64 * defaults::KEYFRAME_SPACING_S)?;
+        keyed.clone().apply(design)?;
         notes.extend(keyed.notes.into_iter().map(Note::Key));
     }
     space_out(design);
@@ -209,6 +243,7 @@ pub fn run(design: &mut Design, options: &Options, context: &mut Context) -> Res
 mod tests {
     use super::*;
     use crate::design::testing;
+    use std::sync::atomic::AtomicBool;
 
     #[test]
     fn a_design_without_poses_and_a_cancelled_one_stay_as_they_are() {

@@ -2,6 +2,7 @@
 
 use super::robust::Sewn;
 use crate::defaults;
+use crate::design::Design;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
@@ -133,6 +134,17 @@ pub enum Progress {
     /// The end of the joint search; `errors`: what a check says of every pose, body lengths; `sewn`: what is left of each when a
     /// hand sews it, empty where no rule of sewing counts.
     Found { winches: usize, tendons: usize, errors: Vec<(String, f64)>, sewn: Vec<Sewn> },
+}
+
+/// What a search has found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Found {
+    pub design: Design,
+    /// What every winch winds in each pose, by the pose's name: as a check has it, or, of a search that was told to stop, as the search has it.
+    /// Empty where nobody asked ([`Method::Algorithm2`]).
+    pub wound_mm: Vec<(String, Vec<f64>)>,
+    /// Whether that is of a coarser mesh than the design's.
+    pub coarse: bool,
 }
 
 /// Why no rig was found.

@@ -7,7 +7,7 @@ use super::joint::Joint;
 use super::layout::{Layout, rigs_of};
 use super::linear_score::Linear;
 use super::moves::{Sampler, Topology};
-use super::options::{Method, Progress, RigError, RigOptions, TendonChoice};
+use super::options::{Found, Method, Progress, RigError, RigOptions, TendonChoice};
 use super::prune::{SERVED, pruned};
 use super::refine::{Fit, SEEN, Start, Task};
 use super::robust::{self, Sewn};
@@ -16,7 +16,7 @@ use super::sewable::Sewable;
 use crate::design::{Design, Network, Pose, Target, remesh};
 use crate::engine::compile::{View, compile};
 use crate::engine::target_error;
-use crate::mesh::{Mesh, MeshSpec};
+use crate::mesh::{BodyPoint, Mesh, MeshSpec};
 use crate::outline::Outline;
 use crate::threads::in_order;
 use std::cmp::Ordering;
@@ -43,6 +43,8 @@ pub(super) const FREE_HOLES: usize = 20;
 /// found is improved on its own mesh, points and tendons that cost little are left out, and what counts in the end is what a check
 /// says. [`Method::Algorithm2`]: winch by winch with the networks of Algorithm 2 as they are.
 ///
+/// Told to stop, and to keep what it has, it ends at once with the best layout, which nothing was checked of yet.
+///
 /// # Errors
 /// [`RigError::NoTargets`] where no pose has targets, [`RigError::NoModel`] where the body has none, [`RigError::NothingFound`] where no network helps, or cancelled.
 pub fn rig(
@@ -50,13 +52,19 @@ pub fn rig(
     options: &RigOptions,
     progress: &mut dyn FnMut(Progress),
     cancel: &AtomicBool,
-) -> Result<Design, RigError> {
+) -> Result<Found, RigError> {
     if design.poses.iter().all(|pose| pose.targets.is_empty()) {
         return Err(RigError::NoTargets);
     }
     match options.method {
         Method::Joint => together(design, options, progress, cancel),
-        Method::Algorithm2 => greedy::rig(design, options, progress, cancel),
+        Method::Algorithm2 => {
+            greedy::rig(design, options, progress, cancel).map(|design| Found {
+                design,
+                wound_mm: Vec::new(),
+                coarse: false,
+            })
+        }
     }
 }
 
@@ -71,7 +79,7 @@ fn together(
     options: &RigOptions,
     progress: &mut dyn FnMut(Progress),
     cancel: &AtomicBool,
-) -> Result<Design, RigError> {
+) -> Result<Found, RigError> {
     if compile(design, View::Realizable).is_err() {
         return Err(RigError::NoModel);
     }
@@ -80,16 +88,41 @@ fn together(
     let searched = coarse.as_ref().unwrap_or(design);
     let found = layouts(searched, options, &topology, progress, cancel)?;
     let found = if coarse.is_some() { carried(design, found, options, cancel) } else { found };
-    let verified = judged(design, &found, options, cancel)?;
-    let best = chosen(verified, options.rules).filter(|(_, poses)| helps(poses));
+    let verified = judged(design, &found, options, cancel);
+    if cancel.load(atomic::Ordering::Relaxed) {
+        let best = found.iter().min_by(|a, b| a.worst().total_cmp(&b.worst()));
+        return if options.keep { unchecked(design, best, coarse.is_some()) } else { Err(RigError::Cancelled) };
+    }
+    let best = chosen(verified, options.rules).filter(|(_, poses)| helps(poses.iter().map(|p| p.error / p.rest)));
     let Some((rigged, poses)) = best else {
         return Err(RigError::NothingFound);
     };
     let tendons = rigged.networks[design.networks.len()..].iter().map(|n| n.tendons.len()).sum();
     let sewn = poses.iter().filter_map(|pose| pose.sewn).collect();
-    let errors = poses.into_iter().map(|pose| (pose.name, pose.error)).collect();
+    let errors = poses.iter().map(|pose| (pose.name.clone(), pose.error)).collect();
     progress(Progress::Found { winches: rigged.networks.len() - design.networks.len(), tendons, errors, sewn });
-    Ok(rigged)
+    let wound_mm = poses.into_iter().map(|pose| (pose.name, pose.wound_mm)).collect();
+    Ok(Found { design: rigged, wound_mm, coarse: false })
+}
+
+/// A layout as the search has it, in a moment.
+fn unchecked(design: &Design, best: Option<&Fit>, coarse: bool) -> Result<Found, RigError> {
+    let fit = best.ok_or(RigError::Cancelled)?;
+    if !helps(fit.misses.iter().map(|miss| miss.sqrt())) {
+        return Err(RigError::NothingFound);
+    }
+    // On another mesh its points may lie a little outside of the body.
+    let nearest = |spot| Some(design.mesh.locate_nearest(fit.layout.point(spot), &design.mesh.nodes)?.0);
+    let points: Option<Vec<BodyPoint>> = fit.layout.spots().into_iter().map(nearest).collect();
+    let with = with(design, &fit.layout, &points.ok_or(RigError::NothingFound)?);
+    // A pose that rests winds nothing.
+    let at_rest = vec![0.0; with.networks.len()];
+    let mut wound_mm: Vec<(String, Vec<f64>)> =
+        design.poses.iter().map(|pose| (pose.name.clone(), at_rest.clone())).collect();
+    for (k, posture) in Task::new(design, None, &design.networks).served.into_iter().zip(&fit.poses) {
+        wound_mm[k].1.clone_from(&posture.beta);
+    }
+    Ok(Found { design: with, wound_mm, coarse })
 }
 
 /// The layout whose worst pose is best as a part of its error at rest: as a hand sews it where it should, with friction where the design has it; a
@@ -109,27 +142,13 @@ fn chosen(mut verified: Vec<Candidate>, sewn: bool) -> Option<Candidate> {
     verified.into_iter().min_by(|a, b| price(a).partial_cmp(&price(b)).unwrap_or(Ordering::Equal))
 }
 
-/// What a check says of the layouts that were found, on the design's own mesh. Where that is interrupted, and results are kept, the best
-/// layout is judged all the same, in a moment: without what sewing by hand costs.
-fn judged(
-    design: &Design,
-    found: &[Fit],
-    options: &RigOptions,
-    cancel: &AtomicBool,
-) -> Result<Vec<Candidate>, RigError> {
-    let is_raised = || cancel.load(atomic::Ordering::Relaxed);
-    if !is_raised() {
-        let verified = in_order(found, |fit| verified(design, fit, cancel));
-        let told = if options.rules { as_sewn(verified, design.tendons.friction, cancel) } else { verified };
-        if !is_raised() {
-            return Ok(told);
-        }
+/// What a check says of the layouts that were found, on the design's own mesh.
+fn judged(design: &Design, found: &[Fit], options: &RigOptions, cancel: &AtomicBool) -> Vec<Candidate> {
+    if cancel.load(atomic::Ordering::Relaxed) {
+        return Vec::new();
     }
-    if !options.keep {
-        return Err(RigError::Cancelled);
-    }
-    let best = found.iter().min_by(|a, b| a.worst().total_cmp(&b.worst()));
-    Ok(best.into_iter().map(|fit| verified(design, fit, &AtomicBool::new(false))).collect())
+    let verified = in_order(found, |fit| verified(design, fit, cancel));
+    if options.rules { as_sewn(verified, design.tendons.friction, cancel) } else { verified }
 }
 
 /// Rigs with what a hand leaves of them, those left out that cannot be [`chosen`] any more: sewing makes no rig better than it is drawn, and winding
@@ -316,6 +335,8 @@ struct Verified {
     rest: f64,
     /// Largest pull of a winch, all its cables together, N.
     pull_n: f64,
+    /// What every winch winds.
+    wound_mm: Vec<f64>,
 }
 
 impl Verified {
@@ -332,22 +353,30 @@ fn posed(design: &Design) -> impl Iterator<Item = &Pose> {
     design.poses.iter().filter(|pose| !pose.targets.is_empty())
 }
 
-/// Whether a rig brings the poses closer to their targets, all taken together: one winch may serve one pose of several.
-fn helps(poses: &[Verified]) -> bool {
-    poses.iter().map(|pose| (pose.error / pose.rest).powi(2)).sum::<f64>() < poses.len() as f64
+/// Whether a rig brings the poses closer to their targets, all taken together: one winch may serve one pose of several. `left`: errors as parts
+/// of those at rest.
+fn helps(left: impl Iterator<Item = f64>) -> bool {
+    let (mut sum, mut count) = (0.0, 0.0);
+    left.for_each(|part| (sum, count) = (sum + part * part, count + 1.0));
+    sum < count
+}
+
+/// The design with a layout's networks, from the points of the body at all its spots.
+fn with(design: &Design, layout: &Layout, points: &[BodyPoint]) -> Design {
+    let mut with = design.clone();
+    for network in layout.networks(&design.mesh, points) {
+        let name = unused_name(&with);
+        with.networks.push(Network { name, ..network });
+    }
+    let count = with.networks.len();
+    with.keyframes.iter_mut().for_each(|keyframe| keyframe.activations_mm.resize(count, 0.0));
+    with
 }
 
 /// The design with a layout's networks, and what a check says of every pose.
 fn verified(design: &Design, fit: &Fit, cancel: &AtomicBool) -> Candidate {
-    let mut with = design.clone();
-    if let Some(points) = fit.layout.located(&design.mesh) {
-        for network in fit.layout.networks(&design.mesh, &points) {
-            let name = unused_name(&with);
-            with.networks.push(Network { name, ..network });
-        }
-    }
-    let count = with.networks.len();
-    with.keyframes.iter_mut().for_each(|keyframe| keyframe.activations_mm.resize(count, 0.0));
+    let points = fit.layout.located(&design.mesh);
+    let with = points.map_or_else(|| design.clone(), |points| with(design, &fit.layout, &points));
     let friction = design.tendons.friction;
     let poses = posed(design).map(|pose| {
         let checked = Checked::of(&with, &pose.targets, friction, cancel);
@@ -362,6 +391,7 @@ fn verified(design: &Design, fit: &Fit, cancel: &AtomicBool) -> Candidate {
             sewn: None,
             rest,
             pull_n,
+            wound_mm: checked.shape.activations_mm,
         }
     });
     let poses = poses.collect();
@@ -378,7 +408,7 @@ mod tests {
         name.clone_into(&mut design.name);
         let pose = |&(error, pull_n): &(f64, f64)| {
             let sewn = Some(Sewn { median: error, worst: error });
-            Verified { name: "pose".into(), error, real: error, sewn, rest: 0.2, pull_n }
+            Verified { name: "pose".into(), error, real: error, sewn, rest: 0.2, pull_n, wound_mm: Vec::new() }
         };
         (design, poses.iter().map(pose).collect())
     }

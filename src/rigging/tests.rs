@@ -9,7 +9,7 @@ use super::refine::{Fit, Task};
 use super::sewable::Sewable;
 use super::{RigOptions, TendonChoice, rig};
 use crate::design::{Design, Pin, Pose, Target};
-use crate::engine::{Setpoint, solve_once};
+use crate::engine::{Setpoint, solve_once, target_error};
 use crate::mesh::{self, BodyPoint};
 use crate::outline::{Outline, Point};
 use crate::random::Random;
@@ -112,7 +112,7 @@ fn a_rig_names_its_winches_and_what_a_check_would_say() {
             told = Some(errors);
         }
     };
-    let rigged = rig(&design, &options, &mut progress, &go).unwrap();
+    let rigged = rig(&design, &options, &mut progress, &go).unwrap().design;
     rigged.validate().unwrap();
     for (pose, (name, error)) in rigged.poses.iter().zip(told.unwrap()) {
         let setpoint = Setpoint::Targets(pose.targets.clone());
@@ -136,7 +136,7 @@ fn options_that_leave_nothing_to_build_find_nothing() {
     assert_eq!(of(&resting, &RigOptions::default()), Err(super::RigError::NothingFound));
     // The wrong way around, and no tendon at all: one is the least that a winch has.
     let odd = RigOptions { max_winches: 1, rounds: 0, tendons: TendonChoice::Between(2, 0), ..RigOptions::default() };
-    assert_eq!(of(&bar(80), &odd).map(|design| design.networks[0].tendons.len()), Ok(2));
+    assert_eq!(of(&bar(80), &odd).map(|found| found.design.networks[0].tendons.len()), Ok(2));
 }
 
 #[test]
@@ -151,8 +151,16 @@ fn a_search_that_is_told_to_stop_ends_with_the_best_so_far_where_that_is_asked_f
     };
     assert_eq!(searched(false), Err(super::RigError::Cancelled));
     let kept = searched(true).unwrap();
-    kept.validate().unwrap();
-    assert_eq!(kept.networks.len(), 1);
+    kept.design.validate().unwrap();
+    assert_eq!(kept.design.networks.len(), 1);
+    // What it winds brings every pose nearer.
+    let (go, names) = (AtomicBool::new(false), kept.wound_mm.iter().map(|(name, _)| name));
+    assert!(names.eq(design.poses.iter().map(|pose| &pose.name)));
+    for (pose, (_, wound_mm)) in kept.design.poses.iter().zip(&kept.wound_mm) {
+        let wound = solve_once(&kept.design, Setpoint::Activations(wound_mm.clone()), [false, true], &go);
+        let miss = |nodes: &[Point]| target_error(&design, &pose.targets, nodes);
+        assert!(miss(&wound.realizable.unwrap().nodes) < miss(&design.mesh.nodes), "{} {wound_mm:?}", pose.name);
+    }
 }
 
 #[test]
@@ -165,7 +173,7 @@ fn targets_that_move_by_less_than_anybody_sees_change_no_bit_of_a_rig() {
     for target in moved.poses.iter_mut().flat_map(|pose| &mut pose.targets) {
         target.to = target.to.map(|v| v + 240.0 * 1e-9);
     }
-    let [a, b] = [&design, &moved].map(|design| rig(design, &options, &mut |_| (), &go).unwrap());
+    let [a, b] = [&design, &moved].map(|design| rig(design, &options, &mut |_| (), &go).unwrap().design);
     assert_eq!(a.networks, b.networks);
 }
 

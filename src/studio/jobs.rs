@@ -108,6 +108,11 @@ pub struct Running {
 impl Running {
     /// Tells the job to stop; whatever it still reports is not wanted.
     pub fn cancel(&self) {
+        self.stop();
+    }
+
+    /// Tells the job to end with what it has.
+    pub fn stop(&self) {
         self.cancel.store(true, Ordering::SeqCst);
     }
 

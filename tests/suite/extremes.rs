@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 #[test]
 fn every_row_of_the_shortened_table_passes() {
     let cancel = AtomicBool::new(false);
-    let session = Session { seed: 1, stop: &|| false, cancel: &cancel, progress: &|_| {} };
+    let session = Session { seed: 1, stop: &|| false, cancel: &cancel, progress: &|_| {}, found: &|_| {} };
     let judged = Extremes { short: true, only: None }.judge(&session).unwrap();
     assert!(judged.len() >= 25, "only {} rows", judged.len());
     let mut failing = Vec::new();
@@ -31,7 +31,7 @@ fn every_row_of_the_shortened_table_passes() {
 #[ignore = "takes minutes; plushwright bench extremes does the same, optimised"]
 fn every_row_of_the_whole_table_passes() {
     let cancel = AtomicBool::new(false);
-    let session = Session { seed: 1, stop: &|| false, cancel: &cancel, progress: &|_| {} };
+    let session = Session { seed: 1, stop: &|| false, cancel: &cancel, progress: &|_| {}, found: &|_| {} };
     let (report, failed) = Extremes { short: false, only: std::env::var("ONLY").ok() }.run(&session).unwrap();
     println!("{}", report.text());
     assert_eq!(failed, None);

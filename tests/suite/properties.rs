@@ -15,7 +15,7 @@ use std::time::Duration;
 #[test]
 fn random_problems_and_edits_keep_their_properties() {
     let cancel = AtomicBool::new(false);
-    let session = Session { seed: 2, stop: &|| false, cancel: &cancel, progress: &|_| {} };
+    let session = Session { seed: 2, stop: &|| false, cancel: &cancel, progress: &|_| {}, found: &|_| {} };
     let found = Properties { problems: 200, first: 0 }.try_out(&session).unwrap();
     assert!(found.violations.is_empty(), "{:#?}", found.violations);
     let count = |end: End| End::ALL.iter().position(|e| *e == end).map_or(0, |k| found.ends[k]);
@@ -29,7 +29,7 @@ fn random_problems_and_edits_keep_their_properties() {
 #[test]
 fn a_body_pressed_flat_is_shown_whole() {
     let cancel = AtomicBool::new(false);
-    let session = Session { seed: 1, stop: &|| false, cancel: &cancel, progress: &|_| {} };
+    let session = Session { seed: 1, stop: &|| false, cancel: &cancel, progress: &|_| {}, found: &|_| {} };
     for first in [18_500, 26_100, 37_500] {
         let found = Properties { problems: 1, first }.try_out(&session).unwrap();
         assert!(found.violations.is_empty() && found.sequences == 1, "{:#?}", found.violations);
@@ -42,7 +42,7 @@ fn a_body_pressed_flat_is_shown_whole() {
 fn a_long_run() {
     let number = |name: &str, default: usize| std::env::var(name).map_or(default, |v| v.parse().unwrap());
     let cancel = AtomicBool::new(false);
-    let session = Session { seed: 1, stop: &|| false, cancel: &cancel, progress: &|what| eprintln!("{what}") };
+    let session = Session { seed: 1, stop: &|| false, cancel: &cancel, progress: &|what| eprintln!("{what}"), found: &|_| {} };
     let run = Properties { problems: number("PROBLEMS", 100_000), first: number("FIRST", 0) };
     let found = run.try_out(&session).unwrap();
     println!("{:?} {:?}", End::ALL, found);

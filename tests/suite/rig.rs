@@ -112,6 +112,41 @@ fn what_was_found_before_an_interrupt_is_written() {
     assert!(rest.contains("the best so far"), "{line}{rest}");
     let (poses, _) = checked(f, "new.plush");
     assert!(poses.iter().all(|(_, error, rest)| error < rest), "{poses:?}");
+    // The timeline plays what the search had: as it was not checked, nearly what is worked out anew.
+    let keys = || keyframes(&f.join("new.plush"));
+    let told = keys();
+    succeed(f, &["key", "new.plush", "--again"]);
+    for (told, again) in told.iter().zip(keys()) {
+        let difference = told.iter().zip(&again).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(difference < 1.0, "{told:?} {again:?}");
+    }
+    assert!(told.iter().flatten().any(|a| *a > 1.0), "{told:?}");
+}
+
+/// What every keyframe of a design winds.
+fn keyframes(path: &Path) -> Vec<Vec<f64>> {
+    let design = plushwright::design::file::read(path).unwrap();
+    design.keyframes.into_iter().map(|keyframe| keyframe.activations_mm).collect()
+}
+
+#[test]
+fn what_may_not_go_where_it_should_is_kept_beside_it() {
+    let folder = place();
+    let f = folder.path();
+    let copy = |from: &str, to: &str| std::fs::copy(f.join(from), f.join(to)).unwrap();
+    // Of the same name, so it may be what the same command wrote before: that is known at the end.
+    copy("bar.plush", "new.plush");
+    succeed(f, &["pose", "new.plush", "--name", "mine", "--target", "110,10=100,20"]);
+    let before = std::fs::read(f.join("new.plush")).unwrap();
+    let args = ["rig", "bar.plush", "-o", "new.plush", "--fresh", "--max-winches", "1", "--rounds", "1"];
+    for found in ["new.found.plush", "new.found-2.plush"] {
+        let refused = run(f, &args);
+        let error = String::from_utf8(refused.stderr).unwrap();
+        assert_eq!(refused.status.code(), Some(2), "{error}");
+        assert!(error.contains("holds work that would be lost") && error.contains(&format!("is in {found}")), "{error}");
+        assert_eq!(std::fs::read(f.join("new.plush")).unwrap(), before);
+        assert_eq!(checked(f, found).0.len(), 1);
+    }
 }
 
 #[test]

@@ -134,7 +134,7 @@ fn the_same_drag_gives_the_same_bits_on_any_thread() {
 #[test]
 fn wild_drags_end_where_a_search_from_rest_does() {
     static CANCEL: std::sync::atomic::AtomicBool = std::sync::atomic::AtomicBool::new(false);
-    let session = Session { seed: 1, stop: &|| false, cancel: &CANCEL, progress: &|_| {} };
+    let session = Session { seed: 1, stop: &|| false, cancel: &CANCEL, progress: &|_| {}, found: &|_| {} };
     let shapes = ["pig", "puppy", "e"].map(String::from).to_vec();
     let report = wander::Wander { shapes, fibers: 177, drags: 1 }.run(&session).unwrap().json();
     let rows = report["tables"]["wander"]["rows"].as_array().unwrap();

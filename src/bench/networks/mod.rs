@@ -33,6 +33,14 @@ struct Case {
     shipped: bool,
 }
 
+/// What is known of a design: rigs, and rows of the other tables.
+struct Studied {
+    rigs: Vec<(&'static str, Rigged)>,
+    rubbed: Option<Vec<Cell>>,
+    moved: Option<Vec<Cell>>,
+    curve: Option<Vec<Cell>>,
+}
+
 /// The study.
 pub struct Networks {
     /// Names of bundled designs and toys.
@@ -55,61 +63,40 @@ pub fn names() -> Vec<String> {
 }
 
 impl Networks {
+    /// Told to stop, it ends with the designs that were finished.
+    ///
     /// # Errors
-    /// A name that is none, or cancelled.
+    /// A name that is none, or cancelled before a design was finished.
     pub fn run(&self, session: &Session) -> Result<Report, BenchError> {
         let cases = self.shapes.iter().map(|name| self.case(name)).collect::<Result<Vec<_>, _>>()?;
         let mut report =
             Report { title: format!("networks, {} rounds, seed {}", self.rounds, session.seed), ..Report::default() };
-        let mut compared = Table {
-            name: "networks".into(),
-            caption: "The worst pose's error as a part of that at rest, without friction".into(),
-            headings: [
-                "design",
-                "poses",
-                "networks",
-                "winches",
-                "tendons",
-                "error",
-                "holes",
-                "thread mm",
-                "rules broken",
-                "s",
-            ]
-            .map(str::to_owned)
-            .to_vec(),
-            rows: Vec::new(),
-        };
-        let mut rubbed = Table {
-            name: "friction".into(),
-            caption: "The same under friction at the holes, all cables pulled".into(),
-            headings: std::iter::once("design".to_owned()).chain(FRICTIONS.map(|mu| format!("mu {mu}"))).collect(),
-            rows: Vec::new(),
-        };
-        let mut ratios: Vec<(&str, Vec<f64>)> = Vec::new();
+        let (mut compared, mut rubbed) = (compared_table(), rubbed_table());
         let (mut moved, mut curve) = (moved_table(), curve_table(self.curve));
-        for case in &cases {
-            for (what, rigged) in self.rigs(case, session)? {
+        let mut errors: Vec<(&str, Vec<f64>)> = Vec::new();
+        for (done, case) in cases.iter().enumerate() {
+            let studied = match self.studied(case, session) {
+                Ok(studied) => studied,
+                Err(BenchError::Cancelled) if done > 0 => {
+                    report.remarks.push(format!("stopped at {}, after {done} of {} designs", case.name, cases.len()));
+                    break;
+                }
+                Err(error) => return Err(error),
+            };
+            for (what, rigged) in &studied.rigs {
                 compared.rows.push(rigged.row(&case.name, what));
                 if let Some(error) = rigged.error() {
-                    match ratios.iter_mut().find(|(name, _)| *name == what) {
+                    match errors.iter_mut().find(|(name, _)| name == what) {
                         Some((_, errors)) => errors.push(error),
-                        None => ratios.push((what, vec![error])),
-                    }
-                }
-                if what == SEWN {
-                    let errors = FRICTIONS.iter().map(|&mu| rigged.under(mu, session).into());
-                    rubbed.rows.push(std::iter::once(case.name.clone().into()).chain(errors).collect());
-                    if self.moves > 0 {
-                        moved.rows.push(self.moved(case, &rigged, session)?);
+                        None => errors.push((what, vec![error])),
                     }
                 }
             }
-            if self.curve > 0 {
-                curve.rows.push(self.curve(case, session)?);
-            }
+            rubbed.rows.extend(studied.rubbed);
+            moved.rows.extend(studied.moved);
+            curve.rows.extend(studied.curve);
         }
-        for (what, mut errors) in ratios {
+        for (what, mut errors) in errors {
             errors.sort_by(f64::total_cmp);
             let worst = errors.last().copied().unwrap_or(f64::NAN);
             report.remarks.push(format!("{what}: median {:.3}, worst {worst:.3}", quantile(&errors, 0.5)));
@@ -117,6 +104,21 @@ impl Networks {
         report.tables = vec![compared, rubbed];
         report.tables.extend([moved, curve].into_iter().filter(|table| !table.rows.is_empty()));
         Ok(report)
+    }
+
+    /// All that is asked of a design.
+    fn studied(&self, case: &Case, session: &Session) -> Result<Studied, BenchError> {
+        let rigs = self.rigs(case, session)?;
+        let (mut rubbed, mut moved) = (None, None);
+        if let Some((_, rigged)) = rigs.iter().find(|(what, _)| *what == SEWN) {
+            let errors = FRICTIONS.iter().map(|&mu| rigged.under(mu, session).into());
+            rubbed = Some(std::iter::once(case.name.clone().into()).chain(errors).collect());
+            // What is cut short has no figures.
+            session.check()?;
+            moved = (self.moves > 0).then(|| self.moved(case, rigged, session)).transpose()?;
+        }
+        let curve = (self.curve > 0).then(|| self.curve(case, session)).transpose()?;
+        Ok(Studied { rigs, rubbed, moved, curve })
     }
 
     fn case(&self, name: &str) -> Result<Case, BenchError> {
@@ -139,9 +141,14 @@ impl Networks {
     /// All rigs that are compared.
     fn rigs(&self, case: &Case, session: &Session) -> Result<Vec<(&'static str, Rigged)>, BenchError> {
         let mut out = Vec::new();
+        let told = |what: &'static str, rigged: Rigged| {
+            let error = rigged.error().map_or("no figure".into(), |error| format!("{error:.3}"));
+            (session.found)(&format!("{}, {what}: {error}, {:.0} s", case.name, rigged.seconds()));
+            (what, rigged)
+        };
         if case.shipped {
             session.next(&format!("{}: {SHIPPED}", case.name))?;
-            out.push((SHIPPED, Rigged::of(case.design.clone(), 0.0, session)?));
+            out.push(told(SHIPPED, Rigged::of(case.design.clone(), 0.0, session)?));
         }
         let joint = self.sewn(case, session, case.winches);
         let swept = RigOptions { method: Method::Algorithm2, ..joint.clone() };
@@ -155,7 +162,7 @@ impl Networks {
         let free = RigOptions { rules: false, ..joint.clone() };
         for (what, options) in [(AS_PUBLISHED, paper), (SWEPT, swept), (FREE, free), (SEWN, joint)] {
             session.next(&format!("{}: {what}", case.name))?;
-            out.push((what, Rigged::found(&case.design, &options, session)?));
+            out.push(told(what, Rigged::found(&case.design, &options, session)?));
         }
         Ok(out)
     }
@@ -212,6 +219,26 @@ const AS_PUBLISHED: &str = "Algorithm 2";
 const SWEPT: &str = "Algorithm 2, swept";
 const FREE: &str = "joint, no rules";
 const SEWN: &str = "joint, sewable";
+
+fn compared_table() -> Table {
+    let headings =
+        ["design", "poses", "networks", "winches", "tendons", "error", "holes", "thread mm", "rules broken", "s"];
+    Table {
+        name: "networks".into(),
+        caption: "The worst pose's error as a part of that at rest, without friction".into(),
+        headings: headings.map(str::to_owned).to_vec(),
+        rows: Vec::new(),
+    }
+}
+
+fn rubbed_table() -> Table {
+    Table {
+        name: "friction".into(),
+        caption: "The same under friction at the holes, all cables pulled".into(),
+        headings: std::iter::once("design".to_owned()).chain(FRICTIONS.map(|mu| format!("mu {mu}"))).collect(),
+        rows: Vec::new(),
+    }
+}
 
 fn moved_table() -> Table {
     let headings = ["design", "error", "median moved", "worst moved", "as good", "same after 1e-9"];

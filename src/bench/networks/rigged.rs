@@ -40,7 +40,7 @@ impl Rigged {
         bare.keyframes.clear();
         let start = Instant::now();
         let rigged = match rig(&bare, options, &mut |_| (), session.cancel) {
-            Ok(rigged) => rigged,
+            Ok(found) => found.design,
             Err(RigError::NothingFound) => bare,
             Err(RigError::Cancelled) => return Err(BenchError::Cancelled),
             Err(error @ (RigError::NoTargets | RigError::NoModel)) => {
@@ -67,6 +67,11 @@ impl Rigged {
     fn worst(&self, error: impl Fn(usize, &Shape) -> Option<f64>) -> Option<f64> {
         let part = |(k, (rest, shape)): (usize, &(f64, Option<Shape>))| Some(error(k, shape.as_ref()?)? / rest);
         self.poses.iter().enumerate().map(part).try_fold(0.0, |worst, part| Some(f64::max(worst, part?)))
+    }
+
+    /// What the search took.
+    pub fn seconds(&self) -> f64 {
+        self.seconds
     }
 
     /// A row of the table of rigs.

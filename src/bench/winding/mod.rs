@@ -324,7 +324,7 @@ mod tests {
     #[test]
     fn poses_of_seeded_rigs_are_as_good_as_a_scan() {
         let cancel = AtomicBool::new(false);
-        let session = Session { seed: 3, stop: &|| false, cancel: &cancel, progress: &|_| {} };
+        let session = Session { seed: 3, stop: &|| false, cancel: &cancel, progress: &|_| {}, found: &|_| {} };
         let shapes = vec!["e".to_owned()];
         let report = Winding { shapes, rigs: 1, scanned: [60, 8], runs: 1 }.run(&session).unwrap();
         for row in &report.tables[0].rows {

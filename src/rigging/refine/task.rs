@@ -36,6 +36,8 @@ pub struct Task<'a> {
     pub design: &'a Design,
     /// Targets of every pose, and the sum of their weighted squares at rest, mm^2.
     pub poses: Vec<(Vec<Target>, f64)>,
+    /// Which poses of the design they are.
+    pub served: Vec<usize>,
     /// `None` where no rule is asked for.
     pub sewable: Option<&'a Sewable<'a>>,
     /// Winches that are there and stay.
@@ -104,9 +106,9 @@ impl<'a> Task<'a> {
             let miss = miss(&targets);
             (miss > grain).then_some((targets, miss))
         };
-        let poses = poses.filter_map(with_miss).collect();
+        let (served, poses) = poses.map(with_miss).enumerate().filter_map(|(k, pose)| Some((k, pose?))).unzip();
         let rings = design.mesh.boundary();
-        Self { design, poses, sewable, fixed, trims: Trims::default(), rings, power: POWER, whole: 1.0 }
+        Self { design, poses, served, sewable, fixed, trims: Trims::default(), rings, power: POWER, whole: 1.0 }
     }
 
     /// The part of its error at rest that nobody sees in any pose ([`SEEN`]).

@@ -1,7 +1,7 @@
 //! Networks for all poses at once, looked for on a thread.
 
 use crate::operations::explore::{self, Point};
-use crate::operations::rig::{self, Error, Rigged};
+use crate::operations::rig::{self, Error, Options, Rigged};
 use crate::operations::{Context, Progress};
 use crate::studio::jobs::{Outcome, Running};
 use crate::studio::language::{mark, t, tf, tn};
@@ -39,7 +39,8 @@ pub fn start_curve(session: &mut Session) {
         return;
     }
     let options = match session.rigging.choice.options(&session.discovery.options.parameters) {
-        Ok(options) => options,
+        // Rigs that are not finished cannot be compared.
+        Ok(options) => Options { keep: false, ..options },
         Err(error) => return session.messages.warning(tf!("Tendons of each winch: {error}", error)),
     };
     let design = session.design().clone();
@@ -97,8 +98,9 @@ fn put(session: &mut Session, rigged: Rigged) {
     for note in &rigged.notes {
         session.messages.warning(tf!("Rig: {note}", note));
     }
-    let found = rigged.networks.len();
+    let (found, interrupted) = (rigged.networks.len(), rigged.interrupted);
     match session.document.history.edit(mark("Rig"), |design| rigged.apply(design)) {
+        Ok(()) if interrupted => session.messages.info(t("The best winches and tendons so far were built in.")),
         Ok(()) => session.messages.info(tn!(found, "{found} winch found.", "{found} winches found.")),
         Err(error) => session.messages.error(words::unrigged(&error.into())),
     }

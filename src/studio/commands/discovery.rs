@@ -7,8 +7,8 @@ use crate::studio::language::t;
 use crate::studio::session::Session;
 use eframe::egui::{Key, Modifiers};
 
-pub static ALL: [&Command; 9] =
-    [&PROPOSE, &PROPOSE_AGAIN, &CANCEL, &ACCEPT, &REJECT, &RIG, &CANCEL_RIG, &CURVE, &CANCEL_CURVE];
+pub static ALL: [&Command; 10] =
+    [&PROPOSE, &PROPOSE_AGAIN, &CANCEL, &ACCEPT, &REJECT, &RIG, &KEEP_RIG, &CANCEL_RIG, &CURVE, &CANCEL_CURVE];
 
 pub static PROPOSE: Command = Command {
     keys: &[Keys::plain(Key::G)],
@@ -60,6 +60,17 @@ pub static RIG: Command = Command {
         "Rig all poses",
         "Look for winches and tendons that serve all poses, and lay the poses on an empty timeline",
     )
+};
+
+pub static KEEP_RIG: Command = Command {
+    why_not: &|session, _| match &session.rigging().running {
+        None => Some(t("No rig is being looked for")),
+        // Algorithm 2 has nothing before its end.
+        Some(_) if session.rigging().choice.hold => Some(t("This search has nothing to show before its end")),
+        Some(_) => None,
+    },
+    run: &|session, _| session.rigging.keep_best(),
+    ..Command::new("rig.keep", "Take the best so far", "Stop looking, and build in the best winches and tendons that were found by now")
 };
 
 pub static CANCEL_RIG: Command = Command {

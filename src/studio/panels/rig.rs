@@ -3,8 +3,7 @@
 use super::widgets::passing;
 use super::{buttons, curve};
 use crate::studio::action::{Action, Actions};
-use crate::studio::canvas::Hit;
-use crate::studio::commands::discovery::{CANCEL_RIG, RIG};
+use crate::studio::commands::discovery::{CANCEL_RIG, KEEP_RIG, RIG};
 use crate::studio::language::t;
 use crate::studio::session::Session;
 use eframe::egui::{CollapsingHeader, DragValue, Grid, RichText, Spinner, TextEdit, Ui};
@@ -52,10 +51,9 @@ fn rigging(ui: &mut Ui, session: &Session, elapsed: Duration, actions: &mut Acti
     ui.horizontal(|ui| {
         ui.add(Spinner::new());
         ui.label(format!("{} s", elapsed.as_secs()));
-        if ui.button(CANCEL_RIG.label(session)).on_hover_text(CANCEL_RIG.tip(session)).clicked() {
-            actions.push(Action::Run(&CANCEL_RIG, Hit::Nothing));
-        }
+        buttons::text(ui, session, &CANCEL_RIG, actions);
     });
+    buttons::text(ui, session, &KEEP_RIG, actions);
     ui.label(RichText::new(session.rigging().step()).small().weak());
     // The seconds go on counting.
     ui.ctx().request_repaint_after(Duration::from_millis(200));

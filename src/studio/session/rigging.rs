@@ -71,6 +71,8 @@ impl RigChoice {
             join_depth: held(parameters.join_depth),
             join_len: held(parameters.join_len),
             phi: self.hold.then_some(parameters.phi),
+            // A search that is told to stop while somebody waits for it is to end with what it has.
+            keep: !self.hold,
             ..Options::default()
         })
     }
@@ -89,6 +91,13 @@ impl Rigging {
     pub fn cancel(&mut self) {
         cancel(&mut self.running);
         cancel(&mut self.curve.running);
+    }
+
+    /// Tells the search for a rig to end with the best that it has.
+    pub fn keep_best(&self) {
+        if let Some(running) = &self.running {
+            running.stop();
+        }
     }
 
     /// The step that was done last.

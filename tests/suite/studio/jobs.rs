@@ -119,3 +119,29 @@ fn what_has_the_focus_keeps_it_when_figures_arrive() {
     assert!(window.query_by_label("Network winch 1 is hard to sew").is_some());
     assert!(window.get_by_label("Network winch 1").is_focused());
 }
+
+#[test]
+fn a_rig_that_takes_too_long_is_stopped_and_the_best_so_far_is_built_in() {
+    // One winch does not serve three poses, so it does not end by itself in a moment.
+    let mut design = bundled::ALL.iter().find(|made| made.name == "Robot").unwrap().design().unwrap();
+    design.networks.clear();
+    design.keyframes.clear();
+    let mut window = window(design);
+    click(&mut window, "All poses");
+    window.get_by_label("Rig all poses").scroll_to_me();
+    settle(&mut window);
+    assert!(window.query_by_label("Take the best so far").is_none());
+    window.get_by_label("Rig all poses").click();
+    // A round is told once there is something to keep.
+    wait(&mut window, |s| s.rigging().step().starts_with("Round"));
+    window.get_by_label("Take the best so far").scroll_to_me();
+    window.run_steps(3);
+    window.get_by_label("Take the best so far").click();
+    settle(&mut window);
+    let design = session(&window).design().clone();
+    assert!(!design.networks.is_empty() && design.keyframes.len() == 5, "{} keys", design.keyframes.len());
+    let told: Vec<_> = session(&window).messages().list().iter().map(|message| message.text.clone()).collect();
+    assert!(told.iter().any(|text| text == "The best winches and tendons so far were built in."), "{told:?}");
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    assert!(session(&window).design().networks.is_empty() && session(&window).design().keyframes.is_empty());
+}
