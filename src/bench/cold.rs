@@ -169,7 +169,7 @@ fn missing_after(course: &[(usize, f64)], k: usize) -> f64 {
 
 /// Random smooth activations.
 fn starts(subject: &Subject, random: &mut Random) -> Result<Vec<Vec<f64>>, BenchError> {
-    let nodes = original(&subject.name)?.mesh.nodes;
+    let nodes = original(&subject.name)?.mesh.nodes.clone();
     let one = |random: &mut Random| {
         let field = Field::random(random, &nodes, subject.length());
         let contractions = subject.contractions(&field, 0.8);

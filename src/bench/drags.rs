@@ -141,7 +141,7 @@ pub fn goals(
             }
         }
         Path::Reachable => {
-            let nodes = original(&subject.name)?.mesh.nodes;
+            let nodes = original(&subject.name)?.mesh.nodes.clone();
             let fields = [0, 1].map(|_| Field::random(&mut random, &nodes, subject.length()));
             let strongest = fields.each_ref().map(|field| subject.contractions(field, STRENGTH));
             let mut x = rest;

@@ -72,14 +72,14 @@ pub fn design(name: &str, fibers: usize) -> Result<Design, BenchError> {
     for pose in &mut poses {
         pose.targets = pose.targets.iter().filter_map(|t| Some(Target { at: carried(&t.at)?, ..*t })).collect();
     }
-    Ok(Design { mesh, pins, poses, networks: Vec::new(), keyframes: Vec::new(), stiffness_map: None, ..old })
+    Ok(Design { mesh: mesh.into(), pins, poses, networks: Vec::new(), keyframes: Vec::new(), stiffness_map: None, ..old })
 }
 
 /// A mesh with the asked number of fibres, or with one within [`COUNT_TOLERANCE`] of it.
 fn meshed(name: &str, old: &Design, fibers: usize) -> Result<Mesh, BenchError> {
     let fail = |source| BenchError::Mesh { shape: name.to_owned(), source };
     if old.mesh.edges().len() == fibers {
-        return Ok(old.mesh.clone());
+        return Ok(Mesh::clone(&old.mesh));
     }
     match mesh::generate(&old.outline, fibers) {
         Err(MeshError::Unreachable { nearest, .. })

@@ -55,7 +55,7 @@ impl Common {
     /// # Errors
     /// A name that is no shape.
     pub fn of(shape: &str) -> Result<Self, BenchError> {
-        Ok(Self { places: original(shape)?.mesh.nodes })
+        Ok(Self { places: original(shape)?.mesh.nodes.clone() })
     }
 
     pub fn places(&self) -> &[Point] {

@@ -126,7 +126,7 @@ impl Tour<'_> {
     }
 
     fn mesh(&mut self, design: &Design) -> Result<(), CommandError> {
-        let Mesh { nodes, triangles } = &design.mesh;
+        let Mesh { nodes, triangles } = &*design.mesh;
         let text =
             format!("{} fibers, {} nodes, {} triangles", design.mesh.edges().len(), nodes.len(), triangles.len());
         self.plushies("mesh", &text, design, What::Rest)

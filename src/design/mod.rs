@@ -7,6 +7,7 @@
 mod acting;
 pub mod animation;
 pub mod bundled;
+mod copy_on_write;
 pub mod edit;
 mod fault;
 mod figures;
@@ -23,6 +24,7 @@ pub mod texture;
 mod validate;
 mod version;
 
+pub use copy_on_write::CopyOnWrite;
 pub use edit::EditError;
 pub use fault::{DesignError, Fault};
 pub use figures::MeshFigures;
@@ -51,7 +53,7 @@ pub struct Design {
     pub version: u32,
     pub name: String,
     pub outline: Outline,
-    pub mesh: Mesh,
+    pub mesh: CopyOnWrite<Mesh>,
     #[serde(default)]
     pub material: Material,
     #[serde(default)]
@@ -226,12 +228,12 @@ impl Network {
 
 impl Design {
     /// A bare plushie with default settings: no pins, poses or networks yet.
-    pub fn new(name: impl Into<String>, outline: Outline, mesh: Mesh) -> Self {
+    pub fn new(name: impl Into<String>, outline: Outline, mesh: impl Into<CopyOnWrite<Mesh>>) -> Self {
         Self {
             version: FORMAT_VERSION,
             name: name.into(),
             outline,
-            mesh,
+            mesh: mesh.into(),
             material: Material::default(),
             fibers: FiberSettings::default(),
             tendons: TendonSettings::default(),

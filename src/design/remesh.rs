@@ -73,7 +73,7 @@ pub fn body(outline: &Outline, spec: &MeshSpec, finer: usize) -> Result<(Mesh, F
 
 /// Puts `mesh` under the design.
 pub fn carry(design: &mut Design, mesh: Mesh, set: FiberSet) -> Report {
-    let old = std::mem::replace(&mut design.mesh, mesh);
+    let old = std::mem::replace(&mut design.mesh, mesh.into());
     let before = design.fiber_count_on(&old);
     design.fibers.set = set;
     let mut carrier = Carrier::new(&old, &design.mesh);

@@ -1,12 +1,12 @@
 //! What a compiled model depends on.
 
-use crate::design::{Design, FiberSettings, Material, Network, Pin, TendonSettings, Term};
+use crate::design::{CopyOnWrite, Design, FiberSettings, Material, Network, Pin, TendonSettings, Term};
 use crate::mesh::Mesh;
 
 /// The parts of a design that a model is compiled from, and nothing else: two designs with equal specs have the same model.
 #[derive(Clone, Debug)]
 pub struct BodySpec<'a> {
-    pub mesh: &'a Mesh,
+    pub mesh: &'a CopyOnWrite<Mesh>,
     pub material: Material,
     pub stiffness_map: Option<&'a [f64]>,
     pub fibers: &'a FiberSettings,

@@ -124,11 +124,11 @@ mod tests {
                 Pin { at, ..*pin }
             })
             .collect();
-        Design { mesh, pins, networks: Vec::new(), poses: Vec::new(), keyframes: Vec::new(), ..pig }
+        Design { mesh: mesh.into(), pins, networks: Vec::new(), poses: Vec::new(), keyframes: Vec::new(), ..pig }
     }
 
     fn mesh(fibers: usize) -> Mesh {
-        pig(fibers).mesh
+        Mesh::clone(&pig(fibers).mesh)
     }
 
     /// Some points of the body: nodes on the outline as well as inside.

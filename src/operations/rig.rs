@@ -4,7 +4,7 @@ use super::key::{self, Keyed};
 use super::{Cancelled, Context, Progress};
 use crate::defaults;
 use crate::design::edit::{self, EditError};
-use crate::design::{Design, Easing, Keyframe, Network};
+use crate::design::{CopyOnWrite, Design, Easing, Keyframe, Network};
 use crate::mesh::Mesh;
 use crate::motion;
 use crate::rigging::{self, Found, RigError};
@@ -83,7 +83,7 @@ pub struct Rigged {
     /// Whether the networks replace those that are there.
     fresh: bool,
     /// What it was found for.
-    mesh: Mesh,
+    mesh: CopyOnWrite<Mesh>,
     present: Vec<Network>,
 }
 

@@ -3,7 +3,7 @@
 use super::buttons;
 use super::panel::{Entry, Panel};
 use super::widgets::heading;
-use crate::design::MeshFigures;
+use crate::design::{CopyOnWrite, MeshFigures};
 use crate::mesh::quality::{HISTOGRAM_BARS, HISTOGRAM_STEP_DEG, MeshQuality};
 use crate::mesh::{MAX_FIBERS, Mesh};
 use crate::studio::action::{Action, Actions};
@@ -34,7 +34,7 @@ pub static ENTRY: Entry = Entry {
 /// The figures, worked out once a mesh.
 #[derive(Default)]
 struct State {
-    figures: Option<(Mesh, MeshFigures)>,
+    figures: Option<(CopyOnWrite<Mesh>, MeshFigures)>,
 }
 
 impl Panel for State {
