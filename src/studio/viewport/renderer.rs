@@ -335,13 +335,18 @@ fn upload(device: &wgpu::Device, queue: &wgpu::Queue, buffer: &mut Option<wgpu::
 
 /// Writes four vertices for each capsule, into a larger buffer if need be.
 fn upload_quads(device: &wgpu::Device, queue: &wgpu::Queue, buffer: &mut Option<wgpu::Buffer>, capsules: &[Capsule]) {
-    const VERTEX: usize = size_of::<Capsule>();
-    let Some(bytes) = wgpu::BufferSize::new((4 * VERTEX * capsules.len()) as u64) else { return };
-    let buffer = reserve(device, buffer, 4 * VERTEX * capsules.len());
+    /// Copied to the adapter's memory together, from the processor's nearest.
+    const TOGETHER: usize = 64;
+    const BYTES: usize = size_of::<[Capsule; 4]>();
+    let Some(bytes) = wgpu::BufferSize::new((BYTES * capsules.len()) as u64) else { return };
+    let buffer = reserve(device, buffer, BYTES * capsules.len());
     let Some(mut view) = queue.write_buffer_with(buffer, 0, bytes) else { return };
-    for (k, capsule) in capsules.iter().enumerate() {
-        let quad = [*capsule; 4];
-        view.slice(4 * VERTEX * k..4 * VERTEX * (k + 1)).copy_from_slice(bytemuck::cast_slice(&quad));
+    let mut quads = [[Capsule::zeroed(); 4]; TOGETHER];
+    for (k, capsules) in capsules.chunks(TOGETHER).enumerate() {
+        let quads = &mut quads[..capsules.len()];
+        quads.iter_mut().zip(capsules).for_each(|(quad, capsule)| *quad = [*capsule; 4]);
+        let at = BYTES * TOGETHER * k;
+        view.slice(at..at + BYTES * capsules.len()).copy_from_slice(bytemuck::cast_slice(quads));
     }
 }
 
