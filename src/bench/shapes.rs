@@ -72,7 +72,15 @@ pub fn design(name: &str, fibers: usize) -> Result<Design, BenchError> {
     for pose in &mut poses {
         pose.targets = pose.targets.iter().filter_map(|t| Some(Target { at: carried(&t.at)?, ..*t })).collect();
     }
-    Ok(Design { mesh: mesh.into(), pins, poses, networks: Vec::new(), keyframes: Vec::new(), stiffness_map: None, ..old })
+    Ok(Design {
+        mesh: mesh.into(),
+        pins,
+        poses,
+        networks: Vec::new(),
+        keyframes: Vec::new(),
+        stiffness_map: None,
+        ..old
+    })
 }
 
 /// A mesh with the asked number of fibres, or with one within [`COUNT_TOLERANCE`] of it.

@@ -112,11 +112,11 @@ pub fn prepare(design: &Design, options: &Options, context: &mut Context) -> Res
     if interrupted && !options.keep {
         return Err(Cancelled.into());
     }
-    if coarse && rigged.keyframes.iter().any(|keyframe| keyframe.pose.is_some()) {
-        notes.push(Note::Coarse);
-    }
     let networks = rigged.networks.split_off(from.networks.len());
     let replaced = design.keyframes.is_empty() || options.fresh;
+    if coarse && replaced && rigged.keyframes.iter().any(|keyframe| keyframe.pose.is_some()) {
+        notes.push(Note::Coarse);
+    }
     let mut keyframes = if replaced { rigged.keyframes } else { Vec::new() };
     if !options.fresh {
         keyframes.iter_mut().for_each(|keyframe| keyframe.activations_mm = design.of_all(&keyframe.activations_mm));

@@ -58,13 +58,11 @@ pub fn rig(
     }
     match options.method {
         Method::Joint => together(design, options, progress, cancel),
-        Method::Algorithm2 => {
-            greedy::rig(design, options, progress, cancel).map(|design| Found {
-                design,
-                wound_mm: Vec::new(),
-                coarse: false,
-            })
-        }
+        Method::Algorithm2 => greedy::rig(design, options, progress, cancel).map(|design| Found {
+            design,
+            wound_mm: Vec::new(),
+            coarse: false,
+        }),
     }
 }
 

@@ -42,7 +42,8 @@ fn a_body_pressed_flat_is_shown_whole() {
 fn a_long_run() {
     let number = |name: &str, default: usize| std::env::var(name).map_or(default, |v| v.parse().unwrap());
     let cancel = AtomicBool::new(false);
-    let session = Session { seed: 1, stop: &|| false, cancel: &cancel, progress: &|what| eprintln!("{what}"), found: &|_| {} };
+    let session =
+        Session { seed: 1, stop: &|| false, cancel: &cancel, progress: &|what| eprintln!("{what}"), found: &|_| {} };
     let run = Properties { problems: number("PROBLEMS", 100_000), first: number("FIRST", 0) };
     let found = run.try_out(&session).unwrap();
     println!("{:?} {:?}", End::ALL, found);

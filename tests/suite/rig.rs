@@ -143,7 +143,10 @@ fn what_may_not_go_where_it_should_is_kept_beside_it() {
         let refused = run(f, &args);
         let error = String::from_utf8(refused.stderr).unwrap();
         assert_eq!(refused.status.code(), Some(2), "{error}");
-        assert!(error.contains("holds work that would be lost") && error.contains(&format!("is in {found}")), "{error}");
+        assert!(
+            error.contains("holds work that would be lost") && error.contains(&format!("is in {found}")),
+            "{error}"
+        );
         assert_eq!(std::fs::read(f.join("new.plush")).unwrap(), before);
         assert_eq!(checked(f, found).0.len(), 1);
     }

@@ -69,7 +69,14 @@ impl Task<'_> {
     /// A fit improved for its worst pose, at the others' expense; as it was where that gains nothing.
     pub fn sharpened(&self, fit: Fit, steps: usize, stop: &dyn Fn() -> bool) -> Fit {
         let whole = fit.misses.iter().fold(f64::MIN_POSITIVE, |m, f| m.max(*f));
-        let sharp = Task { poses: self.poses.clone(), served: self.served.clone(), rings: self.rings.clone(), power: SHARP, whole, ..*self };
+        let sharp = Task {
+            poses: self.poses.clone(),
+            served: self.served.clone(),
+            rings: self.rings.clone(),
+            power: SHARP,
+            whole,
+            ..*self
+        };
         let improved = || {
             let begun = sharp.resume(fit.layout.clone(), &fit, stop)?;
             sharp.wound(sharp.improve(begun, steps, false, stop), 0, stop)

@@ -29,7 +29,13 @@ const SEED: u64 = 2;
 impl Task<'_> {
     /// A fit improved for sewn plushies too; as it was where that gains nothing.
     pub fn steadied(&self, fit: Fit, stop: &dyn Fn() -> bool) -> Fit {
-        let bare = Task { poses: self.poses.clone(), served: self.served.clone(), rings: self.rings.clone(), sewable: None, ..*self };
+        let bare = Task {
+            poses: self.poses.clone(),
+            served: self.served.clone(),
+            rings: self.rings.clone(),
+            sewable: None,
+            ..*self
+        };
         let mut now = fit;
         for draw in 0..DRAWS {
             let Some(samples) = self.samples(&bare, &now, draw, stop) else { break };

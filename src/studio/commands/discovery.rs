@@ -70,7 +70,11 @@ pub static KEEP_RIG: Command = Command {
         Some(_) => None,
     },
     run: &|session, _| session.rigging.keep_best(),
-    ..Command::new("rig.keep", "Take the best so far", "Stop looking, and build in the best winches and tendons that were found by now")
+    ..Command::new(
+        "rig.keep",
+        "Take the best so far",
+        "Stop looking, and build in the best winches and tendons that were found by now",
+    )
 };
 
 pub static CANCEL_RIG: Command = Command {
