@@ -1,4 +1,4 @@
-// Plushies in the window: filled triangles with a fringe, and capsules (round lines, discs, rings; four vertices each).
+// Plushies in the window: filled triangles with a fringe, and capsules (round lines, discs, rings; three vertices each).
 // Coverage is computed here, so one sample a pixel gives smooth edges.
 
 struct View {
@@ -77,9 +77,11 @@ fn capsule_vertex(
     let wanted = radius * view.pixels_per_point;
     let outer = max(wanted, 0.5);
     let fade = min(wanted / outer, 1.0);
+    // A right triangle around the box of the capsule: twice as long and as wide, in the same corner.
     let reach = outer + 1.0;
-    let x = select(-reach, length + reach, (index & 1u) == 1u);
-    let y = select(-reach, reach, (index & 2u) == 2u);
+    let corner = index % 3u;
+    let x = select(-reach, 2.0 * length + 3.0 * reach, corner == 1u);
+    let y = select(-reach, 3.0 * reach, corner == 2u);
     let position = (a + along * x + across * y) / view.half_size;
     let radii = vec2f(outer, inner * view.pixels_per_point);
     return Capsule(vec4f(position, 0.0, 1.0), vec2f(x, y), length, radii, vec4f(color.rgb, color.a * fade));

@@ -34,7 +34,6 @@ struct Renderer {
     felt: wgpu::RenderPipeline,
     felt_picture: wgpu::RenderPipeline,
     capsule: wgpu::RenderPipeline,
-    quads: Quads,
     layout: wgpu::BindGroupLayout,
     skin: Skin,
     views: HashMap<u64, View>,
@@ -58,16 +57,9 @@ struct Part {
     capsules: Option<wgpu::Buffer>,
 }
 
-/// Corners of the triangles of four vertices each, as many as any part has capsules. A capsule is drawn by indices and not as an instance: software
-/// rasterisers begin anew at every instance, and a mesh has ten thousand fibres.
-#[derive(Default)]
-struct Quads {
-    corners: Option<wgpu::Buffer>,
-    count: u32,
-}
-
-/// Corners of both triangles among the four vertices, which the shader numbers row by row.
-const QUAD: [u32; 6] = [0, 1, 2, 2, 1, 3];
+/// A capsule is drawn as one triangle around it, not as an instance of two: software rasterisers begin anew at every instance, most of the cost of a
+/// small triangle is its set-up, and a mesh has ten thousand fibres.
+const CAPSULE_CORNERS: u32 = 3;
 
 /// `View` of the shader.
 #[derive(Clone, Copy, Pod, Zeroable)]
@@ -201,7 +193,6 @@ impl Renderer {
             felt: pipeline(["felt"; 2], plain, &[Some(WOOLLY), Some(CUT)], None),
             felt_picture: pipeline(["felt", "felt_picture"], skinned, &[Some(WOOLLY), Some(CUT)], None),
             capsule: pipeline(["capsule"; 2], plain, &[Some(CAPSULE)], over),
-            quads: Quads::default(),
             layout,
             skin,
             views: HashMap::new(),
@@ -223,7 +214,6 @@ impl Renderer {
         view.parts.resize_with(call.parts.len(), Part::default);
         for (part, geometry) in view.parts.iter_mut().zip(&call.parts) {
             part.take(device, queue, geometry);
-            self.quads.reach(device, queue, geometry.capsules.len() as u32);
             if let Some(texture) = &geometry.texture {
                 self.skin.follow(device, queue, texture);
             }
@@ -258,10 +248,7 @@ impl Renderer {
         match batch {
             Batch::Fill(range) | Batch::Picture(range) => pass.draw(range.clone(), 0..1),
             Batch::Capsules(range) => {
-                let Some(corners) = &self.quads.corners else { return };
-                pass.set_index_buffer(corners.slice(..), wgpu::IndexFormat::Uint32);
-                let corner = |capsule: u32| capsule * QUAD.len() as u32;
-                pass.draw_indexed(corner(range.start)..corner(range.end), 0, 0..1);
+                pass.draw(CAPSULE_CORNERS * range.start..CAPSULE_CORNERS * range.end, 0..1);
             }
             Batch::Felt(_) => {
                 let (Some(cloth), Some(cut), Some(corners)) = (&part.geometry.cloth, &part.cut, &part.felt_corners)
@@ -290,24 +277,13 @@ impl Part {
         upload(&mut self.corners, bytemuck::cast_slice(&geometry.corners));
         upload(&mut self.textured, bytemuck::cast_slice(&geometry.textured));
         upload(&mut self.felt, bytemuck::cast_slice(&geometry.felt));
-        upload_quads(device, queue, &mut self.capsules, &geometry.capsules);
+        upload_capsules(device, queue, &mut self.capsules, &geometry.capsules);
         let known = |cloth: &Arc<Cloth>| self.geometry.cloth.as_ref().is_some_and(|known| Arc::ptr_eq(known, cloth));
         if let Some(cloth) = geometry.cloth.as_ref().filter(|cloth| !known(cloth)) {
             upload(&mut self.cut, bytemuck::cast_slice(&cloth.points));
             upload(&mut self.felt_corners, bytemuck::cast_slice(&cloth.corners));
         }
         self.geometry = geometry.clone();
-    }
-}
-
-impl Quads {
-    /// At least so many.
-    fn reach(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, count: u32) {
-        if count > self.count {
-            self.count = count.next_power_of_two();
-            let corners: Vec<u32> = (0..self.count).flat_map(|quad| QUAD.map(|corner| 4 * quad + corner)).collect();
-            upload(device, queue, &mut self.corners, bytemuck::cast_slice(&corners));
-        }
     }
 }
 
@@ -333,20 +309,26 @@ fn upload(device: &wgpu::Device, queue: &wgpu::Queue, buffer: &mut Option<wgpu::
     queue.write_buffer(reserve(device, buffer, bytes.len()), 0, bytes);
 }
 
-/// Writes four vertices for each capsule, into a larger buffer if need be.
-fn upload_quads(device: &wgpu::Device, queue: &wgpu::Queue, buffer: &mut Option<wgpu::Buffer>, capsules: &[Capsule]) {
+/// Writes the corners of each capsule, all with the whole of it, into a larger buffer if need be.
+fn upload_capsules(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    buffer: &mut Option<wgpu::Buffer>,
+    capsules: &[Capsule],
+) {
     /// Copied to the adapter's memory together, from the processor's nearest.
     const TOGETHER: usize = 64;
-    const BYTES: usize = size_of::<[Capsule; 4]>();
+    type Corners = [Capsule; CAPSULE_CORNERS as usize];
+    const BYTES: usize = size_of::<Corners>();
     let Some(bytes) = wgpu::BufferSize::new((BYTES * capsules.len()) as u64) else { return };
     let buffer = reserve(device, buffer, BYTES * capsules.len());
     let Some(mut view) = queue.write_buffer_with(buffer, 0, bytes) else { return };
-    let mut quads = [[Capsule::zeroed(); 4]; TOGETHER];
+    let mut corners = [Corners::zeroed(); TOGETHER];
     for (k, capsules) in capsules.chunks(TOGETHER).enumerate() {
-        let quads = &mut quads[..capsules.len()];
-        quads.iter_mut().zip(capsules).for_each(|(quad, capsule)| *quad = [*capsule; 4]);
+        let corners = &mut corners[..capsules.len()];
+        corners.iter_mut().zip(capsules).for_each(|(corners, capsule)| *corners = [*capsule; CAPSULE_CORNERS as usize]);
         let at = BYTES * TOGETHER * k;
-        view.slice(at..at + BYTES * capsules.len()).copy_from_slice(bytemuck::cast_slice(quads));
+        view.slice(at..at + BYTES * capsules.len()).copy_from_slice(bytemuck::cast_slice(corners));
     }
 }
 
