@@ -14,7 +14,7 @@ use crate::bench::{
 };
 use crate::defaults;
 use clap::{Args, Subcommand, ValueEnum};
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -391,7 +391,15 @@ impl Bench {
             check_folder(folder, FORMAT)?;
         }
         let stop = || cancel.load(Ordering::SeqCst);
-        let (now, found) = (|what: &str| progress::now(what), |what: &str| progress::aside(|| eprintln!("{what}")));
+        let (now, found) = (
+            |what: &str| progress::now(what),
+            |what: &str| {
+                progress::aside(|| {
+                    // Nobody may read it.
+                    let _ = writeln!(io::stderr(), "{what}");
+                })
+            },
+        );
         let session = Session { seed: common.seed, stop: &stop, cancel, progress: &now, found: &found };
         // It ends with what it has by then.
         let keeping = matches!(self.study, Study::Networks { .. }).then(Keeping::begin);
@@ -414,8 +422,8 @@ impl Bench {
         } else {
             say_lines(out, &report.text())?
         }
-        if interrupted {
-            return Err(CommandError::Cancelled);
+        if interrupted && keeping.is_some() {
+            return Err(CommandError::Interrupted("the report has the designs that were finished".into()));
         }
         failed.map_or(Ok(()), |what| Err(CommandError::Failed(what)))
     }

@@ -107,13 +107,24 @@ impl Edit<'_> {
             Err(refused) => refused,
             saved => return saved,
         };
-        let numbered = (2_u32..).map(|n| format!("found-{n}.plush"));
-        let mut names = std::iter::once("found.plush".to_owned()).chain(numbered);
-        let beside = names.find_map(|name| Some(self.to.with_extension(name)).filter(|path| !path.exists()));
-        match beside.map(|path| (file::save(design, Some(self.from.into()), &path, None), path)) {
-            Some((Ok(_), path)) => Err(refused.adding(&format!("what was found is in {}", shown(&path)))),
-            _ => Err(refused),
+        match self.save_beside(design, "found") {
+            Ok(path) => Err(refused.adding(&format!("what was found is in {}", shown(&path)))),
+            Err(_) => Err(refused),
         }
+    }
+
+    /// Writes a design to `NAME.what.plush`, or `NAME.what-2.plush` and so on, whichever is free. Returns the file.
+    fn save_beside(&self, design: &Design, what: &str) -> Result<PathBuf, CommandError> {
+        alone_in(self.to, &AtomicBool::new(false), || {
+            let mut path = self.to.with_extension(format!("{what}.plush"));
+            let mut number = 1;
+            while path.symlink_metadata().is_ok() {
+                number += 1;
+                path = self.to.with_extension(format!("{what}-{number}.plush"));
+            }
+            file::save(design, Some(self.from.into()), &path, None).map_err(unwritten)?;
+            Ok(path)
+        })
     }
 
     /// Writes what an interrupted command has found. Where it would take the place of finished work that was asked to be forgotten, it goes
@@ -129,9 +140,7 @@ impl Edit<'_> {
         if !(fresh && had_work) {
             return self.save_found(design).map(|()| self.to.to_owned());
         }
-        let path = self.to.with_extension("interrupted.plush");
-        file::save(design, Some(self.from.into()), &path, None).map_err(unwritten)?;
-        Ok(path)
+        self.save_beside(design, "interrupted")
     }
 }
 

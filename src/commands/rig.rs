@@ -191,7 +191,7 @@ impl Rig {
             Note::Key(key::Note::Unbalanced(unbalanced)) => Some(unbalanced),
             Note::AtRest { .. } | Note::Coarse => None,
         }))?;
-        if rigged.interrupted { Err(interrupted(&path, &told)) } else { Ok(()) }
+        if rigged.interrupted { Err(interrupted(&path, &told, !told.errors.is_empty())) } else { Ok(()) }
     }
 
     /// Refuses what belongs to another method, and numbers that no winch gets.
@@ -276,20 +276,21 @@ impl Rig {
             }
         };
         let found = explore::run(&design, options, &mut hear, &mut Context::new(cancel));
-        printed?;
+        // What cannot be told or drawn is found all the same.
         if let (Err(Error::Cancelled(_)), Some(best)) = (&found, best(&points)) {
-            // Files are written by a run that ends by itself.
-            say_lines(out, &super::explore::table(&points).text())?;
             put(best, &mut design)?;
             let path = edit.save_interrupted(&design, self.fresh)?;
-            return Err(interrupted(&path, &Told::default()));
+            // Files are written by a run that ends by itself.
+            say_lines(out, &super::explore::table(&points).text())?;
+            return Err(interrupted(&path, &Told::default(), true));
         }
         let points = found.map_err(|error| self.failed(error, cancel))?;
-        files.tell(&points, out, cancel)?;
         if let Some(best) = best(&points) {
             put(best, &mut design)?;
         }
         edit.save_found(&design)?;
+        printed?;
+        files.tell(&points, out, cancel)?;
         self.tell(out, &design, self.target.path(&self.design), &Told::default(), false)
     }
 }
@@ -320,11 +321,12 @@ impl Rig {
 }
 
 /// What an interrupted search leaves, and how to go on.
-fn interrupted(path: &Path, told: &Told) -> CommandError {
+fn interrupted(path: &Path, told: &Told, checked: bool) -> CommandError {
     let path = shown(path);
     let by = told.rounds.map_or(String::new(), |[round, rounds]| format!(" by round {round} of {rounds}"));
+    let but = if checked { ";" } else { ", not checked yet:" };
     CommandError::Interrupted(format!(
-        "{path} has the best networks{by}, not checked yet: `plushwright check {path}` says how good they are, the same command with --fresh searches to the end"
+        "{path} has the best networks{by}{but} `plushwright check {path}` says how good they are, the same command with --fresh searches to the end"
     ))
 }
 

@@ -78,7 +78,8 @@ pub struct Rigged {
     /// The timeline, where the design had none.
     pub keyframes: Vec<Keyframe>,
     pub notes: Vec<Note>,
-    /// Whether the search was told to stop, and this is the best that it had by then: its keyframes wind what the search did.
+    /// Whether the search was told to stop, and this is the best that it had by then. Keyframes wind what the search did where they were not
+    /// solved any more.
     pub interrupted: bool,
     /// Whether the networks replace those that are there.
     fresh: bool,

@@ -2,7 +2,7 @@
 
 use super::candidate::{Baseline, Candidate, with_network};
 use super::generators::candidates;
-use super::options::{Progress, RigError, RigOptions, TendonChoice};
+use super::options::{Found, Progress, RigError, RigOptions, TendonChoice};
 use super::rank::rank;
 use super::trial::{Reached, Scrutiny, Trial};
 use crate::design::{Design, Target};
@@ -29,7 +29,7 @@ pub(super) fn rig(
     options: &RigOptions,
     progress: &mut dyn FnMut(Progress),
     cancel: &AtomicBool,
-) -> Result<Design, RigError> {
+) -> Result<Found, RigError> {
     let poses: Vec<(String, Vec<Target>)> =
         design.poses.iter().filter(|p| !p.targets.is_empty()).map(|p| (p.name.clone(), p.targets.clone())).collect();
     let mut current = design.clone();
@@ -49,6 +49,10 @@ pub(super) fn rig(
         progress(Progress::Candidates { winch, count: found.len() });
         let ranked = rank(&current, found, &known, cancel);
         if cancel.load(Ordering::Relaxed) {
+            // Winches that were accepted before are worth keeping.
+            if options.keep && winch > 0 {
+                break;
+            }
             return Err(RigError::Cancelled);
         }
         let Some((best, now)) = ranked.into_iter().next() else { break };
@@ -62,7 +66,8 @@ pub(super) fn rig(
         return Err(RigError::NothingFound);
     }
     widen_keyframes(&mut current);
-    Ok(current)
+    let wound_mm = poses.into_iter().zip(reached).map(|((name, _), reached)| (name, reached.posture.beta)).collect();
+    Ok(Found { design: current, wound_mm, coarse: false })
 }
 
 /// What the present networks reach in every pose when they are wound from rest; `known`: what was reached so far.

@@ -22,7 +22,7 @@ pub struct RigOptions {
     pub seed: u64,
     /// Starts that are raced in the first half of the rounds, before the best go on; `None`: as many as that half allows ([`Method::Joint`] alone).
     pub starts: Option<usize>,
-    /// Whether a search that is told to stop ends with the best that it has, instead of [`RigError::Cancelled`] ([`Method::Joint`] alone).
+    /// Whether a search that is told to stop ends with the best that it has, if anything, instead of [`RigError::Cancelled`].
     pub keep: bool,
     pub max_winches: usize,
     pub tendons: TendonChoice,
@@ -141,7 +141,6 @@ pub enum Progress {
 pub struct Found {
     pub design: Design,
     /// What every winch winds in each pose, by the pose's name: as a check has it, or, of a search that was told to stop, as the search has it.
-    /// Empty where nobody asked ([`Method::Algorithm2`]).
     pub wound_mm: Vec<(String, Vec<f64>)>,
     /// Whether that is of a coarser mesh than the design's.
     pub coarse: bool,

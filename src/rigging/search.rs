@@ -58,11 +58,7 @@ pub fn rig(
     }
     match options.method {
         Method::Joint => together(design, options, progress, cancel),
-        Method::Algorithm2 => greedy::rig(design, options, progress, cancel).map(|design| Found {
-            design,
-            wound_mm: Vec::new(),
-            coarse: false,
-        }),
+        Method::Algorithm2 => greedy::rig(design, options, progress, cancel),
     }
 }
 
@@ -85,11 +81,14 @@ fn together(
     let coarse = coarser(design);
     let searched = coarse.as_ref().unwrap_or(design);
     let found = layouts(searched, options, &topology, progress, cancel)?;
-    let found = if coarse.is_some() { carried(design, found, options, cancel) } else { found };
+    let (found, coarse) = match coarse {
+        Some(_) => carried(design, found, options, cancel),
+        None => (found, false),
+    };
     let verified = judged(design, &found, options, cancel);
     if cancel.load(atomic::Ordering::Relaxed) {
         let best = found.iter().min_by(|a, b| a.worst().total_cmp(&b.worst()));
-        return if options.keep { unchecked(design, best, coarse.is_some()) } else { Err(RigError::Cancelled) };
+        return if options.keep { unchecked(design, best, coarse) } else { Err(RigError::Cancelled) };
     }
     let best = chosen(verified, options.rules).filter(|(_, poses)| helps(poses.iter().map(|p| p.error / p.rest)));
     let Some((rigged, poses)) = best else {
@@ -117,7 +116,7 @@ fn unchecked(design: &Design, best: Option<&Fit>, coarse: bool) -> Result<Found,
     let at_rest = vec![0.0; with.networks.len()];
     let mut wound_mm: Vec<(String, Vec<f64>)> =
         design.poses.iter().map(|pose| (pose.name.clone(), at_rest.clone())).collect();
-    for (k, posture) in Task::new(design, None, &design.networks).served.into_iter().zip(&fit.poses) {
+    for (&k, posture) in fit.served.iter().zip(&fit.poses) {
         wound_mm[k].1.clone_from(&posture.beta);
     }
     Ok(Found { design: with, wound_mm, coarse })
@@ -173,19 +172,19 @@ fn as_sewn(mut verified: Vec<Candidate>, friction: f64, cancel: &AtomicBool) -> 
 }
 
 /// What was found on a coarse mesh, improved on those between that and the body's own, and there; as it was where that is not possible, and from
-/// where it is interrupted.
-fn carried(design: &Design, found: Vec<Fit>, options: &RigOptions, cancel: &AtomicBool) -> Vec<Fit> {
+/// where it is interrupted. And whether it did not get to the body's own mesh.
+fn carried(design: &Design, found: Vec<Fit>, options: &RigOptions, cancel: &AtomicBool) -> (Vec<Fit>, bool) {
     let stop = || cancel.load(atomic::Ordering::Relaxed);
     let improved = |found: Vec<Fit>, design: &Design| {
         let outline = rim(&design.mesh);
         let sewable = sewable(design, &outline);
         let task = Task::new(design, options.rules.then_some(&sewable), &design.networks).trimming(options.trims);
         let moved: Vec<Fit> = in_order(&found, |fit| task.transferred(fit, &stop)).into_iter().flatten().collect();
-        if stop() || moved.is_empty() { found } else { moved }
+        if stop() || moved.is_empty() { (found, true) } else { (moved, false) }
     };
     let meshes = between(design.mesh.edges().len()).into_iter();
     let meshes = meshes.map_while(|fibers| if stop() { None } else { on_mesh(design, fibers) });
-    let found = meshes.fold(found, |found, between| improved(found, &between));
+    let found = meshes.fold(found, |found, between| improved(found, &between).0);
     improved(found, design)
 }
 
@@ -307,8 +306,8 @@ fn layouts(
 /// What Algorithm 2 builds, its parameters varied, with activations and positions of every pose: a start where no rule forbids it. It is
 /// remembered while its cost, all poses together, is among the best.
 fn of_algorithm2(task: &Task, options: &RigOptions, cancel: &AtomicBool) -> Option<(Layout, Vec<Start>)> {
-    let swept = RigOptions { method: Method::Algorithm2, ..options.clone() };
-    let rigged = greedy::rig(task.design, &swept, &mut |_| (), cancel).ok()?;
+    let swept = RigOptions { method: Method::Algorithm2, keep: false, ..options.clone() };
+    let rigged = greedy::rig(task.design, &swept, &mut |_| (), cancel).ok()?.design;
     let layout = Layout::of(&rigged.networks[task.fixed.len()..], &task.design.mesh);
     let posed = |(targets, _): &(Vec<Target>, f64)| {
         let shape = Checked::of(&rigged, targets, 0.0, cancel).shape;

@@ -142,8 +142,9 @@ impl Networks {
     fn rigs(&self, case: &Case, session: &Session) -> Result<Vec<(&'static str, Rigged)>, BenchError> {
         let mut out = Vec::new();
         let told = |what: &'static str, rigged: Rigged| {
-            let error = rigged.error().map_or("no figure".into(), |error| format!("{error:.3}"));
-            (session.found)(&format!("{}, {what}: {error}, {:.0} s", case.name, rigged.seconds()));
+            let error = rigged.error().map_or("no figure".into(), |error| format!("{error:.3} of rest"));
+            let took = if rigged.seconds() > 0.0 { format!(", {:.0} s", rigged.seconds()) } else { String::new() };
+            (session.found)(&format!("{}, {what}: {error}{took}", case.name));
             (what, rigged)
         };
         if case.shipped {

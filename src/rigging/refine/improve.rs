@@ -41,8 +41,11 @@ impl Task<'_> {
         self.wound(improved, 0, stop)
     }
 
-    /// A fit's layout with every pose wound from rest to the fit's activations; `None` where one does not settle.
+    /// A fit's layout with every pose wound from rest to the fit's activations; `None` where one does not settle, or others are served here.
     fn wind(&self, fit: &Fit, stop: &dyn Fn() -> bool) -> Option<Fit> {
+        if fit.served != self.served {
+            return None;
+        }
         let mut built = self.build(&fit.layout)?;
         let rest = built.plushie.model.rest.clone();
         let mut poses = Vec::with_capacity(fit.poses.len());

@@ -56,6 +56,8 @@ pub struct Fit {
     pub layout: Layout,
     /// Activations and equilibrium of every pose; those of the fixed winches first.
     pub poses: Vec<Posture>,
+    /// Which poses of the design they are: on another mesh one more may be at rest.
+    pub served: Vec<usize>,
     /// `f_k`.
     pub misses: Vec<f64>,
     /// `sum v^2`.
@@ -180,7 +182,7 @@ impl<'a> Task<'a> {
         let cost = misses.iter().map(missed).sum::<f64>() + RULES * violation + SPARING * used;
         // A winch without a range has no part of it: such a layout is never the best.
         let cost = if cost.is_nan() { f64::INFINITY } else { cost };
-        Fit { layout, poses, misses, violation, cost }
+        Fit { layout, poses, served: self.served.clone(), misses, violation, cost }
     }
 
     /// What a layout's broken rules at rest add to `C`, or a part of that which is more than the limit.

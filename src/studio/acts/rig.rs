@@ -3,6 +3,7 @@
 use crate::operations::explore::{self, Point};
 use crate::operations::rig::{self, Error, Options, Rigged};
 use crate::operations::{Context, Progress};
+use crate::rigging::RigError;
 use crate::studio::jobs::{Outcome, Running};
 use crate::studio::language::{mark, t, tf, tn};
 use crate::studio::session::Session;
@@ -21,6 +22,7 @@ pub fn start_rig(session: &mut Session) {
     let design = session.design().clone();
     let (step, wake) = (Arc::new(Mutex::new(String::new())), session.jobs.wake());
     session.rigging.step = step.clone();
+    session.rigging.ending = false;
     session.rigging.running = Some(session.jobs.start(mark("Rigging"), move |cancel| {
         let mut progress = |done: &Progress| {
             if let Ok(mut step) = step.lock() {
@@ -84,6 +86,9 @@ pub fn take_rig(session: &mut Session, serial: u64, rigged: Result<Box<Rigged>, 
     session.rigging.running = None;
     let rigged = match rigged {
         Ok(rigged) => *rigged,
+        Err(Error::Cancelled(_) | Error::Rig(RigError::NothingFound)) if session.rigging.ending => {
+            return session.messages.warning(t("Nothing was found yet that helps: let it look for longer."));
+        }
         Err(error) => return session.messages.warning(words::unrigged(&error)),
     };
     put(session, rigged);

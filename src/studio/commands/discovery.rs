@@ -65,9 +65,7 @@ pub static RIG: Command = Command {
 pub static KEEP_RIG: Command = Command {
     why_not: &|session, _| match &session.rigging().running {
         None => Some(t("No rig is being looked for")),
-        // Algorithm 2 has nothing before its end.
-        Some(_) if session.rigging().choice.hold => Some(t("This search has nothing to show before its end")),
-        Some(_) => None,
+        Some(_) => session.rigging().ending.then(|| t("Stopping")),
     },
     run: &|session, _| session.rigging.keep_best(),
     ..Command::new(

@@ -72,7 +72,7 @@ impl RigChoice {
             join_len: held(parameters.join_len),
             phi: self.hold.then_some(parameters.phi),
             // A search that is told to stop while somebody waits for it is to end with what it has.
-            keep: !self.hold,
+            keep: true,
             ..Options::default()
         })
     }
@@ -82,6 +82,8 @@ impl RigChoice {
 pub struct Rigging {
     pub choice: RigChoice,
     pub running: Option<Running>,
+    /// Whether that was told to end with what it has.
+    pub(crate) ending: bool,
     pub curve: Curve,
     /// The step that was done last, from the thread.
     pub(crate) step: Arc<Mutex<String>>,
@@ -94,9 +96,10 @@ impl Rigging {
     }
 
     /// Tells the search for a rig to end with the best that it has.
-    pub fn keep_best(&self) {
+    pub fn keep_best(&mut self) {
         if let Some(running) = &self.running {
             running.stop();
+            self.ending = true;
         }
     }
 
