@@ -14,7 +14,7 @@ use crate::bench::{
 };
 use crate::defaults;
 use clap::{Args, Subcommand, ValueEnum};
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -391,15 +391,7 @@ impl Bench {
             check_folder(folder, FORMAT)?;
         }
         let stop = || cancel.load(Ordering::SeqCst);
-        let (now, found) = (
-            |what: &str| progress::now(what),
-            |what: &str| {
-                progress::aside(|| {
-                    // Nobody may read it.
-                    let _ = writeln!(io::stderr(), "{what}");
-                })
-            },
-        );
+        let (now, found) = (|what: &str| progress::now(what), |what: &str| log::info!("{what}"));
         let session = Session { seed: common.seed, stop: &stop, cancel, progress: &now, found: &found };
         // It ends with what it has by then.
         let keeping = matches!(self.study, Study::Networks { .. }).then(Keeping::begin);
