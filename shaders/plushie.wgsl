@@ -53,10 +53,9 @@ struct Capsule {
     @builtin(position) position: vec4f,
     // Along and across the segment, physical pixels from its start.
     @location(0) local: vec2f,
-    @location(1) @interpolate(flat) length: f32,
-    // Outer and inner radius, physical pixels.
-    @location(2) @interpolate(flat) radii: vec2f,
-    @location(3) @interpolate(flat) color: vec4f,
+    // Length, outer and inner radius, physical pixels.
+    @location(1) @interpolate(flat) size: vec3f,
+    @location(2) @interpolate(flat) color: vec4f,
 }
 
 @vertex
@@ -77,23 +76,23 @@ fn capsule_vertex(
     let wanted = radius * view.pixels_per_point;
     let outer = max(wanted, 0.5);
     let fade = min(wanted / outer, 1.0);
-    // A right triangle around the box of the capsule: twice as long and as wide, in the same corner.
-    let reach = outer + 1.0;
+    // A right triangle around the box of what is covered at all: twice as long and as wide, in the same corner.
+    let reach = outer + 0.5;
     let corner = index % 3u;
     let x = select(-reach, 2.0 * length + 3.0 * reach, corner == 1u);
     let y = select(-reach, 3.0 * reach, corner == 2u);
     let position = (a + along * x + across * y) / view.half_size;
-    let radii = vec2f(outer, inner * view.pixels_per_point);
-    return Capsule(vec4f(position, 0.0, 1.0), vec2f(x, y), length, radii, vec4f(color.rgb, color.a * fade));
+    let size = vec3f(length, outer, inner * view.pixels_per_point);
+    return Capsule(vec4f(position, 0.0, 1.0), vec2f(x, y), size, vec4f(color.rgb, color.a * fade));
 }
 
 @fragment
 fn capsule_fragment(in: Capsule) -> @location(0) vec4f {
-    let off = vec2f(in.local.x - clamp(in.local.x, 0.0, in.length), in.local.y);
+    let off = vec2f(in.local.x - clamp(in.local.x, 0.0, in.size.x), in.local.y);
     let d = length(off);
-    var coverage = clamp(in.radii.x - d + 0.5, 0.0, 1.0);
-    if in.radii.y > 0.0 {
-        coverage *= clamp(d - in.radii.y + 0.5, 0.0, 1.0);
+    var coverage = clamp(in.size.y - d + 0.5, 0.0, 1.0);
+    if in.size.z > 0.0 {
+        coverage *= clamp(d - in.size.z + 0.5, 0.0, 1.0);
     }
     return shade(in.color, coverage);
 }
