@@ -10,7 +10,6 @@ use crate::defaults;
 use crate::design::Design;
 use crate::files::shown;
 use crate::operations::explore;
-use crate::operations::key;
 use crate::operations::rig::{self, Error, Note, Options, TendonChoice, Trims};
 use crate::operations::{Context, Progress};
 use crate::rigging;
@@ -102,6 +101,8 @@ struct Summary {
     interrupted: bool,
     /// What `check` says of every pose: rms distance of the targets in body lengths. None where it was interrupted before that.
     poses: Vec<PoseError>,
+    /// About keyframes.
+    notes: Vec<String>,
 }
 
 #[derive(Serialize)]
@@ -176,19 +177,10 @@ impl Rig {
         };
         // What cannot be told is found all the same.
         printed?;
-        self.tell(out, &design, &path, &told, rigged.interrupted)?;
-        for note in &rigged.notes {
-            match note {
-                _ if self.json => (),
-                Note::AtRest { .. } => say(out, &format!("note: {note}"))?,
-                Note::Coarse => {
-                    say(out, &format!("note: {note}; `plushwright key {} --again` does", shown(&path)))?;
-                }
-                Note::Key(_) => (),
-            }
-        }
+        let notes: Vec<String> = rigged.notes.iter().filter_map(|note| in_words(note, &path)).collect();
+        self.tell(out, &design, &path, &told, rigged.interrupted, notes)?;
         words::balanced(rigged.notes.iter().filter_map(|note| match note {
-            Note::Key(key::Note::Unbalanced(unbalanced)) => Some(unbalanced),
+            Note::Unbalanced(unbalanced) => Some(unbalanced),
             Note::AtRest { .. } | Note::Coarse => None,
         }))?;
         if rigged.interrupted { Err(interrupted(&path, &told, !told.errors.is_empty())) } else { Ok(()) }
@@ -242,16 +234,18 @@ impl Rig {
         path: &Path,
         told: &Told,
         interrupted: bool,
+        notes: Vec<String>,
     ) -> Result<(), CommandError> {
         let tendons: usize = design.networks.iter().map(|n| n.tendons.len()).sum();
         let (winches, path) = (design.networks.len(), shown(path));
         if self.json {
             let pose = |(name, error): &(String, f64)| PoseError { name: name.clone(), error_realizable: *error };
             let poses = told.errors.iter().map(pose).collect();
-            return say_json(out, FORMAT, &Summary { design: path, winches, tendons, interrupted, poses });
+            return say_json(out, FORMAT, &Summary { design: path, winches, tendons, interrupted, poses, notes });
         }
         let ended = if interrupted { ", the best so far" } else { "" };
-        say(out, &format!("{path}: {}{ended}", words::built(winches, tendons)))
+        say(out, &format!("{path}: {}{ended}", words::built(winches, tendons)))?;
+        notes.iter().try_for_each(|note| say(out, &format!("note: {note}")))
     }
 }
 
@@ -291,7 +285,7 @@ impl Rig {
         edit.save_found(&design)?;
         printed?;
         files.tell(&points, out, cancel)?;
-        self.tell(out, &design, self.target.path(&self.design), &Told::default(), false)
+        self.tell(out, &design, self.target.path(&self.design), &Told::default(), false, Vec::new())
     }
 }
 
@@ -320,6 +314,15 @@ impl Rig {
     }
 }
 
+/// A note as it is told with the rig, and what to do; a pose that does not balance is told by itself.
+fn in_words(note: &Note, path: &Path) -> Option<String> {
+    match note {
+        Note::AtRest { .. } => Some(note.to_string()),
+        Note::Coarse => Some(format!("{note}; `plushwright key {} --again` does", shown(path))),
+        Note::Unbalanced(_) => None,
+    }
+}
+
 /// What an interrupted search leaves, and how to go on.
 fn interrupted(path: &Path, told: &Told, checked: bool) -> CommandError {
     let path = shown(path);
@@ -340,7 +343,7 @@ pub fn failed(path: &Path, error: Error) -> CommandError {
             CommandError::input(path, format!("{error}; {advice}"))
         }
         Error::Rig(_) => CommandError::input(path, error),
-        Error::Key(_) | Error::Edit(_) => CommandError::Failed(error.to_string()),
+        Error::Edit(_) => CommandError::Failed(error.to_string()),
         Error::Cancelled(_) => CommandError::Cancelled,
     }
 }

@@ -61,14 +61,17 @@ impl Unbalanced {
     /// Those of the two plushies, idealized first, that are off equilibrium.
     pub(super) fn of(place: &str, [idealized, realizable]: &[Shape; 2]) -> Vec<Self> {
         let views = [(View::Idealized, idealized), (View::Realizable, realizable)];
-        let off = views.into_iter().filter(|(_, shape)| !shape.converged);
-        off.map(|(view, shape)| Self {
-            place: place.to_owned(),
-            view,
-            distance: shape.distance_from_equilibrium(),
-            why: shape.warning.clone(),
-        })
-        .collect()
+        views.into_iter().filter_map(|(view, shape)| Self::seen(place, view, shape)).collect()
+    }
+
+    /// The realizable plushie, where it is off equilibrium.
+    pub(super) fn realizable(place: &str, shape: &Shape) -> Option<Self> {
+        Self::seen(place, View::Realizable, shape)
+    }
+
+    fn seen(place: &str, view: View, shape: &Shape) -> Option<Self> {
+        let (distance, why) = (shape.distance_from_equilibrium(), shape.warning.clone());
+        (!shape.converged).then(|| Self { place: place.to_owned(), view, distance, why })
     }
 }
 

@@ -1,13 +1,12 @@
 //! Winches and tendons for all poses, and the poses on a timeline where there is none.
 
-use super::key::{self, Keyed};
-use super::{Cancelled, Context, Progress};
+use super::{Cancelled, Context, Progress, Unbalanced};
 use crate::defaults;
 use crate::design::edit::{self, EditError};
 use crate::design::{CopyOnWrite, Design, Easing, Keyframe, Network};
 use crate::mesh::Mesh;
 use crate::motion;
-use crate::rigging::{self, Found, RigError};
+use crate::rigging::{self, Found, RigError, Wound};
 use std::fmt;
 
 pub use crate::rigging::{Method, RigOptions as Options, TendonChoice, Trims};
@@ -17,8 +16,6 @@ pub use crate::rigging::{Method, RigOptions as Options, TendonChoice, Trims};
 pub enum Error {
     #[error(transparent)]
     Rig(RigError),
-    #[error(transparent)]
-    Key(key::Error),
     #[error(transparent)]
     Edit(#[from] EditError),
     #[error(transparent)]
@@ -34,20 +31,11 @@ impl From<RigError> for Error {
     }
 }
 
-impl From<key::Error> for Error {
-    fn from(error: key::Error) -> Self {
-        match error {
-            key::Error::Cancelled(cancelled) => Self::Cancelled(cancelled),
-            error => Self::Key(error),
-        }
-    }
-}
-
 /// A note for the rig's maker.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Note {
-    /// About a keyframe of the timeline that was laid out.
-    Key(key::Note),
+    /// What a keyframe winds is the best that was found.
+    Unbalanced(Unbalanced),
     /// This keyframe was set by hand for winches that are gone: it is at rest now.
     AtRest { time_s: f64 },
     /// Keyframes of poses wind what a search that was told to stop did on a coarser mesh.
@@ -57,7 +45,7 @@ pub enum Note {
 impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
-            Self::Key(key::Note::Unbalanced(unbalanced)) => unbalanced.fmt(f),
+            Self::Unbalanced(unbalanced) => unbalanced.fmt(f),
             Self::Coarse => f.write_str(
                 "the search was stopped on a coarser mesh, so keyframes come only near their poses until they are worked out again",
             ),
@@ -78,8 +66,8 @@ pub struct Rigged {
     /// The timeline, where the design had none.
     pub keyframes: Vec<Keyframe>,
     pub notes: Vec<Note>,
-    /// Whether the search was told to stop, and this is the best that it had by then. Keyframes wind what the search did where they were not
-    /// solved any more.
+    /// Whether the search was told to stop, and this is the best that it had by then. Keyframes wind what the search did: nothing
+    /// was checked.
     pub interrupted: bool,
     /// Whether the networks replace those that are there.
     fresh: bool,
@@ -100,24 +88,28 @@ pub fn prepare(design: &Design, options: &Options, context: &mut Context) -> Res
     let acting = design.acting();
     let bare = options.fresh.then(|| without_networks(design));
     let from = bare.as_ref().unwrap_or(&acting);
-    let Found { design: mut rigged, wound_mm, coarse } = rigging::rig(from, options, &mut progress, cancel)?;
-    let winding = Winding { wound_mm: if options.keep { &wound_mm } else { &[] }, context: &Context::new(cancel) };
-    let mut notes = if rigged.keyframes.is_empty() {
-        lay_out(&mut rigged, &winding)?
+    let Found { design: mut rigged, wound, interrupted, coarse } = rigging::rig(from, options, &mut progress, cancel)?;
+    if !options.keep {
+        context.check()?;
+    }
+    let mut notes = Vec::new();
+    let replaced = design.keyframes.is_empty() || options.fresh;
+    if rigged.keyframes.is_empty() {
+        lay_out(&mut rigged, &wound)?;
     } else if options.fresh {
-        key_again(&mut rigged, &design.keyframes, &winding)?
-    } else {
-        Vec::new()
-    };
-    let interrupted = winding.context.check().is_err();
-    if interrupted && !options.keep {
-        return Err(Cancelled.into());
+        notes = key_again(&mut rigged, &design.keyframes, &wound);
+    }
+    if replaced {
+        let keyed =
+            |wound: &&Wound| rigged.keyframes.iter().any(|keyframe| keyframe.pose.as_ref() == Some(&wound.pose));
+        let keyed: Vec<&Wound> = wound.iter().filter(keyed).collect();
+        let shapes = keyed.iter().filter_map(|wound| Some((&wound.pose, wound.checked.as_ref()?)));
+        notes.extend(shapes.filter_map(|(pose, shape)| Unbalanced::realizable(pose, shape)).map(Note::Unbalanced));
+        if coarse && !keyed.is_empty() {
+            notes.push(Note::Coarse);
+        }
     }
     let networks = rigged.networks.split_off(from.networks.len());
-    let replaced = design.keyframes.is_empty() || options.fresh;
-    if coarse && replaced && rigged.keyframes.iter().any(|keyframe| keyframe.pose.is_some()) {
-        notes.push(Note::Coarse);
-    }
     let mut keyframes = if replaced { rigged.keyframes } else { Vec::new() };
     if !options.fresh {
         keyframes.iter_mut().for_each(|keyframe| keyframe.activations_mm = design.of_all(&keyframe.activations_mm));
@@ -134,57 +126,28 @@ fn without_networks(design: &Design) -> Design {
     bare
 }
 
-/// What winches wind in a pose: solved for, or, once that is told to stop, as the search had it.
-struct Winding<'a> {
-    wound_mm: &'a [(String, Vec<f64>)],
-    context: &'a Context<'a>,
-}
-
-impl Winding<'_> {
-    fn keyed(&self, design: &Design, pose: Option<&String>, time_s: f64) -> Result<Keyed, Error> {
-        let options = key::Options { pose: pose.cloned(), time_s, easing: Easing::default() };
-        let solved = match (self.context.check(), pose) {
-            (Err(cancelled), Some(_)) => Err(cancelled.into()),
-            _ => key::prepare(design, &options, self.context),
-        };
-        let known = || self.wound_mm.iter().find(|(name, _)| Some(name) == pose);
-        match solved {
-            Err(key::Error::Cancelled(cancelled)) => {
-                let activations_mm = known().ok_or(cancelled)?.1.clone();
-                let keyframe = Keyframe { time_s, activations_mm, pose: options.pose, easing: options.easing };
-                Ok(Keyed { keyframe, notes: Vec::new() })
-            }
-            solved => Ok(solved?),
-        }
-    }
-}
-
 /// Every keyframe of a pose anew for the present winches; the others are at rest.
-fn key_again(design: &mut Design, before: &[Keyframe], winding: &Winding) -> Result<Vec<Note>, Error> {
-    let by_hand = before.iter().filter(|k| k.pose.is_none() && k.activations_mm.iter().any(|a| *a != 0.0));
-    let mut notes: Vec<Note> = by_hand.map(|k| Note::AtRest { time_s: k.time_s }).collect();
-    for pose in key::on_timeline(design) {
-        let keyed = winding.keyed(design, Some(&pose), 0.0)?;
-        for keyframe in design.keyframes.iter_mut().filter(|keyframe| keyframe.pose.as_ref() == Some(&pose)) {
-            keyframe.activations_mm.clone_from(&keyed.keyframe.activations_mm);
+fn key_again(design: &mut Design, before: &[Keyframe], wound: &[Wound]) -> Vec<Note> {
+    for Wound { pose, activations_mm, .. } in wound {
+        for keyframe in design.keyframes.iter_mut().filter(|keyframe| keyframe.pose.as_ref() == Some(pose)) {
+            keyframe.activations_mm.clone_from(activations_mm);
         }
-        notes.extend(keyed.notes.into_iter().map(Note::Key));
     }
-    Ok(notes)
+    let by_hand = before.iter().filter(|k| k.pose.is_none() && k.activations_mm.iter().any(|a| *a != 0.0));
+    by_hand.map(|k| Note::AtRest { time_s: k.time_s }).collect()
 }
 
 /// Lays the poses on the timeline, [`defaults::KEYFRAME_SPACING_S`] apart or as far as the motors need, with rest at both ends.
-fn lay_out(design: &mut Design, winding: &Winding) -> Result<Vec<Note>, Error> {
-    let names: Vec<String> = design.poses.iter().filter(|p| !p.targets.is_empty()).map(|p| p.name.clone()).collect();
-    let stops = std::iter::once(None).chain(names.iter().map(Some)).chain([None]);
-    let mut notes = Vec::new();
-    for (index, pose) in stops.enumerate() {
-        let keyed = winding.keyed(design, pose, index as f64 * defaults::KEYFRAME_SPACING_S)?;
-        keyed.clone().apply(design)?;
-        notes.extend(keyed.notes.into_iter().map(Note::Key));
+fn lay_out(design: &mut Design, wound: &[Wound]) -> Result<(), EditError> {
+    let at_rest = (None, vec![0.0; design.networks.len()]);
+    let poses = wound.iter().map(|wound| (Some(wound.pose.clone()), wound.activations_mm.clone()));
+    let stops = std::iter::once(at_rest.clone()).chain(poses).chain([at_rest]);
+    for (index, (pose, activations_mm)) in stops.enumerate() {
+        let time_s = index as f64 * defaults::KEYFRAME_SPACING_S;
+        edit::set_keyframe(design, Keyframe { time_s, activations_mm, pose, easing: Easing::default() })?;
     }
     space_out(design);
-    Ok(notes)
+    Ok(())
 }
 
 /// Moves keyframes apart until motors can follow, to tenths of a second.
@@ -278,6 +241,28 @@ mod tests {
         assert_eq!(design.networks.len(), 3);
         assert!(design.keyframes.iter().all(|keyframe| keyframe.activations_mm.len() == 3));
         assert!(rigged.is_stale(&design));
+    }
+
+    #[test]
+    fn keyframes_wind_what_their_poses_were_found_with() {
+        let mut design = testing::sample();
+        let pose = design.poses[0].name.clone();
+        let found = [Wound { pose: pose.clone(), activations_mm: vec![3.0, 5.0], checked: None }];
+        let windings = |design: &Design| -> Vec<(Option<String>, Vec<f64>)> {
+            design.keyframes.iter().map(|k| (k.pose.clone(), k.activations_mm.clone())).collect()
+        };
+        design.keyframes.clear();
+        lay_out(&mut design, &found).unwrap();
+        let rest = (None, vec![0.0; 2]);
+        assert_eq!(windings(&design), [rest.clone(), (Some(pose.clone()), vec![3.0, 5.0]), rest.clone()]);
+        assert!(design.keyframes.windows(2).all(|k| k[1].time_s >= k[0].time_s + defaults::KEYFRAME_SPACING_S));
+        // Anew, for other winches: the one that was set by hand is told, and rests.
+        let mut before = design.clone();
+        before.keyframes[2].activations_mm = vec![1.0, 0.0];
+        design.keyframes[1].activations_mm = vec![0.0; 2];
+        let notes = key_again(&mut design, &before.keyframes, &found);
+        assert_eq!(notes, [Note::AtRest { time_s: before.keyframes[2].time_s }]);
+        assert_eq!(windings(&design), [rest.clone(), (Some(pose), vec![3.0, 5.0]), rest]);
     }
 
     #[test]

@@ -1,13 +1,14 @@
 //! The design loop of the paper without a hand: winch by winch, solve, discover, try out, accept (section 3).
 
 use super::candidate::{Baseline, Candidate, with_network};
+use super::checked::Checked;
 use super::generators::candidates;
-use super::options::{Found, Progress, RigError, RigOptions, TendonChoice};
+use super::options::{Found, Progress, RigError, RigOptions, TendonChoice, Wound};
 use super::rank::rank;
 use super::trial::{Reached, Scrutiny, Trial};
 use crate::design::{Design, Target};
 use crate::discovery::Parameters;
-use crate::engine::target_error;
+use crate::engine::{Shape, target_error};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A pose served better than this part of its rest error needs no further winch of its own.
@@ -66,8 +67,18 @@ pub(super) fn rig(
         return Err(RigError::NothingFound);
     }
     widen_keyframes(&mut current);
-    let wound_mm = poses.into_iter().zip(reached).map(|((name, _), reached)| (name, reached.posture.beta)).collect();
-    Ok(Found { design: current, wound_mm, coarse: false })
+    let checked: Vec<Shape> =
+        poses.iter().map(|(_, targets)| Checked::of(&current, targets, 0.0, cancel).shape).collect();
+    let interrupted = cancel.load(Ordering::Relaxed);
+    let wound: Vec<Wound> = if interrupted {
+        let reached = poses.into_iter().zip(reached);
+        reached
+            .map(|((pose, _), reached)| Wound { pose, activations_mm: reached.posture.beta, checked: None })
+            .collect()
+    } else {
+        poses.into_iter().zip(checked).map(|((pose, _), shape)| Wound::checked(pose, shape)).collect()
+    };
+    Ok(Found { design: current, wound, interrupted, coarse: false })
 }
 
 /// What the present networks reach in every pose when they are wound from rest; `known`: what was reached so far.

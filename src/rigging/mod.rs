@@ -49,7 +49,7 @@ mod trial;
 
 pub use candidate::{Baseline, Candidate, with_network};
 pub use checked::Checked;
-pub use options::{BadTendons, Found, Method, Progress, RigError, RigOptions, TendonChoice, Trims};
+pub use options::{BadTendons, Found, Method, Progress, RigError, RigOptions, TendonChoice, Trims, Wound};
 pub use propose::{PoseServed, Proposal, ProposeOptions, propose};
 pub use robust::{Sewn, sewn};
 pub use search::rig;

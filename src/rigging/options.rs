@@ -3,6 +3,7 @@
 use super::robust::Sewn;
 use crate::defaults;
 use crate::design::Design;
+use crate::engine::Shape;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
@@ -140,10 +141,28 @@ pub enum Progress {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {
     pub design: Design,
-    /// What every winch winds in each pose, by the pose's name: as a check has it, or, of a search that was told to stop, as the search has it.
-    pub wound_mm: Vec<(String, Vec<f64>)>,
-    /// Whether that is of a coarser mesh than the design's.
+    /// Every pose that has targets.
+    pub wound: Vec<Wound>,
+    /// Whether the search was told to stop, and this is the best that it had by then.
+    pub interrupted: bool,
+    /// Whether what is wound is of a coarser mesh than the design's.
     pub coarse: bool,
+}
+
+/// What the winches wind in a pose.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wound {
+    /// Its name.
+    pub pose: String,
+    pub activations_mm: Vec<f64>,
+    /// The realizable plushie there, as a check has it; a search that was told to stop checks nothing.
+    pub checked: Option<Shape>,
+}
+
+impl Wound {
+    pub(super) fn checked(pose: String, shape: Shape) -> Self {
+        Self { pose, activations_mm: shape.activations_mm.clone(), checked: Some(shape) }
+    }
 }
 
 /// Why no rig was found.

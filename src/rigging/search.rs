@@ -7,7 +7,7 @@ use super::joint::Joint;
 use super::layout::{Layout, rigs_of};
 use super::linear_score::Linear;
 use super::moves::{Sampler, Topology};
-use super::options::{Found, Method, Progress, RigError, RigOptions, TendonChoice};
+use super::options::{Found, Method, Progress, RigError, RigOptions, TendonChoice, Wound};
 use super::prune::{SERVED, pruned};
 use super::refine::{Fit, SEEN, Start, Task};
 use super::robust::{self, Sewn};
@@ -15,7 +15,7 @@ use super::schedule::{Schedule, Turn};
 use super::sewable::Sewable;
 use crate::design::{Design, Network, Pose, Target, remesh};
 use crate::engine::compile::{View, compile};
-use crate::engine::target_error;
+use crate::engine::{Shape, target_error};
 use crate::mesh::{BodyPoint, Mesh, MeshSpec};
 use crate::outline::Outline;
 use crate::threads::in_order;
@@ -98,8 +98,8 @@ fn together(
     let sewn = poses.iter().filter_map(|pose| pose.sewn).collect();
     let errors = poses.iter().map(|pose| (pose.name.clone(), pose.error)).collect();
     progress(Progress::Found { winches: rigged.networks.len() - design.networks.len(), tendons, errors, sewn });
-    let wound_mm = poses.into_iter().map(|pose| (pose.name, pose.wound_mm)).collect();
-    Ok(Found { design: rigged, wound_mm, coarse: false })
+    let wound = poses.into_iter().map(|pose| Wound::checked(pose.name, pose.shape)).collect();
+    Ok(Found { design: rigged, wound, interrupted: false, coarse: false })
 }
 
 /// A layout as the search has it, in a moment.
@@ -114,12 +114,13 @@ fn unchecked(design: &Design, best: Option<&Fit>, coarse: bool) -> Result<Found,
     let with = with(design, &fit.layout, &points.ok_or(RigError::NothingFound)?);
     // A pose that rests winds nothing.
     let at_rest = vec![0.0; with.networks.len()];
-    let mut wound_mm: Vec<(String, Vec<f64>)> =
-        design.poses.iter().map(|pose| (pose.name.clone(), at_rest.clone())).collect();
-    for (&k, posture) in fit.served.iter().zip(&fit.poses) {
-        wound_mm[k].1.clone_from(&posture.beta);
-    }
-    Ok(Found { design: with, wound_mm, coarse })
+    let served = |k: usize| fit.served.iter().position(|&served| served == k).and_then(|at| fit.poses.get(at));
+    let posed = design.poses.iter().enumerate().filter(|(_, pose)| !pose.targets.is_empty());
+    let wound = posed.map(|(k, pose)| {
+        let activations_mm = served(k).map_or_else(|| at_rest.clone(), |posture| posture.beta.clone());
+        Wound { pose: pose.name.clone(), activations_mm, checked: None }
+    });
+    Ok(Found { wound: wound.collect(), design: with, interrupted: true, coarse })
 }
 
 /// The layout whose worst pose is best as a part of its error at rest: as a hand sews it where it should, with friction where the design has it; a
@@ -332,8 +333,7 @@ struct Verified {
     rest: f64,
     /// Largest pull of a winch, all its cables together, N.
     pull_n: f64,
-    /// What every winch winds.
-    wound_mm: Vec<f64>,
+    shape: Shape,
 }
 
 impl Verified {
@@ -388,7 +388,7 @@ fn verified(design: &Design, fit: &Fit, cancel: &AtomicBool) -> Candidate {
             sewn: None,
             rest,
             pull_n,
-            wound_mm: checked.shape.activations_mm,
+            shape: checked.shape,
         }
     });
     let poses = poses.collect();
@@ -405,7 +405,7 @@ mod tests {
         name.clone_into(&mut design.name);
         let pose = |&(error, pull_n): &(f64, f64)| {
             let sewn = Some(Sewn { median: error, worst: error });
-            Verified { name: "pose".into(), error, real: error, sewn, rest: 0.2, pull_n, wound_mm: Vec::new() }
+            Verified { name: "pose".into(), error, real: error, sewn, rest: 0.2, pull_n, shape: Shape::default() }
         };
         (design, poses.iter().map(pose).collect())
     }

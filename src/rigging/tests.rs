@@ -7,7 +7,7 @@ use super::linear_score::Linear;
 use super::moves::{Sampler, Topology};
 use super::refine::{Fit, Task};
 use super::sewable::Sewable;
-use super::{RigOptions, TendonChoice, rig};
+use super::{Found, RigOptions, TendonChoice, rig};
 use crate::design::{Design, Pin, Pose, Target};
 use crate::engine::{Setpoint, solve_once, target_error};
 use crate::mesh::{self, BodyPoint};
@@ -112,12 +112,15 @@ fn a_rig_names_its_winches_and_what_a_check_would_say() {
             told = Some(errors);
         }
     };
-    let rigged = rig(&design, &options, &mut progress, &go).unwrap().design;
+    let Found { design: rigged, wound, interrupted, coarse } = rig(&design, &options, &mut progress, &go).unwrap();
     rigged.validate().unwrap();
-    for (pose, (name, error)) in rigged.poses.iter().zip(told.unwrap()) {
+    assert!(!interrupted && !coarse && wound.len() == rigged.poses.len());
+    for ((pose, (name, error)), wound) in rigged.poses.iter().zip(told.unwrap()).zip(wound) {
         let setpoint = Setpoint::Targets(pose.targets.clone());
         let shape = solve_once(&rigged, setpoint, [false, true], &go).realizable.unwrap();
         assert_eq!((&pose.name, shape.target_error.to_bits()), (&name, error.to_bits()));
+        assert_eq!((&pose.name, &shape.activations_mm), (&wound.pose, &wound.activations_mm));
+        assert_eq!(wound.checked.unwrap().activations_mm, wound.activations_mm);
     }
     let stopped = rig(&design, &options, &mut |_| (), &AtomicBool::new(true));
     assert_eq!(stopped, Err(super::RigError::Cancelled));
@@ -154,9 +157,11 @@ fn a_search_that_is_told_to_stop_ends_with_the_best_so_far_where_that_is_asked_f
     kept.design.validate().unwrap();
     assert_eq!(kept.design.networks.len(), 1);
     // What it winds brings every pose nearer.
-    let (go, names) = (AtomicBool::new(false), kept.wound_mm.iter().map(|(name, _)| name));
+    let (go, names) = (AtomicBool::new(false), kept.wound.iter().map(|wound| &wound.pose));
     assert!(names.eq(design.poses.iter().map(|pose| &pose.name)));
-    for (pose, (_, wound_mm)) in kept.design.poses.iter().zip(&kept.wound_mm) {
+    assert!(kept.interrupted && kept.wound.iter().all(|wound| wound.checked.is_none()));
+    for (pose, wound) in kept.design.poses.iter().zip(&kept.wound) {
+        let wound_mm = &wound.activations_mm;
         let wound = solve_once(&kept.design, Setpoint::Activations(wound_mm.clone()), [false, true], &go);
         let miss = |nodes: &[Point]| target_error(&design, &pose.targets, nodes);
         assert!(miss(&wound.realizable.unwrap().nodes) < miss(&design.mesh.nodes), "{} {wound_mm:?}", pose.name);
