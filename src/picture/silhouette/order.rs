@@ -1,11 +1,11 @@
-//! What of a body lies on top where it is folded over itself: limbs lie over the trunk, whole limbs over others.
+//! What of a body lies on top where it is folded over itself: limbs lie over the trunk, whole limbs over others, slender ones over stout ones.
 //!
 //! Distances are those of triangles through the body from where it is thickest. From the farthest triangle inward the pieces of the body
 //! that are farther than a distance grow together; where two of them meet that both reach far out, they are limbs, and what they meet in
 //! is the trunk, or a larger limb that they sprout from.
 
-use crate::outline::Point;
-use std::cmp::Reverse;
+use crate::outline::{Point, polygon};
+use std::cmp::{Ordering, Reverse};
 use std::collections::{BinaryHeap, HashMap};
 
 /// How far a limb reaches out of what it sprouts from, in parts of the greatest distance. Smaller: bumps are limbs.
@@ -17,9 +17,26 @@ struct Piece {
     farthest: f64,
     /// Those that are of no limb yet.
     triangles: Vec<usize>,
+    /// Limbs that sprout from it.
+    limbs: Vec<usize>,
 }
 
-/// The triangles in an order in which they can be painted: the trunk first, limbs after what they sprout from, each without a break.
+/// A limb, or the trunk.
+struct Limb {
+    triangles: Vec<usize>,
+    /// Those that sprout from it.
+    limbs: Vec<usize>,
+    stoutness: f64,
+}
+
+/// Limbs that can be painted next: the stoutest is the greatest.
+struct Next {
+    stoutness: f64,
+    limb: usize,
+}
+
+/// The triangles in an order in which they can be painted: the trunk first, limbs after what they sprout from, each without a break. Of limbs that
+/// could be next it is the stoutest: a leg that crosses a head crosses the neck as well, and neither is to end in the middle of it.
 pub fn ordered(rest: &[Point], triangles: Vec<[usize; 3]>, heights: &[f64]) -> Vec<[usize; 3]> {
     let beside = neighbours(&triangles);
     let distances = distances(rest, &triangles, heights, &beside);
@@ -29,10 +46,14 @@ pub fn ordered(rest: &[Point], triangles: Vec<[usize; 3]>, heights: &[f64]) -> V
     // Disjoint sets by their roots, and limbs from the tips inward.
     let mut parents: Vec<usize> = (0..triangles.len()).collect();
     let mut pieces: Vec<Option<Piece>> = vec![None; triangles.len()];
-    let mut limbs: Vec<Vec<usize>> = Vec::new();
+    let mut limbs: Vec<Limb> = Vec::new();
+    let limb = |piece: &mut Piece| {
+        let (own, limbs) = (std::mem::take(&mut piece.triangles), std::mem::take(&mut piece.limbs));
+        Limb { stoutness: own.iter().map(|&t| stoutness(rest, triangles[t], heights)).sum(), triangles: own, limbs }
+    };
     for &here in &inward {
         let at = distances[here];
-        pieces[here] = Some(Piece { farthest: at, triangles: vec![here] });
+        pieces[here] = Some(Piece { farthest: at, triangles: vec![here], limbs: Vec::new() });
         for &other in &beside[here] {
             let (own, other) = (root(&mut parents, here), root(&mut parents, other));
             if own == other || pieces[other].is_none() {
@@ -40,21 +61,56 @@ pub fn ordered(rest: &[Point], triangles: Vec<[usize; 3]>, heights: &[f64]) -> V
             }
             let (Some(mut a), Some(mut b)) = (pieces[own].take(), pieces[other].take()) else { continue };
             if a.farthest.min(b.farthest) - at > LEAST_REACH * most {
-                limbs.extend([std::mem::take(&mut a.triangles), std::mem::take(&mut b.triangles)]);
+                for piece in [&mut a, &mut b] {
+                    limbs.push(limb(piece));
+                    piece.limbs.push(limbs.len() - 1);
+                }
             }
             a.triangles.append(&mut b.triangles);
+            a.limbs.append(&mut b.limbs);
             parents[other] = own;
-            pieces[own] = Some(Piece { farthest: a.farthest.max(b.farthest), triangles: a.triangles });
+            pieces[own] = Some(Piece { farthest: a.farthest.max(b.farthest), ..a });
         }
     }
-    let trunk = pieces.into_iter().flatten().map(|piece| piece.triangles);
-    let groups = trunk.chain(limbs.into_iter().rev());
-    groups
-        .flat_map(|mut group| {
+    let mut painted = Vec::with_capacity(triangles.len());
+    for mut trunk in pieces.into_iter().flatten() {
+        limbs.push(limb(&mut trunk));
+        let mut next = BinaryHeap::from([Next { stoutness: f64::INFINITY, limb: limbs.len() - 1 }]);
+        while let Some(Next { limb, .. }) = next.pop() {
+            let Limb { triangles: group, limbs: sprouting, .. } = &mut limbs[limb];
             group.sort_unstable();
-            group.into_iter().map(|t| triangles[t]).collect::<Vec<_>>()
-        })
-        .collect()
+            painted.extend(group.iter().map(|&t| triangles[t]));
+            let sprouting = std::mem::take(sprouting);
+            next.extend(sprouting.into_iter().map(|limb| Next { stoutness: limbs[limb].stoutness, limb }));
+        }
+    }
+    painted
+}
+
+impl Ord for Next {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.stoutness.total_cmp(&other.stoutness).then(self.limb.cmp(&other.limb))
+    }
+}
+
+impl PartialOrd for Next {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Next {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Next {}
+
+/// Its area by the mean of what tells how thick the body is there: a sum over a limb's triangles tells limbs apart.
+fn stoutness(rest: &[Point], triangle: [usize; 3], heights: &[f64]) -> f64 {
+    let area = polygon::signed_area(&triangle.map(|n| rest[n])).abs();
+    area * triangle.iter().map(|&n| heights[n]).sum::<f64>() / 3.0
 }
 
 /// The root of a set; the way there is halved.
@@ -166,6 +222,24 @@ mod tests {
             assert!(trunk.iter().all(|t| limb.iter().all(|l| l > t)), "{trunk:?} {limb:?}");
             let (first, last) = (limb.iter().min().unwrap(), limb.iter().max().unwrap());
             assert!(last - first < limb.len() + 4, "without a break: {limb:?}");
+        }
+    }
+
+    #[test]
+    fn slender_limbs_are_painted_after_stout_ones() {
+        // Two arms, one thrice as wide, whichever side it is on.
+        let rows = ["aaa  b", "aaa  b", "aaa  b", "aaa  b", "tttttt", "tttttt", "tttttt"];
+        let turned: Vec<String> = rows.iter().map(|row| row.chars().rev().collect()).collect();
+        let turned: Vec<&str> = turned.iter().map(String::as_str).collect();
+        for rows in [&rows[..], &turned] {
+            let (rest, triangles, letters) = body(rows);
+            let heights: Vec<f64> = rest.iter().map(|p| 1e4 - (p[0] - 30.0).powi(2) - (p[1] + 70.0).powi(2)).collect();
+            let painted = ordered(&rest, triangles.clone(), &heights);
+            let tips = |letter: char| -> Vec<usize> {
+                let at_tip = letters.iter().filter(|(of, t)| *of == letter && rest[triangles[*t][0]][1] > -15.0);
+                at_tip.map(|(_, t)| painted.iter().position(|of| *of == triangles[*t]).unwrap()).collect()
+            };
+            assert!(tips('a').iter().max() < tips('b').iter().min(), "{:?} {:?}", tips('a'), tips('b'));
         }
     }
 
