@@ -88,7 +88,9 @@ pub fn prepare(design: &Design, options: &Options, context: &mut Context) -> Res
     let acting = design.acting();
     let bare = options.fresh.then(|| without_networks(design));
     let from = bare.as_ref().unwrap_or(&acting);
-    let Found { design: mut rigged, wound, interrupted, coarse } = rigging::rig(from, options, &mut progress, cancel)?;
+    let found = rigging::rig(from, options, &mut progress, cancel)?;
+    let interrupted = found.is_interrupted();
+    let Found { design: mut rigged, wound, coarse } = found;
     if !options.keep {
         context.check()?;
     }

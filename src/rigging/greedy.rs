@@ -8,7 +8,8 @@ use super::rank::rank;
 use super::trial::{Reached, Scrutiny, Trial};
 use crate::design::{Design, Target};
 use crate::discovery::Parameters;
-use crate::engine::{Shape, target_error};
+use crate::engine::target_error;
+use crate::threads::in_order;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A pose served better than this part of its rest error needs no further winch of its own.
@@ -67,10 +68,10 @@ pub(super) fn rig(
         return Err(RigError::NothingFound);
     }
     widen_keyframes(&mut current);
-    let checked: Vec<Shape> =
-        poses.iter().map(|(_, targets)| Checked::of(&current, targets, 0.0, cancel).shape).collect();
-    let interrupted = cancel.load(Ordering::Relaxed);
-    let wound: Vec<Wound> = if interrupted {
+    let stopped = || cancel.load(Ordering::Relaxed);
+    let check = |(_, targets): &(String, Vec<Target>)| Checked::of(&current, targets, 0.0, cancel).shape;
+    let checked = if stopped() { Vec::new() } else { in_order(&poses, check) };
+    let wound = if stopped() {
         let reached = poses.into_iter().zip(reached);
         reached
             .map(|((pose, _), reached)| Wound { pose, activations_mm: reached.posture.beta, checked: None })
@@ -78,7 +79,7 @@ pub(super) fn rig(
     } else {
         poses.into_iter().zip(checked).map(|((pose, _), shape)| Wound::checked(pose, shape)).collect()
     };
-    Ok(Found { design: current, wound, interrupted, coarse: false })
+    Ok(Found { design: current, wound, coarse: false })
 }
 
 /// What the present networks reach in every pose when they are wound from rest; `known`: what was reached so far.

@@ -143,10 +143,15 @@ pub struct Found {
     pub design: Design,
     /// Every pose that has targets.
     pub wound: Vec<Wound>,
-    /// Whether the search was told to stop, and this is the best that it had by then.
-    pub interrupted: bool,
     /// Whether what is wound is of a coarser mesh than the design's.
     pub coarse: bool,
+}
+
+impl Found {
+    /// Whether the search was told to stop, and this is the best that it had by then: nothing was checked.
+    pub fn is_interrupted(&self) -> bool {
+        self.wound.iter().any(|wound| wound.checked.is_none())
+    }
 }
 
 /// What the winches wind in a pose.

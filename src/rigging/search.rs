@@ -99,7 +99,7 @@ fn together(
     let errors = poses.iter().map(|pose| (pose.name.clone(), pose.error)).collect();
     progress(Progress::Found { winches: rigged.networks.len() - design.networks.len(), tendons, errors, sewn });
     let wound = poses.into_iter().map(|pose| Wound::checked(pose.name, pose.shape)).collect();
-    Ok(Found { design: rigged, wound, interrupted: false, coarse: false })
+    Ok(Found { design: rigged, wound, coarse: false })
 }
 
 /// A layout as the search has it, in a moment.
@@ -120,7 +120,7 @@ fn unchecked(design: &Design, best: Option<&Fit>, coarse: bool) -> Result<Found,
         let activations_mm = served(k).map_or_else(|| at_rest.clone(), |posture| posture.beta.clone());
         Wound { pose: pose.name.clone(), activations_mm, checked: None }
     });
-    Ok(Found { wound: wound.collect(), design: with, interrupted: true, coarse })
+    Ok(Found { wound: wound.collect(), design: with, coarse })
 }
 
 /// The layout whose worst pose is best as a part of its error at rest: as a hand sews it where it should, with friction where the design has it; a

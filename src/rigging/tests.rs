@@ -112,9 +112,11 @@ fn a_rig_names_its_winches_and_what_a_check_would_say() {
             told = Some(errors);
         }
     };
-    let Found { design: rigged, wound, interrupted, coarse } = rig(&design, &options, &mut progress, &go).unwrap();
+    let found = rig(&design, &options, &mut progress, &go).unwrap();
+    assert!(!found.is_interrupted() && !found.coarse);
+    let Found { design: rigged, wound, .. } = found;
     rigged.validate().unwrap();
-    assert!(!interrupted && !coarse && wound.len() == rigged.poses.len());
+    assert_eq!(wound.len(), rigged.poses.len());
     for ((pose, (name, error)), wound) in rigged.poses.iter().zip(told.unwrap()).zip(wound) {
         let setpoint = Setpoint::Targets(pose.targets.clone());
         let shape = solve_once(&rigged, setpoint, [false, true], &go).realizable.unwrap();
@@ -159,7 +161,7 @@ fn a_search_that_is_told_to_stop_ends_with_the_best_so_far_where_that_is_asked_f
     // What it winds brings every pose nearer.
     let (go, names) = (AtomicBool::new(false), kept.wound.iter().map(|wound| &wound.pose));
     assert!(names.eq(design.poses.iter().map(|pose| &pose.name)));
-    assert!(kept.interrupted && kept.wound.iter().all(|wound| wound.checked.is_none()));
+    assert!(kept.is_interrupted());
     for (pose, wound) in kept.design.poses.iter().zip(&kept.wound) {
         let wound_mm = &wound.activations_mm;
         let wound = solve_once(&kept.design, Setpoint::Activations(wound_mm.clone()), [false, true], &go);

@@ -5,7 +5,7 @@
 //! is the trunk, or a larger limb that they sprout from.
 
 use crate::outline::{Point, polygon};
-use std::cmp::{Ordering, Reverse};
+use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap};
 
 /// How far a limb reaches out of what it sprouts from, in parts of the greatest distance. Smaller: bumps are limbs.
@@ -27,12 +27,6 @@ struct Limb {
     /// Those that sprout from it.
     limbs: Vec<usize>,
     stoutness: f64,
-}
-
-/// Limbs that can be painted next: the stoutest is the greatest.
-struct Next {
-    stoutness: f64,
-    limb: usize,
 }
 
 /// The triangles in an order in which they can be painted: the trunk first, limbs after what they sprout from, each without a break. Of limbs that
@@ -75,37 +69,18 @@ pub fn ordered(rest: &[Point], triangles: Vec<[usize; 3]>, heights: &[f64]) -> V
     let mut painted = Vec::with_capacity(triangles.len());
     for mut trunk in pieces.into_iter().flatten() {
         limbs.push(limb(&mut trunk));
-        let mut next = BinaryHeap::from([Next { stoutness: f64::INFINITY, limb: limbs.len() - 1 }]);
-        while let Some(Next { limb, .. }) = next.pop() {
+        // Stoutness is not negative: its bits are in its order.
+        let mut next = BinaryHeap::from([(0, limbs.len() - 1)]);
+        while let Some((_, limb)) = next.pop() {
             let Limb { triangles: group, limbs: sprouting, .. } = &mut limbs[limb];
             group.sort_unstable();
             painted.extend(group.iter().map(|&t| triangles[t]));
             let sprouting = std::mem::take(sprouting);
-            next.extend(sprouting.into_iter().map(|limb| Next { stoutness: limbs[limb].stoutness, limb }));
+            next.extend(sprouting.into_iter().map(|limb| (limbs[limb].stoutness.to_bits(), limb)));
         }
     }
     painted
 }
-
-impl Ord for Next {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.stoutness.total_cmp(&other.stoutness).then(self.limb.cmp(&other.limb))
-    }
-}
-
-impl PartialOrd for Next {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Next {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other).is_eq()
-    }
-}
-
-impl Eq for Next {}
 
 /// Its area by the mean of what tells how thick the body is there: a sum over a limb's triangles tells limbs apart.
 fn stoutness(rest: &[Point], triangle: [usize; 3], heights: &[f64]) -> f64 {

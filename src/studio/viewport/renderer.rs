@@ -57,8 +57,8 @@ struct Part {
     capsules: Option<wgpu::Buffer>,
 }
 
-/// A capsule is drawn as one triangle around it, not as an instance of two: software rasterisers begin anew at every instance, most of the cost of a
-/// small triangle is its set-up, and a mesh has ten thousand fibres.
+/// A capsule is drawn as one triangle around it, not as an instance of two: software rasterisers begin anew at every instance, one triangle is
+/// a quarter fewer bytes than two, and a mesh has ten thousand fibres.
 const CAPSULE_CORNERS: u32 = 3;
 
 /// `View` of the shader.
