@@ -17,8 +17,17 @@ pub struct Player<'a> {
     received: Vec<u8>,
     /// A command and its reply, s: the slowest of those that asked where winches are.
     round_trip_s: f64,
-    /// Motors may be on.
-    on: bool,
+    motors: Motors,
+}
+
+/// What the motors were last told.
+#[derive(Clone, Copy, PartialEq)]
+enum Motors {
+    Off,
+    /// They may be on, and in whatever mode: setting zero does that, and switching on that broke off.
+    Unsure,
+    /// They are on and wait for moves.
+    Ready,
 }
 
 /// What a player is doing.
@@ -69,7 +78,7 @@ impl<'a> Player<'a> {
     /// # Errors
     /// [`LiveError`]: nobody answers.
     pub fn found(stream: &'a dyn Stream, link: &'a mut dyn Link, cancel: &'a AtomicBool) -> Result<Self, LiveError> {
-        let mut player = Self { stream, link, cancel, received: Vec::new(), round_trip_s: 0.0, on: false };
+        let mut player = Self { stream, link, cancel, received: Vec::new(), round_trip_s: 0.0, motors: Motors::Off };
         player.guard(|player| {
             for command in player.stream.wake() {
                 player.put(&command)?;
@@ -103,7 +112,7 @@ impl<'a> Player<'a> {
     pub fn set_zero(&mut self) -> Result<(), LiveError> {
         self.guard(|player| {
             // Some families find zero with their motors on.
-            player.on = true;
+            player.motors = Motors::Unsure;
             player.tell_all(player.stream.setup())
         })
     }
@@ -161,7 +170,7 @@ impl<'a> Player<'a> {
 
     /// Switches all motors off at once.
     pub fn halt(&mut self) -> End {
-        self.on = false;
+        self.motors = Motors::Off;
         // What is still to come belongs to commands before.
         let _ = self.quiet();
         self.received.clear();
@@ -186,7 +195,7 @@ impl<'a> Player<'a> {
     /// Does something; what goes wrong ends with motors off.
     fn guard<T>(&mut self, what: impl FnOnce(&mut Self) -> Result<T, Cause>) -> Result<T, LiveError> {
         what(self).map_err(|cause| {
-            let end = if self.on { self.halt() } else { End::Off };
+            let end = if self.motors == Motors::Off { End::Off } else { self.halt() };
             LiveError { cause, end }
         })
     }
@@ -251,8 +260,9 @@ impl<'a> Player<'a> {
     fn uncancelled(&mut self, command: &str, patience_s: f64) -> Result<(), Cause> {
         let never = AtomicBool::new(false);
         let (stream, received) = (self.stream, Vec::new());
-        let reply = Player { stream, link: &mut *self.link, cancel: &never, received, round_trip_s: 0.0, on: false }
-            .exchange(command, patience_s)?;
+        let reply =
+            Player { stream, link: &mut *self.link, cancel: &never, received, round_trip_s: 0.0, motors: Motors::Off }
+                .exchange(command, patience_s)?;
         self.stream.taken(command, &reply).map_err(|reply| self.refused(command, reply))
     }
 
@@ -292,13 +302,15 @@ impl<'a> Player<'a> {
     }
 
     fn switch_on(&mut self) -> Result<(), Cause> {
-        self.on = true;
-        self.tell_all(self.stream.ready())
+        self.motors = Motors::Unsure;
+        self.tell_all(self.stream.ready())?;
+        self.motors = Motors::Ready;
+        Ok(())
     }
 
     fn rest(&mut self) -> Result<(), Cause> {
         self.tell_all(self.stream.off())?;
-        self.on = false;
+        self.motors = Motors::Off;
         Ok(())
     }
 
@@ -377,7 +389,7 @@ impl<'a> Player<'a> {
             }
         }
         let speed = machine.gently().speed;
-        if !self.on {
+        if self.motors != Motors::Ready {
             self.switch_on()?;
         }
         let longest = from_mm.iter().zip(to_mm).map(|(from, to)| (to - from).abs()).fold(0.0, f64::max);
@@ -401,7 +413,7 @@ impl<'a> Player<'a> {
 
 impl Drop for Player<'_> {
     fn drop(&mut self) {
-        if self.on {
+        if self.motors != Motors::Off {
             self.halt();
         }
     }

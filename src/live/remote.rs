@@ -4,13 +4,14 @@ use super::error::{Cause, End, LiveError};
 use super::link::Link;
 use super::player::{Player, Stage};
 use crate::motion::{MotionError, Plan, Stream};
+use std::collections::VecDeque;
 use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-/// What to do next; the newest order is obeyed when the one before is done.
+/// What to do next: begun when the one before is done. See [`Remote::order`] for what takes the place of what.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Order {
     /// Here is zero: only at rest, with cables just slack.
@@ -62,7 +63,7 @@ pub struct Motion {
 }
 
 struct Shared {
-    order: Mutex<Option<Order>>,
+    orders: Mutex<VecDeque<Order>>,
     come: Condvar,
     status: Mutex<Status>,
     cancel: AtomicBool,
@@ -79,7 +80,7 @@ impl Remote {
     /// Opens a line and waits for orders. `wake` is called when the status has changed.
     pub fn start(open: Open, stream: Box<dyn Stream>, motion: Motion, wake: impl Fn() + Send + Sync + 'static) -> Self {
         let shared = Arc::new(Shared {
-            order: Mutex::new(None),
+            orders: Mutex::default(),
             come: Condvar::new(),
             status: Mutex::new(Status::Connecting),
             cancel: AtomicBool::new(false),
@@ -92,9 +93,10 @@ impl Remote {
         Self { shared, threads: vec![player, watcher] }
     }
 
-    /// Gives an order in the place of one that is not yet begun.
+    /// Gives an order, in the place of the last one that is not yet begun; but a zero that is to be set is never passed over, as all lengths after it
+    /// count from there.
     pub fn order(&self, order: Order) {
-        *held(&self.shared.order) = Some(order);
+        line_up(&mut held(&self.shared.orders), order);
         self.shared.come.notify_all();
     }
 
@@ -194,16 +196,26 @@ impl Shared {
 
     /// The next order; none when it is to stop.
     fn next(&self) -> Option<Order> {
-        let mut order = held(&self.order);
+        let mut orders = held(&self.orders);
         loop {
             if self.cancel.load(Ordering::SeqCst) {
                 return None;
             }
-            if let Some(order) = order.take() {
+            if let Some(order) = orders.pop_front() {
                 return Some(order);
             }
-            order = self.come.wait_timeout(order, LOOK).unwrap_or_else(PoisonError::into_inner).0;
+            orders = self.come.wait_timeout(orders, LOOK).unwrap_or_else(PoisonError::into_inner).0;
         }
+    }
+}
+
+/// Takes an order into those that wait: at most a zero to be set, and one behind it.
+fn line_up(waiting: &mut VecDeque<Order>, order: Order) {
+    if waiting.back().is_some_and(|last| *last != Order::SetZero) {
+        waiting.pop_back();
+    }
+    if waiting.back() != Some(&order) {
+        waiting.push_back(order);
     }
 }
 
@@ -219,4 +231,23 @@ impl From<Stage> for Status {
 /// What a thread that broke has held is still whole.
 fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_newest_order_waits_but_a_zero_is_never_passed_over() {
+        let wind = |mm: f64| Order::Wind(vec![mm]);
+        let waiting = |orders: &[Order]| {
+            let mut waiting = VecDeque::new();
+            orders.iter().for_each(|order| line_up(&mut waiting, order.clone()));
+            Vec::from(waiting)
+        };
+        assert_eq!(waiting(&[wind(1.0), Order::Play, wind(2.0)]), [wind(2.0)]);
+        let zero = Order::SetZero;
+        assert_eq!(waiting(&[wind(1.0), zero.clone(), zero.clone(), wind(2.0), wind(3.0)]), [zero.clone(), wind(3.0)]);
+        assert_eq!(waiting(&[zero.clone(), wind(1.0), zero.clone()]), [zero.clone()]);
+    }
 }

@@ -171,6 +171,24 @@ fn a_winch_beyond_its_travel_is_refused_before_anything_moves() {
     }
 }
 
+#[test]
+fn after_zero_was_set_a_winch_is_wound_by_hand_with_every_family() {
+    let design = waving(1, 2.0);
+    for family in families::streams() {
+        let (stream, _) = spoken(&design, family);
+        let mut link = SimulatedLink::new(Simulation::of(family, 3));
+        let mut player = Player::found(&*stream, &mut link, &GO_ON).expect("found");
+        player.set_zero().expect("set");
+        player.wind(&[0.0; 3], &[2.0, 1.0, 0.5]).expect(family.name);
+        player.hold(10.0).expect("there");
+        drop(player);
+        let scale = units_per_mm(&*stream, family);
+        for (farthest, most) in link.simulation().farthest().iter().zip([2.0, 1.0, 0.5]) {
+            assert!((farthest / scale - most).abs() < 0.3, "{}: {farthest} of {most} mm", family.name);
+        }
+    }
+}
+
 /// A line to a simulation behind a lock, in real time.
 fn remote(design: &Design, family: &'static Family) -> Remote {
     let (stream, plan) = spoken(design, family);
