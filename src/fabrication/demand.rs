@@ -30,14 +30,14 @@ pub struct Demand {
 }
 
 /// The demands of all winches over their motion, friction at the holes included: `e^(mu theta)` times the tension behind a cable's turns theta
-/// (capstan equation), with the design's mu, or that of new designs where it has none.
-pub fn demands(design: &Design, trajectory: &Trajectory) -> Vec<Demand> {
+/// (capstan equation), with the design's mu, or that of new designs where it has none. Cancelled, those of some keyframes are left out.
+pub fn demands(design: &Design, trajectory: &Trajectory, cancel: &AtomicBool) -> Vec<Demand> {
     let mu = if design.tendons.friction > 0.0 { design.tendons.friction } else { defaults::NEW_FRICTION };
     let tendons = || design.networks.iter().flat_map(|network| &network.tendons);
     let rub: Vec<f64> = tendons().map(|t| (mu * turning(&points(design, t)).to_radians()).exp()).collect();
     let mut all = vec![Demand::default(); design.networks.len()];
     for activations in wound(design) {
-        let outcome = solve_once(design, Setpoint::Activations(activations), [false, true], &AtomicBool::new(false));
+        let outcome = solve_once(design, Setpoint::Activations(activations), [false, true], cancel);
         let Some(shape) = outcome.realizable else { continue };
         let pulled: Vec<f64> = shape.tendon_tensions.iter().zip(&rub).map(|(t, r)| t * r).collect();
         for (demand, load) in all.iter_mut().zip(winch_loads(design, &pulled)) {

@@ -13,6 +13,7 @@ use super::table::Table;
 use crate::design::Design;
 use crate::motion::{Program, Trajectory};
 use std::cell::OnceCell;
+use std::sync::atomic::AtomicBool;
 
 /// A product by its name: that of its files, without an extension.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,7 +85,7 @@ impl Source<'_> {
 
     /// What each winch asks of its motor.
     pub fn demands(&self) -> &[Demand] {
-        self.shared.demands.get_or_init(|| demands(self.design, self.trajectory))
+        self.shared.demands.get_or_init(|| demands(self.design, self.trajectory, &AtomicBool::new(false)))
     }
 
     /// The body as it is when it is stuffed.

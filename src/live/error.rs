@@ -37,6 +37,10 @@ pub enum Cause {
     NotHome { who: String, at_mm: f64, within_s: f64 },
     #[error("the line is too slow: a move that was to be sent within {slot_s:.3} s was {late_s:.2} s late")]
     TooSlow { slot_s: f64, late_s: f64 },
+    #[error(
+        "the line is too slow for so quick a motion: a move is sent every {slot_s:.2} s, and {who} would never get one; give the motion more time, or use a faster line"
+    )]
+    LeftOut { who: String, slot_s: f64 },
     #[error(transparent)]
     Motion(#[from] MotionError),
 }

@@ -5,7 +5,7 @@
 use super::error::{Cause, End, LiveError};
 use super::link::Link;
 use super::report::Played;
-use crate::motion::{Beat, Move, Plan, Stream, beats, slot_s};
+use crate::motion::{Beat, Move, Plan, Stream, beats, left_out, slot_s};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Motors on a line.
@@ -15,9 +15,11 @@ pub struct Player<'a> {
     cancel: &'a AtomicBool,
     /// What has come of a reply that is not whole.
     received: Vec<u8>,
-    /// A command and its reply, s: the slowest of those that asked where winches are.
+    /// A command and its reply, s: the slowest but one of those that asked where winches are, as a busy host may hold up one.
     round_trip_s: f64,
     motors: Motors,
+    /// When the winches stand still that were last wound by hand, on the link's clock, s.
+    still_s: f64,
 }
 
 /// What the motors were last told.
@@ -43,7 +45,7 @@ pub enum Stage {
 pub const PATIENCE_S: f64 = 0.5;
 /// Longest wait for the first one, s: boards that are reset when their port is opened take two seconds to begin.
 const FIRST_PATIENCE_S: f64 = 3.0;
-/// Longest wait for a motor to say that it is off, s: others are still to be told.
+/// Longest wait for a motor to say that it is off, s, but on a line with slow replies: others are still to be told.
 const HALT_PATIENCE_S: f64 = 0.15;
 /// The line is quiet when nothing came for so long, s.
 const QUIET_S: f64 = 0.02;
@@ -59,7 +61,7 @@ const HOMING_LOOK_S: f64 = 0.1;
 const TOO_LATE_S: f64 = 1.0;
 /// Moves are loaded this many times before their time that loading takes: some replies come late.
 const LOAD_MARGIN: f64 = 1.5;
-/// Questions where winches are, of which the slowest reply counts.
+/// Questions where each winch is, by which replies are timed.
 const PROBES: usize = 3;
 
 impl<'a> Player<'a> {
@@ -78,20 +80,22 @@ impl<'a> Player<'a> {
     /// # Errors
     /// [`LiveError`]: nobody answers.
     pub fn found(stream: &'a dyn Stream, link: &'a mut dyn Link, cancel: &'a AtomicBool) -> Result<Self, LiveError> {
-        let mut player = Self { stream, link, cancel, received: Vec::new(), round_trip_s: 0.0, motors: Motors::Off };
+        let (received, motors) = (Vec::new(), Motors::Off);
+        let mut player = Self { stream, link, cancel, received, round_trip_s: 0.0, motors, still_s: 0.0 };
         player.guard(|player| {
-            for command in player.stream.wake() {
-                player.put(&command)?;
-            }
+            player.wake()?;
             player.quiet()?;
             player.place_within(0, FIRST_PATIENCE_S)?;
+            let mut trips_s = Vec::new();
             for _ in 0..PROBES {
                 for winch in 0..player.winches() {
                     let asked_s = player.link.now_s();
                     player.place(winch)?;
-                    player.round_trip_s = player.round_trip_s.max(player.link.now_s() - asked_s);
+                    trips_s.push(player.link.now_s() - asked_s);
                 }
             }
+            trips_s.sort_by(f64::total_cmp);
+            player.round_trip_s = trips_s.iter().rev().nth(1).copied().unwrap_or(0.0);
             Ok(())
         })?;
         Ok(player)
@@ -111,6 +115,7 @@ impl<'a> Player<'a> {
     /// [`LiveError`]; motors are switched off.
     pub fn set_zero(&mut self) -> Result<(), LiveError> {
         self.guard(|player| {
+            player.settle()?;
             // Some families find zero with their motors on.
             player.motors = Motors::Unsure;
             player.tell_all(player.stream.setup())
@@ -141,12 +146,18 @@ impl<'a> Player<'a> {
         })
     }
 
-    /// Winds by hand: from where the winches were told to be to other lengths, mm, slowly; returns when they are told, not when they are there.
+    /// Winds by hand: from where the winches were told to be to other lengths, mm, slowly; returns when they are told, not when they are there:
+    /// what is told next, but for [`Player::halt`], waits until they are.
     ///
     /// # Errors
     /// [`LiveError`]: a length beyond the travel, or a fault; motors are switched off.
     pub fn wind(&mut self, from_mm: &[f64], to_mm: &[f64]) -> Result<(), LiveError> {
         self.guard(|player| player.wind_to(from_mm, to_mm))
+    }
+
+    /// Whether the winches have come to where they were last wound by hand.
+    pub fn is_still(&self) -> bool {
+        self.link.now_s() >= self.still_s
     }
 
     /// Holds what is wound, s.
@@ -176,10 +187,11 @@ impl<'a> Player<'a> {
         self.received.clear();
         let told =
             self.stream.halt().iter().all(|command| self.link.send(&self.stream.framing().encode(command)).is_ok());
+        let patience_s = HALT_PATIENCE_S.max(2.0 * self.round_trip_s);
         let mut silent = Vec::new();
         for command in self.stream.confirm_halt() {
             let _ = self.quiet();
-            let reply = if told { self.uncancelled(&command, HALT_PATIENCE_S) } else { Err(Cause::Cancelled) };
+            let reply = if told { self.uncancelled(&command, patience_s) } else { Err(Cause::Cancelled) };
             if reply.is_err() {
                 silent.push(self.who(&command));
             }
@@ -238,13 +250,14 @@ impl<'a> Player<'a> {
                     return Ok(reply);
                 }
             }
+            self.check_cancel()?;
             let rest_s = end_s - self.link.now_s();
-            if rest_s <= 0.0 {
+            // A host that was held up still finds what has come meanwhile.
+            let bytes = self.link.receive(rest_s.clamp(0.0, LOOK_S)).map_err(Cause::Broken)?;
+            if bytes.is_empty() && rest_s <= 0.0 {
                 let (who, command) = (self.who(command), command.to_owned());
                 return Err(Cause::NoReply { who, command, patience_s });
             }
-            self.check_cancel()?;
-            let bytes = self.link.receive(rest_s.min(LOOK_S)).map_err(Cause::Broken)?;
             self.received.extend(bytes);
         }
     }
@@ -259,10 +272,9 @@ impl<'a> Player<'a> {
     /// As [`Player::tell`], while there is no time to stop.
     fn uncancelled(&mut self, command: &str, patience_s: f64) -> Result<(), Cause> {
         let never = AtomicBool::new(false);
-        let (stream, received) = (self.stream, Vec::new());
-        let reply =
-            Player { stream, link: &mut *self.link, cancel: &never, received, round_trip_s: 0.0, motors: Motors::Off }
-                .exchange(command, patience_s)?;
+        let (stream, link, received, motors) = (self.stream, &mut *self.link, Vec::new(), Motors::Off);
+        let reply = Player { stream, link, cancel: &never, received, round_trip_s: 0.0, motors, still_s: 0.0 }
+            .exchange(command, patience_s)?;
         self.stream.taken(command, &reply).map_err(|reply| self.refused(command, reply))
     }
 
@@ -301,6 +313,29 @@ impl<'a> Player<'a> {
         Ok(())
     }
 
+    /// Brings controllers to listen that a line was just opened to, or that were switched off.
+    fn wake(&mut self) -> Result<(), Cause> {
+        let commands = self.stream.wake();
+        if commands.is_empty() || self.motors != Motors::Off {
+            return Ok(());
+        }
+        let asleep = match self.exchange(&self.stream.locate(0), PATIENCE_S) {
+            Ok(reply) => self.stream.sleeps(&reply),
+            // A board that is just beginning does not sleep.
+            Err(Cause::NoReply { .. }) => false,
+            Err(cause) => return Err(cause),
+        };
+        commands.iter().try_for_each(|command| self.put(command))?;
+        self.quiet()?;
+        if asleep { self.tell_all(self.stream.unlock()) } else { Ok(()) }
+    }
+
+    /// Waits for winches that were wound by hand, and for controllers that were switched off.
+    fn settle(&mut self) -> Result<(), Cause> {
+        self.wait_until(self.still_s)?;
+        self.wake()
+    }
+
     fn switch_on(&mut self) -> Result<(), Cause> {
         self.motors = Motors::Unsure;
         self.tell_all(self.stream.ready())?;
@@ -315,8 +350,11 @@ impl<'a> Player<'a> {
     }
 
     fn go_home(&mut self) -> Result<(), Cause> {
+        self.settle()?;
         self.check_places()?;
         self.switch_on()?;
+        // Slower than motions are.
+        self.motors = Motors::Unsure;
         self.tell_all(self.stream.load_home())?;
         self.tell_all(self.stream.go_home())?;
         let within_s = self.stream.machine().stopping_s() + self.stream.home_s();
@@ -351,7 +389,11 @@ impl<'a> Player<'a> {
         let mut played = Played { slot_s, round_trip_s: self.round_trip_s, ..Played::default() };
         let mut began_s = None;
         let mut lengths_mm = plan.at(plan.span_s()[0]);
-        for Beat { due_s, moves } in beats(plan, self.stream, slot_s, f64::INFINITY) {
+        let beats = beats(plan, self.stream, slot_s, f64::INFINITY);
+        if let Some(winch) = left_out(plan, &beats) {
+            return Err(Cause::LeftOut { who: self.named(winch), slot_s });
+        }
+        for Beat { due_s, moves } in beats {
             // Not earlier than needed: what is loaded may already count for the move before.
             let loads = moves.iter().map(|step| self.stream.load(step).len()).sum::<usize>();
             if let (Some(began_s), true) = (began_s, loads > 0) {
@@ -389,24 +431,23 @@ impl<'a> Player<'a> {
             }
         }
         let speed = machine.gently().speed;
+        self.settle()?;
         if self.motors != Motors::Ready {
             self.switch_on()?;
         }
         let longest = from_mm.iter().zip(to_mm).map(|(from, to)| (to - from).abs()).fold(0.0, f64::max);
-        let one = |winch: usize| Move {
-            winch,
-            from_mm: from_mm[winch],
-            to_mm: to_mm[winch],
-            duration_s: (longest / speed).max(LOOK_S),
-        };
+        let duration_s = (longest / speed).max(LOOK_S);
+        let one = |winch: usize| Move { winch, from_mm: from_mm[winch], to_mm: to_mm[winch], duration_s };
         let moves: Vec<Move> = (0..to_mm.len()).map(one).collect();
         if self.stream.moves_together() {
-            return self.tell_all(self.stream.go(&moves));
+            self.tell_all(self.stream.go(&moves))?;
+        } else {
+            for step in moves.iter().filter(|step| step.from_mm != step.to_mm) {
+                self.tell_all(self.stream.load(step))?;
+                self.tell_all(self.stream.go(&[*step]))?;
+            }
         }
-        for step in moves.iter().filter(|step| step.from_mm != step.to_mm) {
-            self.tell_all(self.stream.load(step))?;
-            self.tell_all(self.stream.go(&[*step]))?;
-        }
+        self.still_s = self.link.now_s() + duration_s;
         Ok(())
     }
 }

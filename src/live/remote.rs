@@ -31,6 +31,10 @@ pub enum Status {
     Connecting,
     /// They wait for an order; where the winches are told to be, mm.
     Ready(Vec<f64>),
+    /// They are told that here is zero.
+    Zeroing,
+    /// Whether they may play the motion is worked out.
+    Checking,
     Homing,
     /// Time in the motion, s, and where the winches are told to be, mm.
     Playing {
@@ -53,13 +57,16 @@ pub struct Remote {
 /// Opens the line: on the thread, as that may take long.
 pub type Open = Box<dyn FnOnce() -> io::Result<Box<dyn Link>> + Send>;
 
+/// Whether the motors may play the motion: on the thread, as the answer may take long. Any will do once it is told to stop.
+pub type Allowed = Box<dyn Fn(&AtomicBool) -> Result<(), MotionError> + Send>;
+
 /// The motion that is played when that is ordered.
 pub struct Motion {
     pub plan: Plan,
     /// No slot is shorter, s.
     pub least_slot_s: f64,
-    /// Whether the motors may play it: asked before each time, on the thread, as the answer may take long.
-    pub allowed: Box<dyn Fn() -> Result<(), MotionError> + Send>,
+    /// Asked before each time.
+    pub allowed: Allowed,
 }
 
 struct Shared {
@@ -75,6 +82,8 @@ struct Shared {
 const LOST: Duration = Duration::from_millis(2000);
 /// How often that is looked at.
 const LOOK: Duration = Duration::from_millis(50);
+/// How often it is looked whether winches that are wound by hand are there, s.
+const STEP_S: f64 = 0.02;
 
 impl Remote {
     /// Opens a line and waits for orders. `wake` is called when the status has changed.
@@ -167,14 +176,18 @@ impl Shared {
         let mut told_mm = player.places_mm()?;
         loop {
             self.tell(Status::Ready(told_mm.clone()));
-            match self.next() {
+            match self.next(&mut player)? {
                 None => {
                     let end = player.halt();
                     return Err(LiveError { cause: Cause::Cancelled, end });
                 }
-                Some(Order::SetZero) => player.set_zero()?,
+                Some(Order::SetZero) => {
+                    self.tell(Status::Zeroing);
+                    player.set_zero()?;
+                }
                 Some(Order::Play) => {
-                    if let Err(error) = (motion.allowed)() {
+                    self.tell(Status::Checking);
+                    if let Err(error) = (motion.allowed)(&self.cancel) {
                         return Err(LiveError { cause: error.into(), end: player.halt() });
                     }
                     let tell = &mut |stage| self.tell(Status::from(stage));
@@ -194,18 +207,25 @@ impl Shared {
         }
     }
 
-    /// The next order; none when it is to stop.
-    fn next(&self) -> Option<Order> {
-        let mut orders = held(&self.orders);
-        loop {
-            if self.cancel.load(Ordering::SeqCst) {
-                return None;
+    /// The next order, once winches that are wound by hand have come to where they were told: until then a newer one may take its place. None when
+    /// it is to stop.
+    fn next(&self, player: &mut Player) -> Result<Option<Order>, LiveError> {
+        while !self.cancel.load(Ordering::SeqCst) {
+            if !player.is_still() {
+                player.hold(STEP_S)?;
+                continue;
             }
+            let orders = held(&self.orders);
+            let mut orders = if orders.is_empty() {
+                self.come.wait_timeout(orders, LOOK).unwrap_or_else(PoisonError::into_inner).0
+            } else {
+                orders
+            };
             if let Some(order) = orders.pop_front() {
-                return Some(order);
+                return Ok(Some(order));
             }
-            orders = self.come.wait_timeout(orders, LOOK).unwrap_or_else(PoisonError::into_inner).0;
         }
+        Ok(None)
     }
 }
 
@@ -248,6 +268,6 @@ mod tests {
         assert_eq!(waiting(&[wind(1.0), Order::Play, wind(2.0)]), [wind(2.0)]);
         let zero = Order::SetZero;
         assert_eq!(waiting(&[wind(1.0), zero.clone(), zero.clone(), wind(2.0), wind(3.0)]), [zero.clone(), wind(3.0)]);
-        assert_eq!(waiting(&[zero.clone(), wind(1.0), zero.clone()]), [zero.clone()]);
+        assert_eq!(waiting(&[zero.clone(), wind(1.0), zero.clone()]), [zero]);
     }
 }

@@ -3,23 +3,23 @@
 use super::link::Link;
 use super::simulation::Simulation;
 use std::io::{self, ErrorKind};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// A line to simulated controllers.
 pub struct SimulatedLink {
     simulation: Simulation,
-    /// Virtual time lasts as long as that of the wall.
-    paced: bool,
+    /// When it began, where virtual time is that of the wall.
+    paced: Option<Instant>,
 }
 
 impl SimulatedLink {
     pub fn new(simulation: Simulation) -> Self {
-        Self { simulation, paced: false }
+        Self { simulation, paced: None }
     }
 
-    /// Whose time lasts as long as that of the wall, for somebody to look at.
+    /// Whose time is that of the wall, also while nobody tells it anything, for somebody to look at.
     pub fn paced(simulation: Simulation) -> Self {
-        Self { simulation, paced: true }
+        Self { simulation, paced: Some(Instant::now()) }
     }
 
     /// The controllers.
@@ -33,11 +33,17 @@ impl SimulatedLink {
     }
 
     fn pass_to(&mut self, time_s: f64) {
-        let rest_s = time_s - self.simulation.now_s();
-        if self.paced && rest_s > 0.0 {
+        let rest_s = time_s - self.now_s();
+        if self.paced.is_some() && rest_s > 0.0 {
             std::thread::sleep(Duration::from_secs_f64(rest_s));
         }
         self.simulation.pass_to(time_s);
+    }
+
+    /// What the wall's clock is ahead, passes here as well.
+    fn catch_up(&mut self) {
+        let now_s = self.now_s();
+        self.simulation.pass_to(now_s);
     }
 
     fn carries(&self) -> io::Result<()> {
@@ -48,12 +54,14 @@ impl SimulatedLink {
 impl Link for SimulatedLink {
     fn send(&mut self, bytes: &[u8]) -> io::Result<()> {
         self.carries()?;
+        self.catch_up();
         self.simulation.put(bytes);
         Ok(())
     }
 
     fn receive(&mut self, patience_s: f64) -> io::Result<Vec<u8>> {
         self.carries()?;
+        self.catch_up();
         let end_s = self.simulation.now_s() + patience_s;
         if let Some(due_s) = self.simulation.next_reply_s().filter(|due_s| *due_s <= end_s) {
             self.pass_to(due_s);
@@ -64,7 +72,8 @@ impl Link for SimulatedLink {
     }
 
     fn now_s(&self) -> f64 {
-        self.simulation.now_s()
+        let now_s = self.simulation.now_s();
+        self.paced.map_or(now_s, |began| now_s.max(began.elapsed().as_secs_f64()))
     }
 
     fn wait_until(&mut self, time_s: f64) {

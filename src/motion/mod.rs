@@ -53,7 +53,7 @@ pub use limits::Limits;
 pub use machine::Machine;
 pub use plan::{Note, Plan, TooFast, smooth_s};
 pub use program::Program;
-pub use schedule::{Beat, beats, commands_a_step, slot_s};
+pub use schedule::{Beat, beats, commands_a_step, left_out, slot_s};
 pub use stream::{Move, Programs, Stream, programs};
 pub use trajectory::{Trajectory, check};
 pub use winches::counts_per_mm;

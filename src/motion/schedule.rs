@@ -22,6 +22,10 @@ const BUSY: f64 = 0.85;
 const NEAR_MM: f64 = 1e-3;
 /// At most so many places of a straight line are compared with the plan: what bounds the work on winches that stand still for long.
 const PLACES: usize = 12;
+/// A winch that moves by less need not be told, mm: nobody sees it.
+const LEFT_OUT_MM: f64 = 0.5;
+/// Places at which a plan is looked at for that, at least.
+const LEFT_OUT_PLACES: usize = 1000;
 
 /// Shortest slot on a line with such a round trip of a command and its reply, s; at least `least_s`.
 pub fn slot_s(stream: &dyn Stream, round_trip_s: f64, least_s: f64) -> f64 {
@@ -78,6 +82,21 @@ pub fn beats(plan: &Plan, stream: &dyn Stream, slot_s: f64, most_s: f64) -> Vec<
     }
     beats.reverse();
     beats
+}
+
+/// A winch that the plan moves and no beat does: slots that are as long as a motion miss it.
+pub fn left_out(plan: &Plan, beats: &[Beat]) -> Option<usize> {
+    let [begin, end] = plan.span_s();
+    let first = plan.at(begin);
+    let places = beats.len().max(LEFT_OUT_PLACES);
+    let at = |place: usize| plan.at(begin + (end - begin) * place as f64 / places as f64);
+    let mut still: Vec<bool> = vec![true; first.len()];
+    for place in 1..=places {
+        let off = at(place).into_iter().zip(&first).map(|(there, first)| (there - first).abs());
+        still.iter_mut().zip(off).for_each(|(still, off)| *still &= off < LEFT_OUT_MM);
+    }
+    let is_told = |winch: usize| beats.iter().any(|beat| beat.moves.iter().any(|step| step.winch == winch));
+    (0..first.len()).find(|&winch| !still[winch] && !is_told(winch))
 }
 
 /// The winch that each slot goes to, if any.

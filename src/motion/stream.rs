@@ -60,8 +60,18 @@ pub trait Stream: Send + Sync {
     /// Motors off, at rest.
     fn off(&self) -> Vec<String>;
 
-    /// Brings the controllers to listen when a line was just opened. Nobody awaits replies.
+    /// Brings the controllers to listen when a line was just opened, or they were switched off. Nobody awaits replies.
     fn wake(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// Whether an answer to [`Stream::locate`] says that the controllers sleep.
+    fn sleeps(&self, _reply: &str) -> bool {
+        false
+    }
+
+    /// After [`Stream::wake`], where they slept.
+    fn unlock(&self) -> Vec<String> {
         Vec::new()
     }
 

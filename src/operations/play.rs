@@ -9,6 +9,7 @@ use crate::live::{
 };
 use crate::motion::{Family, Forecast, Machine, MotionError, Plan, Stream, TooFast, Trajectory, families};
 use serde::{Deserialize, Serialize};
+use std::sync::atomic::AtomicBool;
 
 /// The name that stands for simulated controllers in the place of a port.
 pub const SIMULATED: &str = "simulated";
@@ -148,7 +149,8 @@ pub fn run(
         }
     }
     if matches!(options.action, Action::Play(_)) {
-        allowed(design, options.too_fast)?;
+        allowed(design, options.too_fast, context.cancel())?;
+        context.check()?;
     }
     let mut link = open(&prepared, options)?;
     act(&prepared, options, &mut *link, context, tell).map_err(|error| match error {
@@ -218,16 +220,16 @@ pub fn remote(design: &Design, options: &Options, wake: impl Fn() + Send + Sync 
         None => Ok(Box::new(SerialLink::open(&port, baud)?)),
     });
     let (design, too_fast) = (design.clone(), options.too_fast);
-    let allowed = Box::new(move || allowed(&design, too_fast));
+    let allowed = Box::new(move |cancel: &AtomicBool| allowed(&design, too_fast, cancel));
     let motion = Motion { plan: prepared.plan, least_slot_s: prepared.least_slot_s, allowed };
     Ok(Remote::start(open, prepared.stream, motion, wake))
 }
 
-/// Whether a design's motors are strong enough for its motion, where their maker has said how strong they are.
-fn allowed(design: &Design, too_fast: TooFast) -> Result<(), MotionError> {
+/// Whether a design's motors are strong enough for its motion, where their maker has said how strong they are. What is cancelled may be allowed.
+fn allowed(design: &Design, too_fast: TooFast, cancel: &AtomicBool) -> Result<(), MotionError> {
     let acting = design.acting();
     let trajectory = Trajectory::of(&acting, too_fast)?;
-    strong_enough(&acting, &trajectory, &demands(&acting, &trajectory)).map(drop)
+    strong_enough(&acting, &trajectory, &demands(&acting, &trajectory, cancel)).map(drop)
 }
 
 /// Time until a simulated reply, s: that of a USB adapter.

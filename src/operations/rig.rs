@@ -36,7 +36,7 @@ impl From<RigError> for Error {
 pub enum Note {
     /// What a keyframe winds is the best that was found.
     Unbalanced(Unbalanced),
-    /// This keyframe was set by hand for winches that are gone: it is at rest now.
+    /// This keyframe was set for winches that are gone, by hand or for a pose that has no targets any more: it is at rest now.
     AtRest { time_s: f64 },
     /// Keyframes of poses wind what a search that was told to stop did on a coarser mesh.
     Coarse,
@@ -52,7 +52,7 @@ impl fmt::Display for Note {
             Self::AtRest { time_s } => {
                 write!(
                     f,
-                    "the keyframe at {time_s} s was set by hand for the winches that were there; it is at rest now"
+                    "the keyframe at {time_s} s was set by hand, or for a pose without targets, for the winches that were there; it is at rest now"
                 )
             }
         }
@@ -135,8 +135,9 @@ fn key_again(design: &mut Design, before: &[Keyframe], wound: &[Wound]) -> Vec<N
             keyframe.activations_mm.clone_from(activations_mm);
         }
     }
-    let by_hand = before.iter().filter(|k| k.pose.is_none() && k.activations_mm.iter().any(|a| *a != 0.0));
-    by_hand.map(|k| Note::AtRest { time_s: k.time_s }).collect()
+    let is_wound = |keyframe: &Keyframe| wound.iter().any(|wound| keyframe.pose.as_ref() == Some(&wound.pose));
+    let at_rest = before.iter().filter(|k| !is_wound(k) && k.activations_mm.iter().any(|a| *a != 0.0));
+    at_rest.map(|k| Note::AtRest { time_s: k.time_s }).collect()
 }
 
 /// Lays the poses on the timeline, [`defaults::KEYFRAME_SPACING_S`] apart or as far as the motors need, with rest at both ends.
@@ -263,7 +264,11 @@ mod tests {
         before.keyframes[2].activations_mm = vec![1.0, 0.0];
         design.keyframes[1].activations_mm = vec![0.0; 2];
         let notes = key_again(&mut design, &before.keyframes, &found);
-        assert_eq!(notes, [Note::AtRest { time_s: before.keyframes[2].time_s }]);
+        let told = [Note::AtRest { time_s: before.keyframes[2].time_s }];
+        assert_eq!(notes, told);
+        // Nor does a pose that has no targets any more say what it is to be.
+        before.keyframes[2].pose = Some("gone".into());
+        assert_eq!(key_again(&mut design.clone(), &before.keyframes, &found), told);
         assert_eq!(windings(&design), [rest.clone(), (Some(pose), vec![3.0, 5.0]), rest]);
     }
 

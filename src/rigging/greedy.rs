@@ -77,6 +77,10 @@ pub(super) fn rig(
             .map(|((pose, _), reached)| Wound { pose, activations_mm: reached.posture.beta, checked: None })
             .collect()
     } else {
+        let added = &current.networks[design.networks.len()..];
+        let (winches, tendons) = (added.len(), added.iter().map(|network| network.tendons.len()).sum());
+        let errors = poses.iter().zip(&checked).map(|((name, _), shape)| (name.clone(), shape.target_error)).collect();
+        progress(Progress::Found { winches, tendons, errors, sewn: Vec::new() });
         poses.into_iter().zip(checked).map(|((pose, _), shape)| Wound::checked(pose, shape)).collect()
     };
     Ok(Found { design: current, wound, coarse: false })

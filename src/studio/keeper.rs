@@ -186,6 +186,13 @@ impl Keeper {
     }
 }
 
+impl Drop for Keeper {
+    /// What is being written is whole before the next window looks.
+    fn drop(&mut self) {
+        self.join();
+    }
+}
+
 impl Revision {
     pub fn of(sources: &Sources<'_>) -> Self {
         let &Sources { design, drawing, path, origin, seen, is_modified } = sources;

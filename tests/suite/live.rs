@@ -189,11 +189,67 @@ fn after_zero_was_set_a_winch_is_wound_by_hand_with_every_family() {
     }
 }
 
+#[test]
+fn what_was_played_is_played_again_and_wound_by_hand_and_the_next_line_finds_it_with_every_family() {
+    let design = waving(1, 2.0);
+    for family in families::streams() {
+        let (stream, plan) = spoken(&design, family);
+        let mut link = SimulatedLink::new(Simulation::of(family, 3));
+        let mut player = Player::found(&*stream, &mut link, &GO_ON).expect("found");
+        player.set_zero().expect("set");
+        for _ in 0..2 {
+            player.play(&plan, 0.02, &mut |_| ()).expect(family.name);
+        }
+        player.wind(&[0.0; 3], &[2.0, 1.0, 0.5]).expect(family.name);
+        player.finish().expect(family.name);
+        player.set_zero().expect(family.name);
+        player.finish().expect(family.name);
+        drop(player);
+        let mut player = Player::connect(&*stream, &mut link, &GO_ON).expect(family.name);
+        player.play(&plan, 0.02, &mut |_| ()).expect(family.name);
+        drop(player);
+        let scale = units_per_mm(&*stream, family);
+        for (axis, farthest) in link.simulation().axes().iter().zip(link.simulation().farthest()) {
+            assert!(!axis.on && axis.position.abs() < 0.3 * scale && *farthest > scale, "{}: {axis:?}", family.name);
+        }
+    }
+}
+
+#[test]
+fn a_line_so_slow_that_a_winch_is_never_told_is_refused() {
+    let (design, ascii) = (waving(2, 2.0), families::by_name("ascii").expect("there is one"));
+    let (stream, plan) = spoken(&design, ascii);
+    let mut link = SimulatedLink::new(Simulation::of(ascii, 3).on_line(0.4, 115_200.0));
+    let mut player = Player::connect(&*stream, &mut link, &GO_ON).expect("found");
+    let refused = player.play(&plan, 0.02, &mut |_| ()).expect_err("too slow").to_string();
+    assert!(refused.contains("would never get one") && refused.contains("switched off"), "{refused}");
+}
+
+#[test]
+fn winding_on_waits_for_the_winches_so_that_they_stay_slow() {
+    let design = waving(1, 2.0);
+    for family in families::streams() {
+        let (stream, _) = spoken(&design, family);
+        let (mut link, slow) = (SimulatedLink::new(Simulation::of(family, 3)), stream.machine().gently().speed);
+        let mut player = Player::found(&*stream, &mut link, &GO_ON).expect("found");
+        player.set_zero().expect("set");
+        player.wind(&[0.0; 3], &[8.0, 0.0, 0.0]).expect(family.name);
+        assert!(!player.is_still());
+        // Almost there already, as it was told: the winch itself is not.
+        player.wind(&[8.0, 0.0, 0.0], &[7.9, 0.0, 0.0]).expect(family.name);
+        player.finish().expect(family.name);
+        drop(player);
+        // There and back at no more than the slow speed.
+        assert!(link.simulation().now_s() > 15.9 / slow, "{}: {}", family.name, link.simulation().now_s());
+        assert!(link.simulation().axes().iter().all(|axis| !axis.on && !axis.moving), "{}", family.name);
+    }
+}
+
 /// A line to a simulation behind a lock, in real time.
 fn remote(design: &Design, family: &'static Family) -> Remote {
     let (stream, plan) = spoken(design, family);
     let open = move || Ok(Box::new(SimulatedLink::new(Simulation::of(family, 3))) as Box<dyn Link>);
-    let motion = Motion { plan, least_slot_s: 0.02, allowed: Box::new(|| Ok(())) };
+    let motion = Motion { plan, least_slot_s: 0.02, allowed: Box::new(|_| Ok(())) };
     Remote::start(Box::new(open), stream, motion, || ())
 }
 
@@ -262,9 +318,11 @@ mod ports {
         STOP.store(true, Ordering::SeqCst);
         let (axes, farthest) = controllers.join().expect("it ends");
         assert!(axes.iter().all(|axis| !axis.on && !axis.moving), "{axes:?}");
-        assert!(farthest.iter().all(|farthest| *farthest > 1000.0), "{farthest:?}");
-        // How late is seen by hand: a loaded machine may be.
-        assert!(played.late.len() > 20, "{}", played.late.len());
+        // How late is seen by hand, as a loaded machine may be; and one that takes replies for slow has few slots.
+        if played.slot_s < 0.1 {
+            assert!(farthest.iter().all(|farthest| *farthest > 1000.0), "{farthest:?}");
+            assert!(played.late.len() > 20, "{}", played.late.len());
+        }
     }
 
     /// A child that is ended with the test.
@@ -283,7 +341,7 @@ mod ports {
         let path = folder.path().join("waving.plush");
         plushwright::design::file::write(&path, &waving(20, 2.0)).expect("written");
         let program = env!("CARGO_BIN_EXE_plushwright");
-        let simulate = ["simulate-controller", "--winches", "3", "--seconds", "4"];
+        let simulate = ["simulate-controller", "--winches", "3", "--seconds", "16"];
         let mut controllers =
             Ended(Command::new(program).args(simulate).stdout(Stdio::piped()).spawn().expect("it runs"));
         let mut told = BufReader::new(controllers.0.stdout.take().expect("piped"));
@@ -296,7 +354,7 @@ mod ports {
             .args(["--port", &port, "--set-zero", "--baud", "115200"])
             .spawn();
         let mut play = Ended(play.expect("it runs"));
-        std::thread::sleep(Duration::from_millis(2500));
+        std::thread::sleep(Duration::from_secs(10));
         assert!(play.0.try_wait().expect("asked").is_none(), "it still plays");
         play.0.kill().expect("killed");
         let mut text = String::new();

@@ -138,8 +138,9 @@ impl Machine {
                 Vec::new()
             }
             _ => {
-                // A reset in the middle of a move loses the position; after a hold it does not.
-                self.state = if self.queue.is_empty() || self.held { State::Ready } else { State::Alarm };
+                // A reset in the middle of a move loses the position; after a hold it does not. Sleep ends in an alarm, and that stays.
+                let is_still = self.queue.is_empty() || self.held;
+                self.state = if self.state == State::Ready && is_still { State::Ready } else { State::Alarm };
                 self.queue.clear();
                 self.held = false;
                 vec!["Grbl 1.1h ['$' for help]".into()]

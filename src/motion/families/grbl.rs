@@ -127,6 +127,15 @@ impl Stream for Grbl {
         vec!["\u{18}".into()]
     }
 
+    fn sleeps(&self, reply: &str) -> bool {
+        reply.starts_with("<Sleep")
+    }
+
+    /// GRBL wakes in its alarm. Other alarms stay: after a reset in the middle of a move nobody knows where winches are.
+    fn unlock(&self) -> Vec<String> {
+        vec!["$X".into()]
+    }
+
     fn halt(&self) -> Vec<String> {
         vec!["!".into(), "\u{18}".into()]
     }
@@ -142,7 +151,7 @@ impl Stream for Grbl {
     /// `<Idle|WPos:1.000,2.000,3.000|...>`.
     fn place_mm(&self, winch: usize, reply: &str) -> Option<f64> {
         let state = reply.strip_prefix('<')?.strip_suffix('>')?;
-        if state.starts_with("Alarm") || state.starts_with("Sleep") {
+        if state.starts_with("Alarm") || self.sleeps(reply) {
             return None;
         }
         let places = state.split('|').find_map(|field| field.strip_prefix("WPos:"))?;

@@ -26,6 +26,7 @@ struct Limb {
     triangles: Vec<usize>,
     /// Those that sprout from it.
     limbs: Vec<usize>,
+    /// With those.
     stoutness: f64,
 }
 
@@ -41,9 +42,11 @@ pub fn ordered(rest: &[Point], triangles: Vec<[usize; 3]>, heights: &[f64]) -> V
     let mut parents: Vec<usize> = (0..triangles.len()).collect();
     let mut pieces: Vec<Option<Piece>> = vec![None; triangles.len()];
     let mut limbs: Vec<Limb> = Vec::new();
-    let limb = |piece: &mut Piece| {
+    let limb = |piece: &mut Piece, all: &[Limb]| {
         let (own, limbs) = (std::mem::take(&mut piece.triangles), std::mem::take(&mut piece.limbs));
-        Limb { stoutness: own.iter().map(|&t| stoutness(rest, triangles[t], heights)).sum(), triangles: own, limbs }
+        let own_stoutness = own.iter().map(|&t| stoutness(rest, triangles[t], heights));
+        let stoutness = own_stoutness.chain(limbs.iter().map(|&limb| all[limb].stoutness)).fold(0.0, |a, b| a + b);
+        Limb { triangles: own, limbs, stoutness }
     };
     for &here in &inward {
         let at = distances[here];
@@ -56,7 +59,8 @@ pub fn ordered(rest: &[Point], triangles: Vec<[usize; 3]>, heights: &[f64]) -> V
             let (Some(mut a), Some(mut b)) = (pieces[own].take(), pieces[other].take()) else { continue };
             if a.farthest.min(b.farthest) - at > LEAST_REACH * most {
                 for piece in [&mut a, &mut b] {
-                    limbs.push(limb(piece));
+                    let grown = limb(piece, &limbs);
+                    limbs.push(grown);
                     piece.limbs.push(limbs.len() - 1);
                 }
             }
@@ -68,8 +72,9 @@ pub fn ordered(rest: &[Point], triangles: Vec<[usize; 3]>, heights: &[f64]) -> V
     }
     let mut painted = Vec::with_capacity(triangles.len());
     for mut trunk in pieces.into_iter().flatten() {
-        limbs.push(limb(&mut trunk));
-        // Stoutness is not negative: its bits are in its order.
+        let trunk = limb(&mut trunk, &limbs);
+        limbs.push(trunk);
+        // Stoutness is not negative, nor is its zero: its bits are in its order.
         let mut next = BinaryHeap::from([(0, limbs.len() - 1)]);
         while let Some((_, limb)) = next.pop() {
             let Limb { triangles: group, limbs: sprouting, .. } = &mut limbs[limb];

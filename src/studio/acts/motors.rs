@@ -31,7 +31,9 @@ pub fn stop(session: &mut Session) {
 /// Gives the motors an order.
 pub fn order(session: &mut Session, order: Order) {
     if let Some(remote) = &session.motors.remote {
-        session.motors.asked_mm.clear();
+        // What is asked for from now on counts from the new zero, though it be not set yet.
+        let zeros = if order == Order::SetZero { session.motors.travel_mm().len() } else { 0 };
+        session.motors.asked_mm = vec![0.0; zeros];
         remote.order(order);
     }
 }
@@ -66,13 +68,16 @@ pub fn follow(session: &mut Session) {
                 session.messages.error(tf!("Motors: {why}.", why));
             }
         }
-        Status::Connecting | Status::Ready(_) | Status::Homing => {}
+        Status::Connecting | Status::Ready(_) | Status::Zeroing | Status::Checking | Status::Homing => {}
     }
 }
 
-/// The plushies as the motors are told to have them. Networks that are switched off are not among the motors.
+/// The plushies as the motors are told to have them, while the networks are those of the motors. Networks that are switched off are not among them.
 fn show(session: &mut Session, lengths_mm: &[f64]) {
     let design = session.design().clone();
+    if !session.motors.winds(&design) {
+        return;
+    }
     let mut lengths = lengths_mm.iter();
     let wound: Vec<f64> =
         design.networks.iter().map(|n| if n.muted { 0.0 } else { lengths.next().copied().unwrap_or(0.0) }).collect();

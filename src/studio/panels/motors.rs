@@ -143,6 +143,8 @@ fn state(status: Option<Status>) -> String {
         None => t("No line").into(),
         Some(Status::Connecting) => t("Looking for the controllers…").into(),
         Some(Status::Ready(_)) => t("Ready").into(),
+        Some(Status::Zeroing) => t("Setting zero…").into(),
+        Some(Status::Checking) => t("Checking the motors…").into(),
         Some(Status::Homing) => t("Winding back to zero…").into(),
         Some(Status::Playing { time_s, .. }) => tf!("Playing, {time_s:.1} s", time_s),
         Some(Status::Ended { why, .. }) => why,

@@ -58,6 +58,11 @@ impl Motors {
         self.remote.is_some() && !self.of.as_ref().is_some_and(same)
     }
 
+    /// Whether the line was opened for the networks of this design.
+    pub(crate) fn winds(&self, design: &Design) -> bool {
+        self.of.as_ref().is_some_and(|of| of.networks == design.networks)
+    }
+
     pub(crate) fn begin(&mut self, of: Arc<Design>, travel_mm: Vec<f64>, remote: Remote) {
         self.asked_mm.clear();
         (self.of, self.travel_mm, self.remote) = (Some(of), travel_mm, Some(remote));

@@ -64,14 +64,33 @@ fn is_asked(window: &Window) -> bool {
     window.query_by_label("Discard changes").is_some()
 }
 
+/// The window is gone, and so are the locks of its work: a child that another test has just started may hold them for a moment.
+fn left(window: Window, state: &Path) {
+    drop(window);
+    let started = Instant::now();
+    let is_held = || {
+        let folders = fs::read_dir(state.join("work")).into_iter().flatten().flatten();
+        let mut locks = folders.filter_map(|entry| fs::File::open(entry.path().join("lock")).ok());
+        locks.any(|lock| lock.try_lock().is_err())
+    };
+    while is_held() {
+        assert!(started.elapsed() < Duration::from_secs(10), "the work of a window that is gone is locked");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
 /// Frames until the work is on the disk.
 fn kept(window: &mut Window, state: &Path) {
-    let started = Instant::now();
     let poses = session(window).design().poses.len();
+    kept_as(window, state, |design| design.poses.len() == poses);
+}
+
+fn kept_as(window: &mut Window, state: &Path, is: impl Fn(&Design) -> bool) {
+    let started = Instant::now();
     let is_kept = || {
         let folders = fs::read_dir(state.join("work")).into_iter().flatten().flatten();
         let mut designs = folders.map(|entry| file::read(&entry.path().join("work.plush")));
-        designs.any(|design| design.is_ok_and(|design| design.poses.len() == poses))
+        designs.any(|design| design.is_ok_and(|design| is(&design)))
     };
     while !is_kept() {
         assert!(started.elapsed() < Duration::from_secs(30), "nothing was kept");
@@ -185,19 +204,19 @@ fn work_that_was_not_saved_is_offered_by_the_next_window() {
     kept(&mut first, state.path());
     let work = session(&first).design().clone();
     // As after a kill: it neither asked nor saved.
-    drop(first);
+    left(first, state.path());
     assert_eq!(fs::read(&path).unwrap(), before);
     let mut second = window(bundled::ALL[1].design().unwrap(), None, state.path());
     assert!(second.query_by_label_contains("Recover “pig”").is_some());
     // Not now: it is offered again.
     click(&mut second, "Not now");
-    drop(second);
+    left(second, state.path());
     let mut third = window(bundled::ALL[1].design().unwrap(), None, state.path());
     click(&mut third, "Recover");
     assert_eq!(**session(&third).design(), *work);
     assert!(session(&third).history().is_modified());
     // It is not lost by being recovered either.
-    drop(third);
+    left(third, state.path());
     let mut fourth = window(bundled::ALL[1].design().unwrap(), None, state.path());
     click(&mut fourth, "Recover");
     press(&mut fourth, Modifiers::COMMAND, Key::S);
@@ -216,7 +235,7 @@ fn work_that_was_not_saved_is_offered_on_the_start_page() {
     change(&mut first);
     kept(&mut first, state.path());
     // As after a kill: it neither asked nor saved.
-    drop(first);
+    left(first, state.path());
     let mut given = Some(Store::at(state.path()));
     let mut window: Window =
         egui_kittest::Harness::builder().with_size(eframe::egui::vec2(1280.0, 800.0)).build_ui_state(
@@ -252,7 +271,7 @@ fn a_texture_that_was_recovered_goes_with_every_copy_that_is_saved() {
     let mut first = window(design, Some(&at("pig.plush")), state.path());
     change(&mut first);
     kept(&mut first, state.path());
-    drop(first);
+    left(first, state.path());
     // Its own folder is gone by then: the picture that was kept is the only one.
     fs::remove_file(&skin).unwrap();
     fs::remove_file(at("pig.plush")).unwrap();
@@ -288,12 +307,9 @@ fn a_line_that_is_only_being_drawn_is_kept_too() {
         steps(&mut first);
     }
     assert_eq!(session(&first).drawing().parts.len(), 0, "it is not closed yet");
-    let started = Instant::now();
-    while started.elapsed() < Duration::from_secs(4) {
-        first.step();
-        std::thread::sleep(Duration::from_millis(20));
-    }
-    drop(first);
+    let corners = |design: &Design| design.drawing.as_ref()?.parts.first().map(|part| part.primitive.handles().len());
+    kept_as(&mut first, state.path(), |design| corners(design) == Some(3));
+    left(first, state.path());
     let mut second = window(pig(), None, state.path());
     click(&mut second, "Recover");
     let drawing = session(&second).design().drawing.clone().unwrap();

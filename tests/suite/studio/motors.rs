@@ -28,8 +28,8 @@ fn until(window: &mut Window, what: &str, is: impl Fn(&Session) -> bool) {
     }
 }
 
-fn connected() -> Window {
-    let mut window = window(pulling());
+fn connected(design: Design) -> Window {
+    let mut window = window(design);
     click(&mut window, "Motors");
     until(&mut window, "a forecast", |s| s.tasks().running("panel.motors").is_none());
     window.step();
@@ -45,9 +45,11 @@ fn told(window: &Window) -> String {
 
 #[test]
 fn the_animation_plays_on_motors_and_the_views_show_it() {
-    let mut window = connected();
+    let mut window = connected(pulling());
     window.step();
-    click(&mut window, "Play on motors");
+    // Not until all is settled: it may have played by then.
+    window.get_by_label("Play on motors").click();
+    window.step();
     until(&mut window, "wound", |s| {
         let playing = matches!(s.motors().status(), Some(Status::Playing { .. }));
         playing && s.mode() == Mode::Winding && s.winding().wound_mm()[0] > 3.0
@@ -61,7 +63,7 @@ fn the_animation_plays_on_motors_and_the_views_show_it() {
 
 #[test]
 fn a_slider_winds_a_motor_and_escape_stops_it() {
-    let mut window = connected();
+    let mut window = connected(pulling());
     window.step();
     window.get_by_label("Motor of winch 1").scroll_to_me();
     window.run_steps(4);
@@ -75,6 +77,36 @@ fn a_slider_winds_a_motor_and_escape_stops_it() {
     press(&mut window, Modifiers::NONE, Key::Escape);
     until(&mut window, "closed", |s| s.motors().status().is_none());
     assert!(told(&window).contains("Motors: stopped; all motors are switched off"), "{}", told(&window));
+}
+
+#[test]
+fn after_zero_is_set_only_the_winch_whose_slider_is_moved_winds() {
+    let mut design = pulling();
+    design.networks.push(plushwright::design::Network { name: "winch 2".into(), ..network() });
+    design.keyframes.iter_mut().for_each(|keyframe| keyframe.activations_mm.push(keyframe.activations_mm[0]));
+    let mut window = connected(design);
+    window.step();
+    let slide = |window: &mut Window, name: &str| {
+        window.get_by_label(name).scroll_to_me();
+        window.run_steps(4);
+        let from = window.get_by_label(name).rect().left_center() + vec2(4.0, 0.0);
+        drag(window, from, from + vec2(30.0, 0.0));
+    };
+    let wound = |winch: usize| {
+        move |session: &Session| match session.motors().status() {
+            Some(Status::Ready(told_mm)) => told_mm[winch] > 0.0 && told_mm == session.motors().asked_mm(),
+            _ => false,
+        }
+    };
+    slide(&mut window, "Motor of winch 1");
+    until(&mut window, "the first wound", wound(0));
+    window.get_by_label("Set zero").click();
+    window.step();
+    assert_eq!(session(&window).motors().asked_mm()[0], 0.0);
+    until(&mut window, "zero", |s| s.motors().status() == Some(Status::Ready(vec![0.0; 2])));
+    slide(&mut window, "Motor of winch 2");
+    until(&mut window, "the second wound", wound(1));
+    assert_eq!(session(&window).motors().asked_mm()[0], 0.0);
 }
 
 #[test]
