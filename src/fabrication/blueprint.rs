@@ -123,6 +123,7 @@ pub fn blueprint_watched(
         let written: Vec<File> = part.products.iter().flat_map(writers::written).map(File::from).collect();
         sections.push(Section { files: written.iter().map(|file| file.name.clone()).collect(), guide: part.guide });
         remarks.extend(part.remarks);
+        remarks.sort_by_key(|remark| !remark.grave);
         files.extend(written);
     }
     let manifest = Manifest {

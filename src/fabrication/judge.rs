@@ -16,7 +16,7 @@ pub(super) fn remarks(design: &Design) -> Vec<Remark> {
     let sorted = sewing::most_severe(&breaches, breaches.len());
     let (told, counted) = sorted.split_at(TOLD.min(sorted.len()));
     let sentence =
-        |breach: &Breach| Remark::at(places(design, breach), format!("Hard to sew: {}.", breach.words(&names)));
+        |breach: &Breach| Remark::at(places(design, breach), format!("Hard to sew: {}.", breach.words(&names))).grave();
     let mut remarks: Vec<Remark> = told.iter().map(sentence).collect();
     let others = counted.iter().flat_map(|breach| places(design, breach));
     match counted.len() {

@@ -12,18 +12,25 @@ pub struct Remark {
     pub text: String,
     /// At rest, mm; none where it is about the whole.
     pub places: Vec<Point>,
+    /// What is built may not work, or cannot be built: told before all others.
+    pub grave: bool,
 }
 
 impl Remark {
     /// One about some places.
     pub fn at(places: impl IntoIterator<Item = Point>, text: impl Into<String>) -> Self {
-        Self { text: text.into(), places: places.into_iter().collect() }
+        Self { text: text.into(), places: places.into_iter().collect(), grave: false }
+    }
+
+    /// One to be told before others.
+    pub fn grave(self) -> Self {
+        Self { grave: true, ..self }
     }
 }
 
 impl From<String> for Remark {
     fn from(text: String) -> Self {
-        Self { text, places: Vec::new() }
+        Self { text, places: Vec::new(), grave: false }
     }
 }
 

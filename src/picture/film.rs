@@ -3,9 +3,9 @@
 use crate::files::marked_gif;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use image::codecs::gif::{GifEncoder, Repeat};
-use image::{Delay, Frame, ImageFormat, Rgba, RgbaImage};
-use std::fmt::Write;
+use gif::{DisposalMethod, Encoder, Frame, Repeat};
+use image::{ImageFormat, Rgba, RgbaImage};
+use std::fmt::{Display, Write};
 use std::time::Duration;
 
 /// Speed of the choice of colours for GIF, 1 (best) to 30: the pictures have few colours.
@@ -16,23 +16,33 @@ pub const PAGE_MARK: &str = "<!doctype html><!-- plushwright-film/1 -->";
 /// PNGs one after the other as a GIF that begins anew for ever.
 ///
 /// # Errors
-/// A picture that is no PNG, or that does not fit in memory.
+/// No picture, one that is no PNG, of another size than the first, or larger than the format takes.
 pub fn gif(pngs: &[Vec<u8>], step: Duration) -> Result<Vec<u8>, String> {
-    let failed = |error: image::ImageError| format!("cannot encode the picture: {error}");
+    let failed = |error: &dyn Display| format!("cannot encode the picture: {error}");
+    let read =
+        |png: &Vec<u8>| image::load_from_memory_with_format(png, ImageFormat::Png).map(|picture| picture.to_rgba8());
+    let first = read(pngs.first().ok_or("there is no picture")?).map_err(|e| failed(&e))?;
+    let side = |length: u32| u16::try_from(length).map_err(|e| failed(&e));
+    let (width, height) = (side(first.width())?, side(first.height())?);
     let mut bytes = Vec::new();
-    let mut encoder = GifEncoder::new_with_speed(&mut bytes, GIF_SPEED);
-    encoder.set_repeat(Repeat::Infinite).map_err(failed)?;
+    let mut encoder = Encoder::new(&mut bytes, width, height, &[]).map_err(|e| failed(&e))?;
+    encoder.set_repeat(Repeat::Infinite).map_err(|e| failed(&e))?;
+    let delay = (step.as_secs_f64() * 100.0).round() as u16;
     let mut before: Option<RgbaImage> = None;
     for png in pngs {
-        let now = image::load_from_memory_with_format(png, ImageFormat::Png).map_err(failed)?.to_rgba8();
+        let now = read(png).map_err(|e| failed(&e))?;
+        if now.dimensions() != first.dimensions() {
+            return Err(failed(&"its size differs from that of the first"));
+        }
         let mut changed = now.clone();
-        // What stays as it was need not be said again.
-        if let Some(before) = before.filter(|before| before.dimensions() == now.dimensions()) {
+        // What stays as it was need not be said again: it is seen through what is clear.
+        if let Some(before) = before {
             let pairs = changed.pixels_mut().zip(before.pixels());
             pairs.filter(|(new, old)| **new == **old).for_each(|(new, _)| *new = Rgba([0; 4]));
         }
-        let frame = Frame::from_parts(changed, 0, 0, Delay::from_saturating_duration(step));
-        encoder.encode_frame(frame).map_err(failed)?;
+        let mut frame = Frame::from_rgba_speed(width, height, &mut changed, GIF_SPEED);
+        (frame.delay, frame.dispose) = (delay, DisposalMethod::Keep);
+        encoder.write_frame(&frame).map_err(|e| failed(&e))?;
         before = Some(now);
     }
     drop(encoder);
@@ -94,6 +104,40 @@ mod tests {
         let seen: Vec<(u8, u32)> =
             frames.iter().map(|f| (f.buffer().get_pixel(3, 3)[0], f.delay().numer_denom_ms().0)).collect();
         assert_eq!(seen, [(0, 80), (200, 80)]);
+    }
+
+    #[test]
+    fn what_does_not_move_stays_in_every_picture() {
+        // A square that wanders over a ground with a frame.
+        let picture = |at: u32| {
+            image::RgbImage::from_fn(24, 16, |x, y| match (x, y) {
+                (x, y) if (at..at + 5).contains(&x) && (4..9).contains(&y) => image::Rgb([200, 30, 20]),
+                (0 | 23, _) | (_, 0 | 15) => image::Rgb([0, 0, 0]),
+                _ => image::Rgb([250, 246, 241]),
+            })
+        };
+        let pictures = [picture(2), picture(6), picture(6), picture(15)];
+        let png = |picture: &image::RgbImage| {
+            let mut bytes = Cursor::new(Vec::new());
+            picture.write_to(&mut bytes, ImageFormat::Png).unwrap();
+            bytes.into_inner()
+        };
+        let gif = gif(&pictures.each_ref().map(png), Duration::from_millis(40)).unwrap();
+        let frames = GifDecoder::new(Cursor::new(gif)).unwrap().into_frames().collect_frames().unwrap();
+        assert_eq!(frames.len(), pictures.len());
+        for (frame, picture) in frames.iter().zip(&pictures) {
+            assert!(frame.buffer().pixels().zip(picture.pixels()).all(|(seen, meant)| seen.0[..3] == meant.0));
+        }
+    }
+
+    #[test]
+    fn pictures_that_make_no_film_are_refused() {
+        let step = Duration::from_millis(80);
+        assert!(gif(&[], step).unwrap_err().contains("no picture"));
+        assert!(gif(&[b"no PNG".to_vec()], step).unwrap_err().contains("cannot encode"));
+        let mut other = Cursor::new(Vec::new());
+        image::RgbImage::new(4, 4).write_to(&mut other, ImageFormat::Png).unwrap();
+        assert!(gif(&[png(0), other.into_inner()], step).unwrap_err().contains("size differs"));
     }
 
     #[test]

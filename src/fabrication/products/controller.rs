@@ -15,7 +15,7 @@ pub(super) fn make(source: &Source<'_>) -> Result<Part, ExportError> {
     let machine = Machine::new(source.design, source.trajectory);
     let (mut products, mut guide, mut remarks) = (Vec::new(), how(), remarks(source));
     let weak = strong_enough(source.design, source.trajectory, source.demands())?;
-    remarks.extend(weak.map(|error| Remark::from(format!("Assumed of the motors: {error}."))));
+    remarks.extend(weak.map(|error| Remark::from(format!("Assumed of the motors: {error}.")).grave()));
     guide += &followed(source, &machine)?;
     let mut left_out: Vec<(String, Vec<&str>)> = Vec::new();
     for family in chosen(source)? {

@@ -66,7 +66,11 @@ pub static EXPORT: Command = Command {
     places: &[Place::FileMenu, Place::Toolbar(Group::Right)],
     ends_drawing: true,
     run: &|session, _| acts::filing::ask(session, FileAction::Export),
-    ..Command::new("file.export", "Export…", "Write patterns, routings and winch tracks")
+    ..Command::new(
+        "file.export",
+        "Export…",
+        "Write patterns to cut, or to print as PDF on A4 or Letter pages, ways of the threads to sew, and programs for motors",
+    )
 };
 
 pub static PALETTE: Command = Command {

@@ -43,8 +43,9 @@ pub(super) fn parts_and_sheets(ui: &mut Ui, options: &mut export::Options) {
         });
         ui.horizontal(|ui| {
             let [width, height] = &mut options.sheet.size_mm;
-            figure(ui, t("Sheet width"), width, SHEET_MM, t("Sheets that the machine cuts"));
-            figure(ui, t("Sheet height"), height, SHEET_MM, t("Sheets that the machine cuts"));
+            let tip = t("Sheets that the machine cuts; patterns to print are on A4 and Letter pages all the same");
+            figure(ui, t("Cutter's sheet, width"), width, SHEET_MM, tip);
+            figure(ui, t("Height"), height, SHEET_MM, tip);
             figure(
                 ui,
                 t("Kerf"),

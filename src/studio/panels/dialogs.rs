@@ -2,7 +2,7 @@
 
 use super::blueprint_parts::parts_and_sheets;
 use super::blueprint_preview;
-use super::widgets::{dialog_frame, passing, primary, sentence};
+use super::widgets::{dialog_frame, passing, primary, scroll, sentence};
 use super::{film, import};
 use crate::files::shown;
 use crate::motion::{TooFast, families};
@@ -15,6 +15,10 @@ use crate::studio::session::{Dialog, PathDialog, Purpose, Why};
 use crate::studio::words;
 use eframe::egui::{Align, Context, Id, Key, Layout, Modal, RichText, TextEdit, Ui};
 use std::path::Path;
+
+/// Height of the export's dialog around its settings, and the least of these, logical pixels.
+const AROUND: f32 = 270.0;
+const LEAST: f32 = 120.0;
 
 /// What dialogs keep from frame to frame.
 #[derive(Default)]
@@ -55,7 +59,7 @@ fn unsaved(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     ui.heading(tf!("Save changes to “{name}”?", name = session.design().name));
     ui.label(t("Without saving they are lost."));
     ui.add_space(10.0);
-    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+    answers(ui, |ui| {
         if primary(ui, true, t("Save changes"), 120.0).clicked() {
             actions.push(Action::File(FileAction::SaveAndGoOn));
         }
@@ -85,7 +89,7 @@ fn replace(ui: &mut Ui, path: &Path, why: Why, actions: &mut Actions) {
     ui.heading(heading);
     ui.label(text);
     ui.add_space(10.0);
-    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+    answers(ui, |ui| {
         if primary(ui, true, t("Save under another name"), 180.0).clicked() {
             actions.push(Action::File(FileAction::SaveAs));
         }
@@ -103,7 +107,7 @@ fn recover(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     ui.heading(tf!("Recover “{name}”?", name = work.design.name));
     ui.label(left_behind(work));
     ui.add_space(10.0);
-    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+    answers(ui, |ui| {
         if primary(ui, true, t("Recover"), 100.0).clicked() {
             actions.push(Action::File(FileAction::Recover));
         }
@@ -166,8 +170,12 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, state: &mut State, 
         import::settings(ui, session, &mut edited);
     }
     if dialog.purpose == Purpose::Export {
-        export_settings(ui, &mut edited.export);
-        passing(ui, true, |ui| blueprint_preview::show(ui, session, &dialog.export, &mut state.preview, actions));
+        // What answers the dialog stays in the window, whatever is open above it.
+        let most = (ui.ctx().content_rect().height() - AROUND).max(LEAST);
+        scroll(most).id_salt("settings of the export").show(ui, |ui| {
+            export_settings(ui, &mut edited.export);
+            passing(ui, true, |ui| blueprint_preview::show(ui, session, &dialog.export, &mut state.preview, actions));
+        });
     }
     if dialog.purpose == Purpose::Film {
         film::settings(ui, &mut edited);
@@ -192,7 +200,7 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, state: &mut State, 
         ui.label(RichText::new(trouble).color(ui.visuals().error_fg_color));
     });
     ui.add_space(10.0);
-    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+    answers(ui, |ui| {
         let verb = dialog.purpose.verb();
         let ready = match dialog.purpose {
             Purpose::Open | Purpose::Import => is_known,
@@ -210,6 +218,11 @@ fn path(ui: &mut Ui, session: &Session, dialog: &PathDialog, state: &mut State, 
         // Before anything that closes the dialog.
         actions.insert(0, Action::File(FileAction::EditDialog(edited)));
     }
+}
+
+/// The buttons that end a dialog, the one that matters most on the right. As high as they are: a dialog that was higher before shrinks to them.
+fn answers(ui: &mut Ui, add: impl FnOnce(&mut Ui)) {
+    ui.horizontal(|ui| ui.with_layout(Layout::right_to_left(Align::Center), add));
 }
 
 fn export_settings(ui: &mut Ui, options: &mut export::Options) {

@@ -42,6 +42,8 @@ const CARDS: &str = "gallery.cards";
 const POSES: &str = "gallery.poses";
 /// Height of the list, so that the buttons below stay in sight: logical pixels, and as a part of the window where that is more.
 const HEIGHT: f32 = 200.0;
+/// Room for the buttons below them, logical pixels.
+const DECISION: f32 = 46.0;
 const PART: f32 = 0.28;
 /// Pictures, pixels: sharp at twice the size at which they are shown.
 const SIZE: (u32, u32) = (224, 168);
@@ -66,7 +68,10 @@ pub fn show(ui: &mut Ui, session: &Session, gallery: &mut Gallery, actions: &mut
     let pictures = cards(session, gallery, theme, actions);
     let poses = discovery.displayed().and_then(|proposal| poses(session, gallery, proposal, theme, actions));
     let mut hovered = None;
-    let height = HEIGHT.max(PART * ui.ctx().content_rect().height());
+    // So high that what is decided below them is seen without scrolling, where there is room.
+    let above = ui.cursor().top() - ui.min_rect().top();
+    let most = HEIGHT.max(PART * ui.ctx().content_rect().height());
+    let height = (ui.clip_rect().height() - above - DECISION).clamp(HEIGHT, most);
     let rows = ScrollArea::vertical().id_salt("proposals").max_height(height).auto_shrink([false, true]);
     rows.show(ui, |ui| {
         ui.spacing_mut().item_spacing.y = 4.0;

@@ -8,10 +8,12 @@ use crate::studio::commands::animation::{BEGIN as MOVE, FIT};
 use crate::studio::commands::discovery::{ACCEPT, PROPOSE, PROPOSE_AGAIN};
 use crate::studio::commands::files::EXPORT;
 use crate::studio::commands::posing::{BEGIN, PIN_MIDDLE};
+use crate::studio::commands::tools;
 use crate::studio::commands::view::GUIDE;
 use crate::studio::language::{t, tf};
 use crate::studio::session::Session;
 use crate::studio::style;
+use crate::studio::tools::TENDON;
 use eframe::egui::{Button, RichText, Stroke, Ui};
 
 /// Least width that is left for it, logical pixels: where there is less, it is not shown.
@@ -42,6 +44,8 @@ pub fn next(session: &Session) -> Option<(&'static Command, &'static str)> {
         (&MOVE, t("Make it move"))
     } else if session.timing().doubts().iter().any(|doubt| matches!(doubt.why, Why::TooFast { .. })) {
         (&FIT, t("Make it fit"))
+    } else if let (false, Some(tool)) = (session.judging().breaches().is_empty(), tools::take(TENDON)) {
+        (tool, t("Mend a cable"))
     } else {
         (&EXPORT, t("Export the blueprint"))
     })

@@ -20,12 +20,11 @@ use eframe::egui::{Align, Button, ComboBox, DragValue, Layout, RichText, Role, S
 /// A target that even the fibres miss by more than this part of the body length cannot be reached: what a maker sees.
 const OUT_OF_REACH: f64 = 0.02;
 const OUT_OF_REACH_TIP: &str = mark(
-    "Out of reach: even with all its fibres the body does not come nearer, as the other targets and the pins are. Move the goal \
-                                nearer, take a pin out, or give this target more weight",
+    "Out of reach from here: with all its fibres the body does not come nearer, as the other targets and the pins are. Move the goal nearer, give this target more weight, or propose networks: a few cables may find another way. Another pin may help, or spoil other poses",
 );
 /// Where there is no other target.
 const ALONE_OUT_OF_REACH_TIP: &str = mark(
-    "Out of reach: even with all its fibres the body does not come nearer, as the pins are. Move the goal nearer, or take a pin out",
+    "Out of reach from here: with all its fibres the body does not come nearer, as the pins are. Move the goal nearer, or propose networks: a few cables may find another way. Another pin may help, or spoil other poses",
 );
 /// Weights that are offered.
 const WEIGHTS: std::ops::RangeInclusive<f64> = 0.01..=100.0;

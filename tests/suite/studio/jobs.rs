@@ -74,6 +74,46 @@ fn a_preview_of_a_blueprint_is_cancelled_and_made_again() {
 }
 
 #[test]
+fn what_answers_the_export_stays_in_the_window_and_the_dialog_shrinks_again() {
+    let mut window = window(bundled::ALL[0].design().unwrap());
+    press(&mut window, Modifiers::COMMAND, Key::E);
+    settle(&mut window);
+    let bottom = |window: &Window| window.get_by_label("Cancel").rect().bottom();
+    let before = bottom(&window);
+    for name in ["Parts and sheets", "Controllers"] {
+        click(&mut window, name);
+    }
+    window.get_by_label("Preview").scroll_to_me();
+    window.run_steps(4);
+    window.get_by_label("Preview").click();
+    wait(&mut window, |s| s.tasks().running("blueprint.preview").is_some());
+    wait(&mut window, |s| s.tasks().running("blueprint.preview").is_none());
+    window.run();
+    let inside = egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(1280.0, 800.0));
+    for name in ["Path", "Cancel"] {
+        assert!(
+            inside.contains_rect(window.get_by_label(name).rect()),
+            "{name}: {:?}",
+            window.get_by_label(name).rect()
+        );
+    }
+    assert!(bottom(&window) > before + 100.0);
+    for name in ["Parts and sheets", "Controllers"] {
+        window.get_by_label(name).scroll_to_me();
+        window.run_steps(4);
+        click(&mut window, name);
+    }
+    // Another blueprint is asked for: the preview goes, and its room with it.
+    window.get_by_label("Compensate for stuffing").scroll_to_me();
+    window.run_steps(4);
+    click(&mut window, "Compensate for stuffing");
+    settle(&mut window);
+    window.run_steps(4);
+    let after = bottom(&window);
+    assert!((after - before).abs() < 4.0, "{before} {after}");
+}
+
+#[test]
 fn a_remark_on_a_blueprint_is_shown_at_its_place_on_the_body() {
     let mut design = strung();
     // Its end is on the seam.

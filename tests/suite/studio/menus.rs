@@ -158,6 +158,8 @@ fn with_reduced_motion_nothing_moves_by_itself() {
     pose(&mut window, "Idealized view");
     click(&mut window, "Propose networks");
     wait(&mut window, |s| s.tasks().running("gallery.poses").is_none() && s.tasks().running("gallery.cards").is_none());
+    window.get_by_label("Proposal 2").scroll_to_me();
+    window.run();
     let card = center(&window, "Proposal 2");
     window.hover_at(card);
     window.run_steps(4);
