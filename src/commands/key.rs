@@ -109,7 +109,7 @@ impl Key {
             say(out, &format!("{path}: no keyframe is of a pose"))?;
         } else {
             for Keyed { pose, time_s, activations_mm } in &keyframes {
-                let wound = activations_mm.iter().map(|a| format!("{a:.2}")).collect::<Vec<_>>().join(" ");
+                let wound = activations_mm.iter().map(|a| words::decimals(*a, 2)).collect::<Vec<_>>().join(" ");
                 say(out, &format!("{path}: {pose} at {time_s} s, winches at {wound} mm"))?;
             }
         }

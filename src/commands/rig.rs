@@ -116,6 +116,7 @@ struct PoseError {
 struct Told {
     /// Rounds that were begun, of how many.
     rounds: Option<[usize; 2]>,
+    /// What a check says of the poses.
     errors: Vec<(String, f64)>,
     /// The gain that was printed last.
     gain: Option<(String, usize)>,
@@ -135,11 +136,11 @@ impl Told {
                 );
                 Some((worst, *holes))
             }
-            Progress::Rig(rigging::Progress::Accepted { errors, .. } | rigging::Progress::Found { errors, .. }) => {
+            Progress::Rig(rigging::Progress::Found { errors, .. }) => {
                 self.errors.clone_from(errors);
                 None
             }
-            Progress::Rig(rigging::Progress::Candidates { .. })
+            Progress::Rig(rigging::Progress::Candidates { .. } | rigging::Progress::Accepted { .. })
             | Progress::Proposals(_)
             | Progress::Picture { .. }
             | Progress::Keyed { .. }
@@ -175,18 +176,10 @@ impl Rig {
             edit.save_found(&design)?;
             self.target.path(&self.design).to_owned()
         };
-        if rigged.interrupted {
-            // Those of a winch on the way are the search's, not a check's.
-            told.errors.clear();
-        }
         // What cannot be told is found all the same.
         printed?;
-        let notes: Vec<String> = rigged.notes.iter().filter_map(|note| in_words(note, &path)).collect();
-        self.tell(out, &design, &path, &told, rigged.interrupted, notes)?;
-        words::balanced(rigged.notes.iter().filter_map(|note| match note {
-            Note::Unbalanced(unbalanced) => Some(unbalanced),
-            Note::AtRest { .. } | Note::Coarse => None,
-        }))?;
+        self.tell(out, &design, &path, &told, &rigged)?;
+        balanced(&rigged.notes)?;
         if rigged.interrupted { Err(interrupted(&path, &told, false)) } else { Ok(()) }
     }
 
@@ -237,9 +230,9 @@ impl Rig {
         design: &Design,
         path: &Path,
         told: &Told,
-        interrupted: bool,
-        notes: Vec<String>,
+        &rig::Rigged { interrupted, ref notes, .. }: &rig::Rigged,
     ) -> Result<(), CommandError> {
+        let notes: Vec<String> = notes.iter().filter_map(|note| in_words(note, path)).collect();
         let tendons: usize = design.networks.iter().map(|n| n.tendons.len()).sum();
         let (winches, path) = (design.networks.len(), shown(path));
         if self.json {
@@ -283,13 +276,13 @@ impl Rig {
             return Err(interrupted(&path, &Told::default(), true));
         }
         let points = found.map_err(|error| self.failed(error, cancel))?;
-        if let Some(best) = best(&points) {
-            put(best, &mut design)?;
-        }
+        let best = best(&points).ok_or_else(|| self.failed(RigError::NothingFound.into(), cancel))?;
+        put(best, &mut design)?;
         edit.save_found(&design)?;
         printed?;
         files.tell(&points, out, cancel)?;
-        self.tell(out, &design, self.target.path(&self.design), &Told::default(), false, Vec::new())
+        self.tell(out, &design, self.target.path(&self.design), &Told::default(), &best.rigged)?;
+        balanced(&best.rigged.notes)
     }
 }
 
@@ -325,6 +318,14 @@ fn in_words(note: &Note, path: &Path) -> Option<String> {
         Note::Coarse => Some(format!("{note}; `plushwright key {} --again` does", shown(path))),
         Note::Unbalanced(_) => None,
     }
+}
+
+/// Tells keyframes whose poses do not balance.
+fn balanced(notes: &[Note]) -> Result<(), CommandError> {
+    words::balanced(notes.iter().filter_map(|note| match note {
+        Note::Unbalanced(unbalanced) => Some(unbalanced),
+        Note::AtRest { .. } | Note::Coarse => None,
+    }))
 }
 
 /// What an interrupted search leaves, and how to go on.

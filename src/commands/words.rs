@@ -98,6 +98,15 @@ pub fn balanced<'a>(unbalanced: impl IntoIterator<Item = &'a Unbalanced>) -> Res
     if told.is_empty() { Ok(()) } else { Err(CommandError::NotConverged(told.join("; "))) }
 }
 
+/// A number with so many decimals, never less than nothing by less than it shows: not `-0.00`.
+pub fn decimals(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(zero) if !zero.contains(|c: char| ('1'..='9').contains(&c)) => zero.to_owned(),
+        _ => text,
+    }
+}
+
 /// So many of something.
 pub fn count(count: usize, one: &str, several: &str) -> String {
     format!("{count} {}", if count == 1 { one } else { several })

@@ -21,8 +21,8 @@ pub(super) fn remarks(design: &Design) -> Vec<Remark> {
     let others = counted.iter().flat_map(|breach| places(design, breach));
     match counted.len() {
         0 => {}
-        1 => remarks.push(Remark::at(others, "Hard to sew: one more place breaks a rule.")),
-        more => remarks.push(Remark::at(others, format!("Hard to sew: {more} more places break a rule."))),
+        1 => remarks.push(Remark::at(others, "Hard to sew: one more place breaks a rule.").grave()),
+        more => remarks.push(Remark::at(others, format!("Hard to sew: {more} more places break a rule.")).grave()),
     }
     remarks
 }

@@ -9,6 +9,7 @@
 //! gives the same bits for any number of threads.
 
 use super::annealing::{Annealing, Cooling};
+use super::kinds::{self, APART};
 use super::layout::Layout;
 use super::linear_score::Linear;
 use super::moves::{Sampler, Topology};
@@ -77,7 +78,7 @@ pub struct Joint<'a> {
     peopled: u64,
     /// The best of the islands of earlier heats.
     heats: Vec<Fit>,
-    /// The best of islands that were left for good.
+    /// The best of islands that were left for good, and of all heats.
     remembered: Vec<Fit>,
 }
 
@@ -174,6 +175,7 @@ impl<'a> Joint<'a> {
         let mut all = std::mem::take(&mut self.heats);
         all.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         all.dedup_by(|a, b| is_same(a, b));
+        self.remembered.extend(all.iter().cloned());
         self.spread(all);
     }
 
@@ -300,12 +302,20 @@ impl<'a> Joint<'a> {
         self.living().min_by(|a, b| a.cost.total_cmp(&b.cost))
     }
 
-    /// The best few, by their worst pose.
-    pub fn finalists(&self, count: usize) -> Vec<Fit> {
+    /// The best few, by their worst pose, and as many as asked for that differ in kind from them and from each other.
+    pub fn finalists(&self, count: usize, others: usize) -> Vec<Fit> {
         let mut all: Vec<Fit> = self.all().cloned().collect();
         all.sort_by(|a, b| a.worst().total_cmp(&b.worst()));
         all.dedup_by(|a, b| is_same(a, b));
-        all.truncate(count);
+        let rest = all.split_off(count.min(all.len()));
+        let apart_mm = APART * self.task.design.body_length_mm();
+        let most = all.len() + others;
+        for fit in rest {
+            let new = all.iter().all(|taken| kinds::distance(&taken.layout, &fit.layout) > apart_mm);
+            if new && all.len() < most {
+                all.push(fit);
+            }
+        }
         all
     }
 

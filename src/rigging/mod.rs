@@ -6,6 +6,7 @@
 //! | `joint` | the search for all winches together: islands of layouts, changed and improved |
 //! | `schedule` | when the search leaves its islands, gathers the best, drops the rules |
 //! | `layout`, `moves` | where winches and cables are at rest; random layouts, and random changes of one |
+//! | `kinds` | which networks are the same in kind |
 //! | `refine` | all points of a layout and all activations improved together, on exact sensitivities |
 //! | `linear_score`, `annealing` | layouts ranked by the body linearised at rest, at its goals or in between, and annealed there, before any is simulated |
 //! | `sewable`, `depths` | the rules of sewing as figures that a search brings to zero; how deep points lie in a body |
@@ -33,6 +34,7 @@ pub mod generator;
 pub mod generators;
 mod greedy;
 mod joint;
+mod kinds;
 mod layout;
 mod linear_score;
 mod moves;
@@ -51,7 +53,7 @@ pub use candidate::{Baseline, Candidate, with_network};
 pub use checked::Checked;
 pub use options::{BadTendons, Found, Method, Progress, RigError, RigOptions, TendonChoice, Trims, Wound};
 pub use propose::{PoseServed, Proposal, ProposeOptions, propose};
-pub use robust::{Sewn, sewn};
+pub use robust::{Sewn, by_hand, sewn};
 pub use search::rig;
 pub use trial::{Reached, Scrutiny, Trial};
 

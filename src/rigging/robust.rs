@@ -44,7 +44,9 @@ pub fn sewn(design: &Design, poses: &[&[Target]], friction: f64, cancel: &Atomic
 }
 
 /// The design as a hand sews it. Holes that would be outside of the body are at its rim.
-fn by_hand(design: &Design, draw: usize) -> Design {
+///
+/// `draw`: which plushie; a search judges rigs by the first [`defaults::SEWN_DRAWS`].
+pub fn by_hand(design: &Design, draw: usize) -> Design {
     let random = &mut Random::of(SEED, "sewn", draw as u64);
     let mut sewn = design.clone();
     let moved = |point: &MaterialPoint, by_mm: f64, direction: Point| {

@@ -30,10 +30,12 @@ const FINE: usize = 700;
 const FINER: usize = 3;
 /// Layouts that are finished and compared by what a check says of them.
 const FINALISTS: usize = 5;
+/// And others that differ from them in kind, where it counts what a hand makes of them: a valley may be narrow.
+const OTHERS: usize = 6;
 /// Steps by which the worst pose is improved in the end.
 const SHARPENING: usize = 40;
 /// The best of those are improved for what a hand makes of them, too.
-const STEADIED: usize = 3;
+const STEADIED: usize = 8;
 /// Most holes of a tendon where no rule is asked for.
 pub(super) const FREE_HOLES: usize = 20;
 
@@ -282,7 +284,8 @@ fn layouts(
         return so_far(joint.best(), options);
     }
     let task = if options.rules { &lawful } else { &free };
-    let mut finished = in_order(&joint.finalists(FINALISTS), |fit| {
+    let others = if options.rules { OTHERS } else { 0 };
+    let mut finished = in_order(&joint.finalists(FINALISTS, others), |fit| {
         task.sharpened(pruned(task, topology, joint.finished(fit, &stop), &stop), SHARPENING, &stop)
     });
     if stop() {

@@ -7,7 +7,7 @@ use super::linear_score::Linear;
 use super::moves::{Sampler, Topology};
 use super::refine::{Fit, Task};
 use super::sewable::Sewable;
-use super::{Found, RigOptions, TendonChoice, rig};
+use super::{Found, RigOptions, TendonChoice, kinds, rig};
 use crate::design::{Design, Pin, Pose, Target};
 use crate::engine::{Setpoint, solve_once, target_error};
 use crate::mesh::{self, BodyPoint};
@@ -93,7 +93,14 @@ fn the_search_keeps_every_rule_and_gives_the_same_bits() {
         let goals = Linear::at_goals(&task, &AtomicBool::new(false));
         let mut joint = Joint::new(&task, &sampler, topology.clone(), (2, 7), goals, GO);
         (0..2).for_each(|_| joint.advance(GO));
-        joint.finalists(1).remove(0)
+        // Others that it ends with differ in kind from the best and from each other.
+        let ends = joint.finalists(1, 3);
+        let apart_mm = kinds::APART * design.body_length_mm();
+        for (k, one) in ends.iter().enumerate() {
+            assert!(ends[..k].iter().all(|other| kinds::distance(&one.layout, &other.layout) > apart_mm));
+        }
+        assert!((2..=4).contains(&ends.len()), "{}", ends.len());
+        joint.finalists(1, 0).remove(0)
     };
     let (once, again) = (search(), search());
     assert_eq!((once.cost.to_bits(), &once.layout), (again.cost.to_bits(), &again.layout));

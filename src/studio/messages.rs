@@ -59,6 +59,11 @@ impl Messages {
         self.list.retain(|m| m.id != id);
     }
 
+    /// Dismisses what does not hold any more.
+    pub fn take_back(&mut self, text: &str) {
+        self.list.retain(|m| m.text != text);
+    }
+
     pub fn list(&self) -> &[Message] {
         &self.list
     }
@@ -111,7 +116,10 @@ mod tests {
         let id = messages.list()[0].id;
         messages.dismiss(id);
         assert!(messages.list().is_empty());
+        messages.warning("nothing was found");
+        messages.take_back("nothing was found");
+        assert!(messages.list().is_empty());
         let said: Vec<&str> = messages.log().map(|(_, message)| message.text.as_str()).collect();
-        assert_eq!(said, ["saved", "no", "no"]);
+        assert_eq!(said, ["saved", "no", "no", "nothing was found"]);
     }
 }

@@ -22,6 +22,8 @@ const MOVED: f64 = 0.005;
 const UNSEEN: f64 = 1e-9;
 /// An error after a move that is no more than so many times the one before, or no more than so much larger, is as good.
 const AS_GOOD: [f64; 2] = [1.5, 0.03];
+/// Plushies sewn of each rig.
+const SEWN_PLUSHIES: usize = 10;
 
 /// A design that needs winches, and how many it may have.
 struct Case {
@@ -37,6 +39,7 @@ struct Case {
 struct Studied {
     rigs: Vec<(&'static str, Rigged)>,
     rubbed: Option<Vec<Cell>>,
+    by_hand: Option<Vec<Cell>>,
     moved: Option<Vec<Cell>>,
     curve: Option<Vec<Cell>>,
 }
@@ -72,7 +75,7 @@ impl Networks {
         let mut report =
             Report { title: format!("networks, {} rounds, seed {}", self.rounds, session.seed), ..Report::default() };
         let (mut compared, mut rubbed) = (compared_table(), rubbed_table());
-        let (mut moved, mut curve) = (moved_table(), curve_table(self.curve));
+        let (mut by_hand, mut moved, mut curve) = (by_hand_table(), moved_table(), curve_table(self.curve));
         let mut errors: Vec<(&str, Vec<f64>)> = Vec::new();
         for (done, case) in cases.iter().enumerate() {
             let studied = match self.studied(case, session) {
@@ -93,6 +96,7 @@ impl Networks {
                 }
             }
             rubbed.rows.extend(studied.rubbed);
+            by_hand.rows.extend(studied.by_hand);
             moved.rows.extend(studied.moved);
             curve.rows.extend(studied.curve);
         }
@@ -101,7 +105,7 @@ impl Networks {
             let worst = errors.last().copied().unwrap_or(f64::NAN);
             report.remarks.push(format!("{what}: median {:.3}, worst {worst:.3}", quantile(&errors, 0.5)));
         }
-        report.tables = vec![compared, rubbed];
+        report.tables = vec![compared, rubbed, by_hand];
         report.tables.extend([moved, curve].into_iter().filter(|table| !table.rows.is_empty()));
         Ok(report)
     }
@@ -109,16 +113,19 @@ impl Networks {
     /// All that is asked of a design.
     fn studied(&self, case: &Case, session: &Session) -> Result<Studied, BenchError> {
         let rigs = self.rigs(case, session)?;
-        let (mut rubbed, mut moved) = (None, None);
+        let (mut rubbed, mut by_hand, mut moved) = (None, None, None);
         if let Some((_, rigged)) = rigs.iter().find(|(what, _)| *what == SEWN) {
             let errors = FRICTIONS.iter().map(|&mu| rigged.under(mu, session).into());
             rubbed = Some(std::iter::once(case.name.clone().into()).chain(errors).collect());
             // What is cut short has no figures.
             session.check()?;
-            moved = (self.moves > 0).then(|| self.moved(case, rigged, session)).transpose()?;
+            let sewn = rigged.sewn(SEWN_PLUSHIES, session)?;
+            let error = rigged.error();
+            by_hand = Some([vec![case.name.clone().into(), error.into()], again(error, &sewn).to_vec()].concat());
+            moved = (self.moves > 0).then(|| self.moved(case, rigged, &sewn, session)).transpose()?;
         }
         let curve = (self.curve > 0).then(|| self.curve(case, session)).transpose()?;
-        Ok(Studied { rigs, rubbed, moved, curve })
+        Ok(Studied { rigs, rubbed, by_hand, moved, curve })
     }
 
     fn case(&self, name: &str) -> Result<Case, BenchError> {
@@ -168,30 +175,28 @@ impl Networks {
         Ok(out)
     }
 
-    /// The joint search again for targets that moved a little.
-    fn moved(&self, case: &Case, base: &Rigged, session: &Session) -> Result<Vec<Cell>, BenchError> {
+    /// The joint search again for targets that moved a little. `sewn`: the errors of plushies of the one before.
+    fn moved(&self, case: &Case, base: &Rigged, sewn: &[f64], session: &Session) -> Result<Vec<Cell>, BenchError> {
         let options = self.sewn(case, session, case.winches);
-        let before = base.error().unwrap_or(f64::INFINITY);
-        let mut errors = Vec::new();
+        let (mut errors, mut as_sewn) = (Vec::new(), Vec::new());
         for number in 0..self.moves {
             session.next(&format!("{}: moved targets {} of {}", case.name, number + 1, self.moves))?;
             let random = &mut Random::of(session.seed, "moved", number as u64);
-            let other = with_moved(&case.design, MOVED, random);
-            errors.push(Rigged::found(&other, &options, session)?.error().unwrap_or(f64::INFINITY));
+            let other = Rigged::found(&with_moved(&case.design, MOVED, random), &options, session)?;
+            errors.push(other.error().unwrap_or(f64::INFINITY));
+            as_sewn.push(quantile(&other.sewn(SEWN_PLUSHIES, session)?, 0.5));
         }
-        let as_good = errors.iter().filter(|e| **e <= f64::max(AS_GOOD[0] * before, before + AS_GOOD[1])).count();
-        errors.sort_by(f64::total_cmp);
+        [&mut errors, &mut as_sewn].into_iter().for_each(|errors| errors.sort_by(f64::total_cmp));
         let unseen = with_moved(&case.design, UNSEEN, &mut Random::of(session.seed, "unseen", 0));
         let same = Rigged::found(&unseen, &options, session)?.design.networks == base.design.networks;
-        let worst = errors.last().copied();
-        Ok(vec![
-            case.name.clone().into(),
-            before.into(),
-            quantile(&errors, 0.5).into(),
-            worst.into(),
-            format!("{as_good} of {}", errors.len()).into(),
-            if same { "yes" } else { "no" }.into(),
-        ])
+        let before = [base.error(), Some(quantile(sewn, 0.5))];
+        let mut row = vec![case.name.clone().into()];
+        for (before, errors) in before.into_iter().zip([errors, as_sewn]) {
+            row.push(before.into());
+            row.extend(again(before, &errors));
+        }
+        row.push(if same { "yes" } else { "no" }.into());
+        Ok(row)
     }
 
     fn curve(&self, case: &Case, session: &Session) -> Result<Vec<Cell>, BenchError> {
@@ -241,12 +246,37 @@ fn rubbed_table() -> Table {
     }
 }
 
+/// How errors compare with the one before, ascending: median, worst, and how many are as good.
+fn again(before: Option<f64>, errors: &[f64]) -> [Cell; 3] {
+    let before = before.unwrap_or(f64::INFINITY);
+    let as_good = errors.iter().filter(|e| **e <= f64::max(AS_GOOD[0] * before, before + AS_GOOD[1])).count();
+    let worst = errors.last().copied();
+    [quantile(errors, 0.5).into(), worst.into(), format!("{as_good} of {}", errors.len()).into()]
+}
+
+fn by_hand_table() -> Table {
+    let (hole, winch) = (defaults::SEWN_HOLE_MM, defaults::SEWN_WINCH_MM);
+    Table {
+        name: "sewn".into(),
+        caption: format!(
+            "The same sewn {SEWN_PLUSHIES} times, holes {hole} mm and winches {winch} mm off, each wound as serves it best"
+        ),
+        headings: ["design", "as drawn", "median sewn", "worst sewn", "as good"].map(str::to_owned).to_vec(),
+        rows: Vec::new(),
+    }
+}
+
 fn moved_table() -> Table {
-    let headings = ["design", "error", "median moved", "worst moved", "as good", "same after 1e-9"];
+    let drawn = ["as drawn", "median moved", "worst moved", "as good"];
+    let sewn = ["as sewn", "sewn: median moved", "sewn: worst moved", "sewn: as good"];
+    let headings = [&["design"][..], &drawn, &sewn, &["same after 1e-9"]].concat();
     Table {
         name: "stability".into(),
-        caption: format!("Targets moved by {} % of the body, and networks sought again", 100.0 * MOVED),
-        headings: headings.map(str::to_owned).to_vec(),
+        caption: format!(
+            "Targets moved by {} % of the body, and networks sought again: as drawn, and the median plushie as sewn",
+            100.0 * MOVED
+        ),
+        headings: headings.into_iter().map(str::to_owned).collect(),
         rows: Vec::new(),
     }
 }

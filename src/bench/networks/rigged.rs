@@ -2,9 +2,10 @@
 
 use crate::bench::report::Cell;
 use crate::bench::{BenchError, Session};
+use crate::defaults;
 use crate::design::{Design, Tendon};
 use crate::engine::{Shape, pose_with_friction, target_error};
-use crate::rigging::{Checked, RigError, RigOptions, rig};
+use crate::rigging::{self, Checked, RigError, RigOptions, rig};
 use crate::threads::in_order;
 use std::time::Instant;
 
@@ -62,6 +63,20 @@ impl Rigged {
             let found = pose_with_friction(&self.design, targets, &shape.activations_mm, mu, session.stop);
             Some(found.ok()?.error)
         })
+    }
+
+    /// The same of so many plushies as hands sew them, ascending: others than those by which the search judges. Infinite where a pose does not
+    /// settle.
+    ///
+    /// # Errors
+    /// Cancelled.
+    pub fn sewn(&self, plushies: usize, session: &Session) -> Result<Vec<f64>, BenchError> {
+        let draws = defaults::SEWN_DRAWS..defaults::SEWN_DRAWS + plushies;
+        let sewn = draws.map(|draw| Self::of(rigging::by_hand(&self.design, draw), 0.0, session));
+        let mut errors =
+            sewn.map(|sewn| Ok(sewn?.error().unwrap_or(f64::INFINITY))).collect::<Result<Vec<_>, BenchError>>()?;
+        errors.sort_by(f64::total_cmp);
+        Ok(errors)
     }
 
     fn worst(&self, error: impl Fn(usize, &Shape) -> Option<f64>) -> Option<f64> {

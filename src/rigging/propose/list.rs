@@ -1,10 +1,10 @@
 //! The list of proposals as it grows.
 
 use super::figures::Subject;
-use super::kinds;
 use super::pool::Origin;
 use super::proposal::Proposal;
 use crate::design::Design;
+use crate::rigging::kinds;
 use crate::rigging::layout::Layout;
 use crate::rigging::refine::{Fit, Task};
 use crate::rigging::search::{rim, sewable};

@@ -2,7 +2,7 @@
 //!
 //! One more winch is searched for beside those that are there: random layouts annealed in the linear model, improved by exact
 //! sensitivities ([`Task::improve`]), changed at random, thinned out; and the networks of Algorithm 2, moved until they can be sewn. What is
-//! proposed differs in kind ([`kinds`]), and every figure of it is what a check says of the design with this network ([`figures`]).
+//! proposed differs in kind ([`super::kinds`]), and every figure of it is what a check says of the design with this network ([`figures`]).
 //!
 //! | file | holds |
 //! | --- | --- |
@@ -10,12 +10,10 @@
 //! | `proposal` | a proposal and the options of the search |
 //! | `figures` | a network becomes a proposal |
 //! | `list` | the list of proposals as it grows |
-//! | `kinds` | which networks are the same in kind |
 //! | `pool` | the layouts that are alive, and how they come about |
 //! | `paper` | networks of Algorithm 2 as layouts |
 
 mod figures;
-mod kinds;
 mod list;
 mod paper;
 mod pool;

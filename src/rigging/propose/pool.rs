@@ -1,9 +1,9 @@
 //! The layouts that are alive: how they begin, what becomes of them.
 
-use super::kinds;
 use super::proposal::Paper;
 use crate::random::Random;
 use crate::rigging::annealing::{Annealing, Cooling};
+use crate::rigging::kinds;
 use crate::rigging::layout::Layout;
 use crate::rigging::linear_score::Linear;
 use crate::rigging::moves::{Sampler, Topology};

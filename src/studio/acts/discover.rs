@@ -15,6 +15,7 @@ pub fn start_propose(session: &mut Session) {
         return;
     }
     session.discovery.cancel();
+    [true, false].into_iter().for_each(|rules| session.messages.take_back(nothing(rules)));
     let (design, targets) = (session.design().clone(), session.targets().to_vec());
     session.discovery.ask(&design, &targets);
     let options = session.discovery.options.clone();
@@ -61,12 +62,19 @@ pub fn take_proposals(session: &mut Session, serial: u64, proposals: Vec<Arc<Pro
     }
     session.discovery.running = None;
     if proposals.is_empty() {
-        session.messages.warning(match session.discovery.options.rules {
-            true => t("No network that can be sewn was found for this pose. Try more tendons, or lift the rules."),
-            false => t("No network was found for this pose. Try more tendons."),
-        });
+        session.messages.warning(nothing(session.discovery.options.rules));
     }
     session.discovery.take(proposals);
+}
+
+/// What is said where nothing was found, `rules` kept or not.
+fn nothing(rules: bool) -> &'static str {
+    match rules {
+        true => t(
+            "No network that can be sewn was found for this pose. Move its goals nearer, allow more tendons, or take “Only what can be sewn” off under Advanced.",
+        ),
+        false => t("No network was found for this pose. Move its goals nearer, or allow more tendons."),
+    }
 }
 
 /// Builds the network of the shown proposal in. The others are of a body without it.

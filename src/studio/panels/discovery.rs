@@ -27,7 +27,7 @@ pub fn show(ui: &mut Ui, session: &Session, thumbnails: &mut Thumbnails, gallery
     options(ui, session, actions);
     rig::show(ui, session, actions);
     let discovery = &session.discovery;
-    if discovery.proposals.is_empty() && !discovery.is_stale() {
+    if discovery.proposals.is_empty() && (running.is_some() || !discovery.is_stale()) {
         return;
     }
     ui.add_space(6.0);

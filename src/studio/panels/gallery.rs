@@ -40,11 +40,11 @@ struct Poses {
 
 const CARDS: &str = "gallery.cards";
 const POSES: &str = "gallery.poses";
-/// Height of the list, so that the buttons below stay in sight: logical pixels, and as a part of the window where that is more.
+/// Height of the list: at least, logical pixels, and at most as a part of the window where that is more.
 const HEIGHT: f32 = 200.0;
-/// Room for the buttons below them, logical pixels.
-const DECISION: f32 = 46.0;
 const PART: f32 = 0.28;
+/// Room for the buttons below it, logical pixels, so that they stay in sight.
+const DECISION: f32 = 46.0;
 /// Pictures, pixels: sharp at twice the size at which they are shown.
 const SIZE: (u32, u32) = (224, 168);
 /// How long a pose is held while all are struck, s.

@@ -1,5 +1,6 @@
 //! A proposal on the list: what it reaches, what it costs, whom it serves.
 
+use crate::design::Design;
 use crate::discovery::Parameters;
 use crate::engine::Shape;
 use crate::picture::preview::Preview;
@@ -54,7 +55,7 @@ pub fn card(
             if let Some(picture) = picture {
                 pictures.paint(ui, picture, rect);
             }
-            ui.vertical(|ui| figures(ui, proposal));
+            ui.vertical(|ui| figures(ui, session.design(), proposal));
         });
         if strip.len() > 1 && (shown || session.discovery.hovered.as_ref().is_some_and(|(of, _)| *of == index)) {
             ui.horizontal_wrapped(|ui| strip.iter().for_each(|struck| small(ui, pictures, struck)));
@@ -87,7 +88,7 @@ fn title(ui: &mut Ui, session: &Session, index: usize, proposal: &Proposal, acti
     response
 }
 
-fn figures(ui: &mut Ui, proposal: &Proposal) {
+fn figures(ui: &mut Ui, design: &Design, proposal: &Proposal) {
     ui.spacing_mut().item_spacing.y = 2.0;
     let small = |text: String| Label::new(RichText::new(text).small().weak()).truncate();
     ui.add(Label::new(RichText::new(costs(proposal)).small().weak()).wrap());
@@ -95,6 +96,12 @@ fn figures(ui: &mut Ui, proposal: &Proposal) {
     if !proposal.breaches.is_empty() {
         let text =
             tn!(count = proposal.breaches.len(), "Hard to sew in {count} place", "Hard to sew in {count} places");
+        ui.add(Label::new(RichText::new(text).small().color(ui.visuals().warn_fg_color)).truncate());
+    }
+    // Of the strongest cable alone: what it takes at least.
+    let (torque_nmm, limit) = (design.fabrication.spool_radius_mm * proposal.force_n, design.controller.torque_nmm);
+    if torque_nmm > limit {
+        let text = tf!("Too strong for its motor: {torque_nmm:.0} of {limit:.0} N mm", torque_nmm, limit);
         ui.add(Label::new(RichText::new(text).small().color(ui.visuals().warn_fg_color)).truncate());
     }
 }

@@ -112,6 +112,9 @@ fn figures(session: &Session, plushie: Plushie) -> (String, bool) {
     let text = match shape {
         _ if !session.look.views.shows(plushie) && solved => t("hidden, solved for its winches").to_owned(),
         _ if !session.look.views.shows(plushie) => t("hidden, not solved").to_owned(),
+        _ if plushie == Plushie::Realizable && session.displayed_proposal().is_some() => {
+            t("a proposal is shown: its figures are on its card").to_owned()
+        }
         None => t("not solved yet").to_owned(),
         Some(shape) => {
             let (text, balanced) = shape_figures(session, shape);

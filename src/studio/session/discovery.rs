@@ -127,7 +127,10 @@ impl Discovery {
     pub(crate) fn follow(&mut self, design: &Arc<Design>, targets: &[Target]) {
         let Some(asked) = &mut self.asked else { return };
         self.stale = !asked.basis.holds(design) || asked.targets != targets;
-        if self.stale {
+        if self.stale && self.running.is_none() && self.proposals.is_empty() {
+            // Nothing is there that could be taken for this pose's.
+            self.clear();
+        } else if self.stale {
             self.shown = None;
         }
     }

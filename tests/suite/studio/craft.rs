@@ -149,7 +149,8 @@ fn the_next_step_leads_from_a_bare_body_to_a_network() {
     assert_eq!(keyframes.iter().map(|k| k.time_s).collect::<Vec<_>>(), [0.0, 1.0, 2.0]);
     assert_eq!(keyframes.iter().map(|k| k.pose.as_deref()).collect::<Vec<_>>(), [None, Some("Wave"), None]);
     assert_eq!(session(&window).history().undo_label(), Some("First keyframes"));
-    let next = ["Make it fit", "Mend a cable", "Export the blueprint"].map(|words| format!("Next step: {words}"));
+    let next = ["Make it fit", "Propose for this pose", "Mend a cable", "Export the blueprint"]
+        .map(|words| format!("Next step: {words}"));
     assert!(next.iter().any(|name| window.query_by_label(name).is_some()));
     while session(&window).history().undo_label().is_some() {
         click(&mut window, "Undo");

@@ -109,6 +109,35 @@ fn proposals_stream_in_and_a_list_for_another_pose_is_stale() {
 }
 
 #[test]
+fn where_nothing_was_found_the_window_says_what_to_do_until_something_is() {
+    let empty = Arc::new(AtomicBool::new(true));
+    let nothing = empty.clone();
+    let propose: Propose = Arc::new(move |design, _, _, _, _| {
+        let strong = plushwright::rigging::Proposal { force_n: 50.0, ..proposal(design, 0.05) };
+        if nothing.load(Ordering::Relaxed) { Vec::new() } else { vec![Arc::new(strong)] }
+    });
+    let mut window = window_with(bar(), Services { propose, ..services() });
+    pose(&mut window, "Idealized view");
+    click(&mut window, "Propose networks");
+    let found_nothing = |window: &Window| {
+        window
+            .query_by_label_contains("No network that can be sewn was found for this pose. Move its goals nearer")
+            .is_some()
+    };
+    assert!(found_nothing(&window) && window.query_by_label_contains("Found for another").is_none());
+    // In another pose there is nothing that could be taken for its own.
+    let [from, to] = [[115.0, 45.0], [110.0, 50.0]].map(|p| on_screen(&window, "Idealized view", p));
+    drag(&mut window, from, to);
+    assert!(!session(&window).discovery().is_stale() && window.query_by_label_contains("Found for another").is_none());
+    empty.store(false, Ordering::Relaxed);
+    click(&mut window, "Propose networks");
+    assert!(!found_nothing(&window) && session(&window).discovery().proposals.len() == 1);
+    // 50 N at a spool are more than the motor of a new design keeps up.
+    window.get_by_label_contains("Too strong for its motor:");
+    window.get_by_label_contains("a proposal is shown: its figures are on its card");
+}
+
+#[test]
 fn what_is_accepted_has_the_figures_that_were_told() {
     let mut window = window_with(bar(), plushwright::studio::services());
     pose(&mut window, "Idealized view");
@@ -216,7 +245,10 @@ fn a_keyframe_is_made_of_the_newest_activations_even_where_they_are_hidden() {
 
 #[test]
 fn networks_that_no_hand_can_sew_are_marked() {
-    let mut window = window(crate::support::rigged());
+    let mut design = crate::support::rigged();
+    // Slow enough for the motors.
+    design.keyframes.iter_mut().for_each(|keyframe| keyframe.time_s *= 10.0);
+    let mut window = window(design);
     let marked = |window: &mut Window, name: &str, wanted: bool| {
         let label = format!("Network {name} is hard to sew");
         let started = Instant::now();
@@ -241,7 +273,12 @@ fn networks_that_no_hand_can_sew_are_marked() {
     click(&mut window, "Undo");
     assert_eq!(session(&window).design().sewing.turn_degrees, 75.0);
     marked(&mut window, "right", true);
-    // The mark leads to the place, with the tool for it.
+    // So does the next step, where no pose is missed; both have the tool for it.
+    click(&mut window, "Rest");
+    window.get_by_label("Next step: Mend a cable").click();
+    settle(&mut window);
+    assert_eq!(session(&window).selection(), Selection::Part(Part::Winch(1)));
+    press(&mut window, Modifiers::NONE, Key::Escape);
     click(&mut window, "Network right is hard to sew");
     assert_eq!(session(&window).selection(), Selection::Part(Part::Winch(1)));
     assert!(session(&window).has_taken("tool.tendon"));

@@ -1,7 +1,7 @@
 //! Keyframes that follow their poses, are detached, replaced, selected; keys that work after a click into a view.
 
 use crate::support::window::{click, drag, press, session, settle, wait, with_network};
-use eframe::egui::{Key, Modifiers};
+use eframe::egui::{Key, Modifiers, accesskit};
 use egui_kittest::kittest::Queryable;
 use plushwright::design::Keyframe;
 use plushwright::studio::session::Selection;
@@ -196,6 +196,15 @@ fn what_the_motors_cannot_follow_is_red_and_is_made_to_fit() {
     assert!(window.query_by_label_contains("Too fast").is_none());
     let fitted = times(&window);
     assert!(fitted[1] > 0.05 && (fitted[2] - fitted[1] - 1.95).abs() < 1e-9, "{fitted:?}");
+    // A keyframe that holds jumps at its end, which no motor does, and what is done about it is told.
+    window.get_by_label("Keyframe 2").click();
+    settle(&mut window);
+    assert!(window.query_by_label_contains("no motor jumps").is_none());
+    window.get_by_role_and_label(accesskit::Role::ComboBox, "Easing").click();
+    window.run();
+    click(&mut window, "Hold");
+    window.get_by_label_contains("no motor jumps: winch 1 is on its way all the time instead. To stay, copy");
+    click(&mut window, "Undo");
     // What drives make of it, and their loads.
     click(&mut window, "Drives");
     wait(&mut window, |s| s.tasks().running("timeline.drives").is_none());

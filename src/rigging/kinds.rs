@@ -1,16 +1,16 @@
-//! Which networks are the same in kind: one is shown, the better one.
+//! Which networks are the same in kind: of a list one is shown, of those that a search ends with one is enough.
 
+use super::layout::{Layout, Placed};
 use crate::outline::{Point, polygon};
-use crate::rigging::layout::{Layout, Placed};
 
 /// Networks nearer than this part of the body are of one kind: an eye that compares two pictures takes them for the same.
-pub(super) const APART: f64 = 0.07;
+pub const APART: f64 = 0.07;
 /// Places along a cable that are compared.
 const PLACES: usize = 12;
 
-/// How far two layouts of one winch are apart, mm: the distance of the winches, or the mean distance of the cables where that is more; each
+/// How far two layouts are apart, mm: the distance of the winches, or the mean distance of the cables where that is more; each
 /// cable with the one nearest to it of the other. Infinite for different numbers of tendons.
-pub(super) fn distance(a: &Layout, b: &Layout) -> f64 {
+pub fn distance(a: &Layout, b: &Layout) -> f64 {
     let pairs = a.winches.iter().zip(&b.winches);
     let alike = a.winches.len() == b.winches.len() && pairs.clone().all(|(p, q)| p.cables.len() == q.cables.len());
     if alike { pairs.map(|(p, q)| apart(p, q)).fold(0.0, f64::max) } else { f64::INFINITY }
