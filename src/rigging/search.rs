@@ -36,6 +36,8 @@ const OTHERS: usize = 6;
 const SHARPENING: usize = 40;
 /// The best of those are improved for what a hand makes of them, too.
 const STEADIED: usize = 8;
+/// And so many go over to a finer mesh, where improving one takes most of the time.
+const CARRIED: usize = 8;
 /// Most holes of a tendon where no rule is asked for.
 pub(super) const FREE_HOLES: usize = 20;
 
@@ -82,9 +84,13 @@ fn together(
     let topology = topology(design, options);
     let coarse = coarser(design);
     let searched = coarse.as_ref().unwrap_or(design);
-    let found = layouts(searched, options, &topology, progress, cancel)?;
+    let mut found = layouts(searched, options, &topology, progress, cancel)?;
     let (found, coarse) = match coarse {
-        Some(_) => carried(design, found, options, cancel),
+        Some(_) => {
+            found.sort_by(|a, b| a.worst().total_cmp(&b.worst()));
+            found.truncate(CARRIED);
+            carried(design, found, options, cancel)
+        }
         None => (found, false),
     };
     let verified = judged(design, &found, options, cancel);
