@@ -101,8 +101,8 @@ fn figures(ui: &mut Ui, design: &Design, proposal: &Proposal) {
     // Of the strongest cable alone: what it takes at least.
     let (torque_nmm, limit) = (design.fabrication.spool_radius_mm * proposal.force_n, design.controller.torque_nmm);
     if torque_nmm > limit {
-        let text = tf!("Too strong for its motor: {torque_nmm:.0} of {limit:.0} N mm", torque_nmm, limit);
-        ui.add(Label::new(RichText::new(text).small().color(ui.visuals().warn_fg_color)).truncate());
+        let text = tf!("Motor too weak: {torque_nmm:.0} of {limit:.0} N mm", torque_nmm, limit);
+        ui.add(Label::new(RichText::new(text).small().color(ui.visuals().warn_fg_color)).wrap());
     }
 }
 

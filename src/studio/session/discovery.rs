@@ -197,6 +197,7 @@ mod tests {
         discovery.follow(&design, &[]);
         assert!(!discovery.is_stale());
         discovery.ask(&design, &targets);
+        discovery.take(vec![Arc::new(proposal(&design))]);
         let changed = |change: &dyn Fn(&mut Design)| {
             let mut design = Design::clone(&design);
             change(&mut design);
@@ -216,5 +217,26 @@ mod tests {
         }
         discovery.follow(&design, &[]);
         assert!(discovery.is_stale());
+        // Without a list there is nothing that could be taken for the other pose's.
+        discovery.ask(&design, &targets);
+        discovery.follow(&design, &[]);
+        assert!(!discovery.is_stale() && !discovery.has_asked());
+    }
+
+    fn proposal(design: &Design) -> Proposal {
+        Proposal {
+            network: design.networks[0].clone(),
+            poses: Vec::new(),
+            current: 0,
+            sewn: None,
+            thread_mm: 1.0,
+            holes: 0,
+            turn_degrees: 0.0,
+            turning_degrees: 0.0,
+            force_n: 1.0,
+            breaches: Vec::new(),
+            preview: Arc::default(),
+            paper: None,
+        }
     }
 }

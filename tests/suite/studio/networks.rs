@@ -133,7 +133,7 @@ fn where_nothing_was_found_the_window_says_what_to_do_until_something_is() {
     click(&mut window, "Propose networks");
     assert!(!found_nothing(&window) && session(&window).discovery().proposals.len() == 1);
     // 50 N at a spool are more than the motor of a new design keeps up.
-    window.get_by_label_contains("Too strong for its motor:");
+    window.get_by_label_contains("Motor too weak:");
     window.get_by_label_contains("a proposal is shown: its figures are on its card");
 }
 
