@@ -66,7 +66,7 @@ pub fn card(
     // Below the card and as wide, so that it stands over no view: what the card shows there is looked at now.
     let mut tip = Tooltip::for_enabled(&inner.inner).width(rect.width() - TIP_MARGIN);
     tip.popup = tip.popup.anchor(rect).align(RectAlign::BOTTOM_START).align_alternatives(&[RectAlign::TOP_START]);
-    tip.show(|ui| ui.label(details(proposal)));
+    tip.show(|ui| ui.label(details(session.design(), proposal)));
     ui.is_enabled()
         && ui.input(|i| i.pointer.hover_pos()).is_some_and(|p| rect.contains(p) && !ui.ctx().any_popup_open())
 }
@@ -98,12 +98,16 @@ fn figures(ui: &mut Ui, design: &Design, proposal: &Proposal) {
             tn!(count = proposal.breaches.len(), "Hard to sew in {count} place", "Hard to sew in {count} places");
         ui.add(Label::new(RichText::new(text).small().color(ui.visuals().warn_fg_color)).truncate());
     }
-    // Of the strongest cable alone: what it takes at least.
-    let (torque_nmm, limit) = (design.fabrication.spool_radius_mm * proposal.force_n, design.controller.torque_nmm);
-    if torque_nmm > limit {
-        let text = tf!("Motor too weak: {torque_nmm:.0} of {limit:.0} N mm", torque_nmm, limit);
-        ui.add(Label::new(RichText::new(text).small().color(ui.visuals().warn_fg_color)).wrap());
+    let torque_nmm = torque_nmm(design, proposal);
+    if torque_nmm > design.controller.torque_nmm {
+        let text = tf!("Motor too weak: {torque_nmm:.0} N mm", torque_nmm);
+        ui.add(Label::new(RichText::new(text).small().color(ui.visuals().warn_fg_color)).truncate());
     }
+}
+
+/// What its strongest cable asks of a motor at the spool, and all its cables at least.
+fn torque_nmm(design: &Design, proposal: &Proposal) -> f64 {
+    design.fabrication.spool_radius_mm * proposal.force_n
 }
 
 /// One of the other poses.
@@ -136,7 +140,7 @@ fn serves(proposal: &Proposal) -> String {
 }
 
 /// Every figure, for the tip.
-fn details(proposal: &Proposal) -> String {
+fn details(design: &Design, proposal: &Proposal) -> String {
     let Proposal { turn_degrees, turning_degrees, .. } = proposal;
     let mut lines =
         vec![t("Error of the realizable plushie without and with it, in body lengths. Click to see it").to_owned()];
@@ -149,6 +153,12 @@ fn details(proposal: &Proposal) -> String {
         "Largest turn at a hole {turn_degrees:.0} degrees, of a cable in all {turning_degrees:.0}",
         turn_degrees,
         turning_degrees
+    ));
+    let (torque_nmm, limit) = (torque_nmm(design, proposal), design.controller.torque_nmm);
+    lines.push(tf!(
+        "At the spool {torque_nmm:.0} N mm or more, of {limit:.0} that its motor keeps up",
+        torque_nmm,
+        limit
     ));
     if let Some((parameters, _)) = &proposal.paper {
         let Parameters { seed_num, join_depth, join_len, phi, .. } = parameters;
