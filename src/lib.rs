@@ -10,6 +10,7 @@
 //! | [`defaults`] | every default figure of the tool, with unit, source or reason |
 //! | [`random`] | repeatable random numbers |
 //! | [`threads`] | work spread over all processors, results in order |
+//! | [`numbers`] | numbers as they are told: never `-0.0` |
 //! | [`files`] | the one way to write files and folders; what they hold before and after |
 //! | [`outline`] | a silhouette: reading, clean-up, polygons |
 //! | [`mesh`] | outline to triangle mesh, points of the body, quality |
@@ -54,6 +55,7 @@ pub mod files;
 pub mod live;
 pub mod mesh;
 pub mod motion;
+pub mod numbers;
 pub mod operations;
 pub mod outline;
 pub mod physics;

@@ -1,13 +1,13 @@
 //! `rig --explore`: the error against the number of winches and of tendons.
 
 use super::error::CommandError;
-use super::output::{CURVE_HEADING, CURVE_MARK, Kind, Output, Replace, say_lines};
+use super::output::{CURVE_HEADING, CURVE_MARK, Kind, Output, Replace};
 use super::words;
 use crate::bench::plot::{Plot, Series};
 use crate::bench::{Cell, Table};
+use crate::files::{self, shown};
 use crate::operations::explore::Point;
 use clap::Args;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -44,6 +44,11 @@ impl Explore {
         ) -> Result<Option<Output<'a>>, CommandError> {
             path.map(|path| Output::new(path, kind, Replace { force }, [design.to_path_buf()])).transpose()
         }
+        if let (Some(csv), Some(plot)) = (&self.csv, &self.plot)
+            && (csv == plot || files::same(csv, plot))
+        {
+            return Err(CommandError::Usage(format!("--csv and --plot are both {}", shown(csv))));
+        }
         Ok(Files {
             csv: output(self.csv.as_ref(), Kind::Table, design, force)?,
             plot: output(self.plot.as_ref(), Kind::Plot, design, force)?,
@@ -52,15 +57,13 @@ impl Explore {
 }
 
 impl Files<'_> {
-    /// Prints the table and writes what was asked for.
+    /// Writes what was asked for.
     ///
     /// # Errors
     /// A file cannot be written, a plot cannot be drawn.
-    pub fn tell(&self, points: &[Arc<Point>], out: &mut dyn Write, cancel: &AtomicBool) -> Result<(), CommandError> {
-        let table = table(points);
-        say_lines(out, &table.text())?;
+    pub fn write(&self, points: &[Arc<Point>], cancel: &AtomicBool) -> Result<(), CommandError> {
         if let Some(csv) = &self.csv {
-            csv.write(table.csv().as_bytes(), cancel)?;
+            csv.write(table(points).csv().as_bytes(), cancel)?;
         }
         if let Some(file) = &self.plot {
             let svg = plot(points).svg().map_err(|error| CommandError::Failed(error.to_string()))?;
@@ -80,7 +83,7 @@ pub(super) fn table(points: &[Arc<Point>]) -> Table {
         "cable (mm)",
         "worst pose (% of rest)",
     ];
-    let caption = "Errors as check says them: the worst pose as a part of its error at rest, each in % of body length";
+    let caption = "The worst pose as a part of its error at rest, where it is to be sewn as a maker may expect it (the mean of as drawn, sewn as a rule and at worst); each pose as check says it, in % of body length";
     let mut table = Table::new("winches", caption, &fixed);
     let poses = points.first().map_or(&[][..], |point| &point.poses);
     table.headings.extend(poses.iter().map(|pose| pose.name.clone()));

@@ -5,6 +5,7 @@ use super::output::{say, say_json};
 use super::{document, words};
 use crate::design::{Design, Easing};
 use crate::files::shown;
+use crate::numbers;
 use crate::operations::Context;
 use crate::operations::key::{self, Error, Note, Options};
 use clap::{Args, ValueEnum};
@@ -109,7 +110,7 @@ impl Key {
             say(out, &format!("{path}: no keyframe is of a pose"))?;
         } else {
             for Keyed { pose, time_s, activations_mm } in &keyframes {
-                let wound = activations_mm.iter().map(|a| words::decimals(*a, 2)).collect::<Vec<_>>().join(" ");
+                let wound = activations_mm.iter().map(|a| numbers::plain(*a, 2)).collect::<Vec<_>>().join(" ");
                 say(out, &format!("{path}: {pose} at {time_s} s, winches at {wound} mm"))?;
             }
         }
@@ -123,10 +124,7 @@ impl Key {
                 return Err(Error::NoNetworks);
             }
             let keyed = key::again(design, &key::on_timeline(design), context)?;
-            for keyed in keyed.clone() {
-                keyed.apply(design)?;
-            }
-            return Ok(keyed);
+            return Ok(keyed.into_iter().map(|keyed| keyed.put(design)).collect::<Result<_, _>>()?);
         }
         let name = self.pose.as_deref().unwrap_or(REST);
         let known = design.poses.iter().any(|p| p.name == name);

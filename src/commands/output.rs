@@ -90,19 +90,8 @@ impl Kind {
         }
     }
 
-    /// Ending of the files that the command is meant to write.
-    fn ending(self) -> &'static str {
-        match self {
-            Self::Picture => "png",
-            Self::Answer => "json",
-            Self::Drawing => "ron",
-            Self::Table => "csv",
-            Self::Plot => "svg",
-        }
-    }
-
-    /// Whether a file is the work of others: by its content, or, where that says nothing, by another ending than this kind has. So a
-    /// photograph and a problem stay; what a command has written before is replaced, by whatever name.
+    /// Whether a file is the work of others, by its content: what does not say that it is ours is theirs, whatever its name. What a command has
+    /// written before is replaced, and so is an empty file.
     fn is_foreign(self, path: &Path) -> bool {
         /// Enough to know a picture or a drawing, bytes.
         const HEAD: u64 = 1024;
@@ -113,23 +102,20 @@ impl Kind {
         if !std::fs::File::open(path).is_ok_and(|file| file.take(HEAD).read_to_end(&mut head).is_ok()) {
             return true;
         }
-        let known = match self {
+        let is_ours = match self {
             Self::Picture => {
-                let picture = [&b"\x89PNG"[..], b"\xff\xd8", b"GIF8"].iter().any(|magic| head.starts_with(magic));
                 let ours = [files::is_marked_png, files::is_marked_jpeg, files::is_marked_gif];
-                let page = head.starts_with(b"<").then(|| head.starts_with(PAGE_MARK.as_bytes()));
-                page.or_else(|| picture.then(|| ours.iter().any(|is_ours| is_ours(&head))))
+                head.starts_with(PAGE_MARK.as_bytes()) || ours.iter().any(|is_ours| is_ours(&head))
             }
-            Self::Answer => json_format(path).map(|format| format.starts_with("plushwright-answer/")),
+            Self::Answer => json_format(path).is_some_and(|format| format.starts_with("plushwright-answer/")),
             Self::Drawing => {
                 let text = String::from_utf8_lossy(&head);
-                (text.trim_start().starts_with('(') && text.contains("parts:")).then_some(true)
+                text.trim_start().starts_with('(') && text.contains("parts:")
             }
-            Self::Table => Some(head.starts_with(CURVE_HEADING.as_bytes())),
-            Self::Plot => Some(head.starts_with(CURVE_MARK.as_bytes())),
+            Self::Table => head.starts_with(CURVE_HEADING.as_bytes()),
+            Self::Plot => head.starts_with(CURVE_MARK.as_bytes()),
         };
-        let named = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(self.ending()));
-        !known.unwrap_or(named)
+        !is_ours && !head.is_empty()
     }
 }
 

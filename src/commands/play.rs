@@ -127,6 +127,9 @@ impl Play {
     fn failed(&self, error: Error) -> CommandError {
         match error {
             Error::NoNetworks => CommandError::input(&self.design, format!("{error}; run `plushwright rig` first")),
+            Error::AllOff => {
+                CommandError::input(&self.design, format!("{error}; `plushwright network unmute` switches one on"))
+            }
             Error::NoSuchFamily { .. } | Error::NoSuchFault(_) | Error::WrongCount { .. } => {
                 CommandError::Usage(error.to_string())
             }

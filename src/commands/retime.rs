@@ -126,5 +126,8 @@ fn told(doubt: &Doubt) -> String {
         }
         Why::TooFar { winch, reach_mm } => format!("{place}: {winch} can wind {reach_mm:.1} mm and no more"),
         Why::Rounded { winch } => format!("{place}: {winch} is rounded off to keep its limits"),
+        Why::Jump { winch } => format!(
+            "{place}: {winch} is on its way where the keyframe before is held, as no motor jumps; a copy of that keyframe would end the hold"
+        ),
     }
 }

@@ -103,6 +103,9 @@ struct Summary {
     poses: Vec<PoseError>,
     /// About keyframes.
     notes: Vec<String>,
+    /// With `--explore`: the best rig with every number of winches and tendons.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    points: Option<Vec<explore::Point>>,
 }
 
 #[derive(Serialize)]
@@ -162,6 +165,7 @@ impl Rig {
         if self.explore.explore {
             return self.explore(design, edit, &Options { keep: false, ..options }, out, cancel);
         }
+        let before = design.clone();
         let (mut printed, mut told) = (Ok(()), Told::default());
         let mut progress = |step: &Progress| {
             if told.hear(step) && printed.is_ok() && !self.json {
@@ -178,7 +182,11 @@ impl Rig {
         };
         // What cannot be told is found all the same.
         printed?;
-        self.tell(out, &design, &path, &told, &rigged)?;
+        self.tell(out, &design, &path, &told.errors, &rigged, None)?;
+        // With `fresh` they were worked out on the way.
+        if let Some(note) = words::outdated(&before, &design, &path).filter(|_| !self.fresh && !self.json) {
+            say(out, &format!("note: {note}"))?;
+        }
         balanced(&rigged.notes)?;
         if rigged.interrupted { Err(interrupted(&path, &told, false)) } else { Ok(()) }
     }
@@ -229,16 +237,18 @@ impl Rig {
         out: &mut dyn Write,
         design: &Design,
         path: &Path,
-        told: &Told,
+        errors: &[(String, f64)],
         &rig::Rigged { interrupted, ref notes, .. }: &rig::Rigged,
+        points: Option<Vec<explore::Point>>,
     ) -> Result<(), CommandError> {
         let notes: Vec<String> = notes.iter().filter_map(|note| in_words(note, path)).collect();
         let tendons: usize = design.networks.iter().map(|n| n.tendons.len()).sum();
         let (winches, path) = (design.networks.len(), shown(path));
         if self.json {
             let pose = |(name, error): &(String, f64)| PoseError { name: name.clone(), error_realizable: *error };
-            let poses = told.errors.iter().map(pose).collect();
-            return say_json(out, FORMAT, &Summary { design: path, winches, tendons, interrupted, poses, notes });
+            let poses = errors.iter().map(pose).collect();
+            let summary = Summary { design: path, winches, tendons, interrupted, poses, notes, points };
+            return say_json(out, FORMAT, &summary);
         }
         let ended = if interrupted { ", the best so far" } else { "" };
         say(out, &format!("{path}: {}{ended}", words::built(winches, tendons)))?;
@@ -262,27 +272,38 @@ impl Rig {
             points = list.to_vec();
             let all = options.max_winches * most_tendons(&options.tendons);
             progress::at(points.len(), all.max(points.len()), "rigs compared");
-            if let (Some(last), Ok(())) = (list.last(), &printed) {
+            if let (Some(last), Ok(()), false) = (list.last(), &printed, self.json) {
                 printed = say(out, &words::explored(last));
             }
         };
         let found = explore::run(&design, options, &mut hear, &mut Context::new(cancel));
-        // What cannot be told or drawn is found all the same.
-        if let (Err(Error::Cancelled(_)), Some(best)) = (&found, best(&points)) {
-            put(best, &mut design)?;
-            let path = edit.save_interrupted(&design, self.fresh)?;
-            // Files are written by a run that ends by itself.
-            say_lines(out, &super::explore::table(&points).text())?;
-            return Err(interrupted(&path, &Told::default(), true));
-        }
-        let points = found.map_err(|error| self.failed(error, cancel))?;
+        let is_interrupted = matches!(found, Err(Error::Cancelled(_))) && !points.is_empty();
+        let points = if is_interrupted { points } else { found.map_err(|error| self.failed(error, cancel))? };
         let best = best(&points).ok_or_else(|| self.failed(RigError::NothingFound.into(), cancel))?;
         put(best, &mut design)?;
-        edit.save_found(&design)?;
+        let path = match is_interrupted {
+            true => edit.save_interrupted(&design, self.fresh)?,
+            false => {
+                edit.save_found(&design)?;
+                self.target.path(&self.design).to_owned()
+            }
+        };
+        // What cannot be told or drawn is found all the same.
         printed?;
-        files.tell(&points, out, cancel)?;
-        self.tell(out, &design, self.target.path(&self.design), &Told::default(), &best.rigged)?;
-        balanced(&best.rigged.notes)
+        if !self.json {
+            say_lines(out, &super::explore::table(&points).text())?;
+        }
+        // By a run that ends by itself.
+        if !is_interrupted {
+            files.write(&points, cancel)?;
+        }
+        let errors: Vec<(String, f64)> = best.poses.iter().map(|pose| (pose.name.clone(), pose.exact)).collect();
+        let mut rigged = best.rigged.clone();
+        rigged.interrupted = is_interrupted;
+        let points = points.iter().map(|point| explore::Point::clone(point)).collect();
+        self.tell(out, &design, &path, &errors, &rigged, Some(points))?;
+        balanced(&rigged.notes)?;
+        if is_interrupted { Err(interrupted(&path, &Told::default(), true)) } else { Ok(()) }
     }
 }
 
@@ -341,7 +362,7 @@ fn interrupted(path: &Path, told: &Told, checked: bool) -> CommandError {
 /// Why there is no rig for a design that was read from `path`.
 pub fn failed(path: &Path, error: Error) -> CommandError {
     match error {
-        Error::Rig(RigError::NothingFound) => CommandError::NotConverged(error.to_string()),
+        Error::Rig(RigError::NothingFound | RigError::NothingToAdd) => CommandError::NotConverged(error.to_string()),
         Error::Rig(RigError::NoTargets) => {
             let design = shown(path);
             let advice = format!("`plushwright pose {design} --name P --target X,Y=X2,Y2` makes one");

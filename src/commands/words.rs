@@ -4,10 +4,12 @@ use super::error::CommandError;
 use super::meant;
 use super::output::refused_folder;
 use crate::defaults;
+use crate::design::Design;
 use crate::fabrication::ExportError;
+use crate::files::shown;
 use crate::motion::MotionError;
 use crate::operations::explore::Point;
-use crate::operations::{NoSuchPose, Progress, Unbalanced, new_design, preview, reshape};
+use crate::operations::{NoSuchPose, Progress, Unbalanced, key, new_design, preview, reshape};
 use crate::outline::{Change, Changes, Note, OutlineError, Remedy};
 use crate::rigging;
 use serde::Serialize;
@@ -74,6 +76,9 @@ pub fn unexported(design: &Path, error: ExportError) -> CommandError {
             ),
         ),
         ExportError::NoNetworks => CommandError::input(design, format!("{error}; run `plushwright rig` first")),
+        ExportError::AllOff => {
+            CommandError::input(design, format!("{error}; `plushwright network unmute` switches one on"))
+        }
         error => CommandError::input(design, error),
     }
 }
@@ -98,13 +103,11 @@ pub fn balanced<'a>(unbalanced: impl IntoIterator<Item = &'a Unbalanced>) -> Res
     if told.is_empty() { Ok(()) } else { Err(CommandError::NotConverged(told.join("; "))) }
 }
 
-/// A number with so many decimals, never less than nothing by less than it shows: not `-0.00`.
-pub fn decimals(value: f64, decimals: usize) -> String {
-    let text = format!("{value:.decimals$}");
-    match text.strip_prefix('-') {
-        Some(zero) if !zero.contains(|c: char| ('1'..='9').contains(&c)) => zero.to_owned(),
-        _ => text,
-    }
+/// What is to be done where keyframes of poses wind what they did for the winches, the body or the targets that were there.
+pub fn outdated(before: &Design, now: &Design, path: &Path) -> Option<String> {
+    let poses = key::outdated(before, now);
+    let again = format!("`plushwright key {} --again` works them out", shown(path));
+    (!poses.is_empty()).then(|| format!("keyframes of {} wind what they did before: {again}", poses.join(", ")))
 }
 
 /// So many of something.

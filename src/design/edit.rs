@@ -28,7 +28,8 @@ use thiserror::Error;
 pub enum EditError {
     #[error(transparent)]
     Invalid(#[from] DesignError),
-    #[error("there is no {what} {index}, the design has {len}")]
+    /// Told as people count, from 1.
+    #[error("there is no {what} {}, there are {len}", index + 1)]
     Missing { what: &'static str, index: usize, len: usize },
     #[error("a {0} needs a name")]
     NoName(&'static str),

@@ -89,7 +89,7 @@ pub fn blueprint_watched(
     motion::check(design)?;
     all.validate()?;
     if design.networks.is_empty() {
-        return Err(ExportError::NoNetworks);
+        return Err(if all.networks.is_empty() { ExportError::NoNetworks } else { ExportError::AllOff });
     }
     buildable::refuse(design)?;
     let trajectory = Trajectory::of(design, options.too_fast)?;

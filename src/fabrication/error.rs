@@ -10,6 +10,8 @@ use thiserror::Error;
 pub enum ExportError {
     #[error("the design has no winch-tendon networks yet")]
     NoNetworks,
+    #[error("all winches of the design are switched off")]
+    AllOff,
     /// Their spools would overlap.
     #[error(
         "winches {one:?} and {other:?} are {distance_mm:.1} mm apart, and their spools need {least_mm:.1} mm: they would be in one hole"

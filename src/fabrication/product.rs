@@ -80,7 +80,7 @@ impl Source<'_> {
 
     /// The front of the skin.
     pub fn piece(&self) -> &Piece {
-        self.shared.piece.get_or_init(|| Piece::front(self.skin, &self.options.cutting))
+        self.shared.piece.get_or_init(|| Piece::front(self.skin, self.options.cutting.corners))
     }
 
     /// What each winch asks of its motor.

@@ -159,7 +159,7 @@ fn refusal(outline: &Outline, spec: &MeshSpec, has_given_up: bool) -> MeshError 
 fn fibers_of_length(outline: &Outline, length: f64) -> usize {
     let triangles = outline.area() / (0.25 * 3.0_f64.sqrt() * length * length);
     let count = 0.5 * (3.0 * triangles + outline.perimeter() / length);
-    if count.is_finite() { (count.round() as usize).clamp(3, MAX_FIBERS) } else { MAX_FIBERS + 1 }
+    if count.is_finite() { (count.round() as usize).max(3) } else { usize::MAX }
 }
 
 fn check(outline: &Outline) -> Result<(), MeshError> {

@@ -27,6 +27,16 @@ pub enum MotionError {
          radius would do"
     )]
     BeyondTurn { winch: String, travel_mm: f64, degrees: f64, most: f64, motor: &'static str, radius_mm: f64 },
+    #[error(
+        "{what} has no room for this motion: with as many steps as it holds it would be up to {off_mm:.1} mm off; make the animation shorter or calmer, or take \
+         controllers that a computer tells what to do"
+    )]
+    NoRoom { what: &'static str, off_mm: f64 },
+    #[error(
+        "the keyframe at {time_s:.2} s winds {winds_mm:.1} mm on winch {winch:?}, which has {cable_mm:.1} mm of cable: work the keyframe out again, or \
+         lengthen the cable"
+    )]
+    NoCable { winch: String, time_s: f64, winds_mm: f64, cable_mm: f64 },
     #[error("there are no controllers {name:?}; there are {known}")]
     NoSuchFamily { name: String, known: String },
     #[error(

@@ -36,16 +36,19 @@ pub enum Why {
     TooFar { winch: String, reach_mm: f64 },
     /// It is rounded off to keep the limits.
     Rounded { winch: String },
+    /// It is the way to the next length, which a keyframe that is held would have as a jump.
+    Jump { winch: String },
 }
 
 impl Ghost {
-    /// Simulates the drives of a design, each told every step of the trajectory at its time.
+    /// Simulates the drives of a design, each told every step of the trajectory at its time. Those of winches that are switched off stand still.
     ///
     /// # Errors
     /// Too many steps, or a position beyond the controllers'.
     pub fn of(design: &Design) -> Result<Self, MotionError> {
-        let trajectory = Trajectory::of(design, TooFast::Stretch)?;
-        let machine = Machine::new(design, &trajectory);
+        let acting = design.acting();
+        let trajectory = Trajectory::of(&acting, TooFast::Stretch)?;
+        let machine = Machine::new(&acting, &trajectory);
         let winches = machine.winches.len();
         let end_s = trajectory.times_s[0] + Following::most_s(&machine);
         let steps = trajectory.times_s.iter().take_while(|time_s| **time_s <= end_s).count();
@@ -60,7 +63,8 @@ impl Ghost {
                 wound_mm[k].push(drive.position / machine.counts_per_mm);
             }
         }
-        let doubts = doubts(design, &trajectory.notes);
+        let doubts = doubts(&acting, &trajectory.notes);
+        let wound_mm = wound_mm.iter().map(|row| design.of_all(row)).collect();
         Ok(Self { times_s: trajectory.times_s[..steps].to_vec(), wound_mm, doubts })
     }
 }
@@ -69,7 +73,7 @@ impl Ghost {
 fn doubts(design: &Design, notes: &[Note]) -> Vec<Doubt> {
     let mut doubts: Vec<Doubt> = notes.iter().filter_map(doubt).collect();
     for pair in design.keyframes.windows(2) {
-        for (winch, network) in design.networks.iter().enumerate().filter(|(_, network)| !network.muted) {
+        for (winch, network) in design.networks.iter().enumerate() {
             let reach_mm = winch_reach_mm(design, network);
             if pair.iter().any(|key| key.activations_mm.get(winch).is_some_and(|&wound| wound > reach_mm)) {
                 let why = Why::TooFar { winch: network.name.clone(), reach_mm };
@@ -88,16 +92,20 @@ fn doubt(note: &Note) -> Option<Doubt> {
         Note::Rounded { winch, from_s, to_s } => {
             Some(Doubt { from_s: *from_s, to_s: *to_s, why: Why::Rounded { winch: winch.clone() } })
         }
+        Note::Jump { winch, from_s, to_s } => {
+            Some(Doubt { from_s: *from_s, to_s: *to_s, why: Why::Jump { winch: winch.clone() } })
+        }
         Note::Slack { .. } | Note::Lead { .. } => None,
     }
 }
 
-/// Whether the animation of a design can be played as it is, without simulating anything.
+/// Whether the animation of a design can be played as it is, by the winches that act, without simulating anything.
 ///
 /// # Errors
 /// A position or a length that no controller takes.
 pub fn doubted(design: &Design) -> Result<Vec<Doubt>, MotionError> {
-    Ok(doubts(design, &Plan::of(design, TooFast::Stretch)?.notes))
+    let acting = design.acting();
+    Ok(doubts(&acting, &Plan::of(&acting, TooFast::Stretch)?.notes))
 }
 
 #[cfg(test)]
@@ -120,5 +128,12 @@ mod tests {
         assert_eq!(doubted(&design).unwrap(), doubts);
         design.keyframes[1].activations_mm[1] = 1e3;
         assert!(doubted(&design).unwrap().iter().any(|doubt| matches!(doubt.why, Why::TooFar { .. })));
+        // A winch that is switched off is no motor's trouble.
+        design.keyframes.pop();
+        design.networks[1].muted = true;
+        let ghost = Ghost::of(&design).unwrap();
+        assert_eq!((doubted(&design).unwrap().as_slice(), ghost.doubts.as_slice()), (&[][..], &[][..]));
+        assert!(ghost.wound_mm.iter().all(|row| row.len() == 2 && row[1] == 0.0));
+        assert_eq!(ghost.wound_mm.last().unwrap()[0], slow.wound_mm.last().unwrap()[0]);
     }
 }

@@ -25,6 +25,9 @@ pub enum Note {
     Stretched { from_s: f64, to_s: f64, now_s: f64 },
     /// The easing of a section is rounded off. Its ends are those of the design's keyframes.
     Rounded { winch: String, from_s: f64, to_s: f64 },
+    /// A keyframe is held and the next one has another length: no motor jumps, so the winch leaves before, to be there in time. Between
+    /// these times of the design it is on its way.
+    Jump { winch: String, from_s: f64, to_s: f64 },
 }
 
 /// The treatment of a section that no motor can follow.
@@ -226,11 +229,18 @@ fn fit(
         if now_s > (to_s - from_s) * (1.0 + ROUNDING) {
             notes.push(Note::Stretched { from_s, to_s, now_s });
         }
-        let rounded = profiles.iter().zip(winches).filter(|(profile, _)| {
-            // A straight line's corners are rounded off as a matter of course.
-            matches!(profile, Profile::Trapezoid { .. }) && keys[section].easing != Easing::Linear
-        });
-        notes.extend(rounded.map(|(_, winch)| Note::Rounded { winch: winch.clone(), from_s, to_s }));
+        for (profile, winch) in profiles.iter().zip(winches) {
+            let Profile::Trapezoid { wait, .. } = profile else { continue };
+            match keys[section].easing {
+                // A straight line's corners are rounded off as a matter of course.
+                Easing::Linear => {}
+                Easing::Hold => {
+                    let leaves_s = from_s + (to_s - from_s) * wait / now_s;
+                    notes.push(Note::Jump { winch: winch.clone(), from_s: leaves_s, to_s });
+                }
+                _ => notes.push(Note::Rounded { winch: winch.clone(), from_s, to_s }),
+            }
+        }
     }
     Ok(sections)
 }

@@ -4,7 +4,8 @@ use super::error::MotionError;
 use super::limits::{MAX_COUNTS, MAX_STEPS};
 use super::plan::{Note, Plan, TooFast};
 use super::winches::{counts_per_mm, winch_labels};
-use crate::design::{Design, Keyframe, animation};
+use crate::design::{Design, Keyframe, Tendon, animation};
+use crate::numbers;
 
 /// Positions of all winches over the plan.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,9 +45,11 @@ impl Trajectory {
     /// The whole animation as [`Plan`] has it, in steps of at most the track rate's, keyframes included; a single step of zeros without any.
     ///
     /// # Errors
-    /// Too many steps, a position beyond the controllers', or a section that no motor can follow where it may not be stretched.
+    /// Too many steps, a position beyond the controllers', more cable than there is, or a section that no motor can follow where it may not be
+    /// stretched.
     pub fn of(design: &Design, too_fast: TooFast) -> Result<Self, MotionError> {
         let plan = Plan::of(design, too_fast)?;
+        enough_cable(design)?;
         let rate = design.controller.track_rate_hz;
         let steps = plan.count(rate);
         if steps > MAX_STEPS {
@@ -80,7 +83,23 @@ impl Trajectory {
     }
 }
 
+/// Refuses a keyframe that winds more cable than a winch has: networks were changed since, or it was typed.
+fn enough_cable(design: &Design) -> Result<(), MotionError> {
+    for (winch, network) in design.networks.iter().enumerate() {
+        let all = |tendon: &Tendon| (tendon.cable_mm(&design.mesh.nodes) + tendon.slack_mm) / tendon.ratio;
+        let cable_mm = network.tendons.iter().map(all).fold(f64::INFINITY, f64::min);
+        for keyframe in &design.keyframes {
+            let winds_mm = keyframe.activations_mm.get(winch).copied().unwrap_or(0.0);
+            if winds_mm > cable_mm {
+                let (winch, time_s) = (network.name.clone(), keyframe.time_s);
+                return Err(MotionError::NoCable { winch, time_s, winds_mm, cable_mm });
+            }
+        }
+    }
+    Ok(())
+}
+
 /// Rounds as the table prints, so that the counts beside a length are those of that length; never a negative zero.
 fn six_decimals(v: f64) -> f64 {
-    format!("{v:.6}").parse::<f64>().unwrap_or(v) + 0.0
+    numbers::plain(v, 6).parse().unwrap_or(v)
 }

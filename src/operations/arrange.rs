@@ -7,6 +7,7 @@ use crate::design::{Design, Hold, Pin, Pose, Target};
 use crate::mesh::{Axis, Mesh, axis};
 use crate::outline::Point;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
 
 /// A target of a pose, or a pin, by its number from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -88,7 +89,10 @@ pub fn run(design: &mut Design, options: &Options, context: &Context) -> Result<
         None => None,
         Some(name) => Some(named(name).ok_or_else(|| NoSuchPose::of(design, name))?),
     };
+    // What is named twice is moved once.
     let mut handles = options.handles.clone();
+    let mut seen = BTreeSet::new();
+    handles.retain(|handle| seen.insert(*handle));
     if handles.is_empty() {
         let count = pose.map_or(0, |pose| design.poses[pose].targets.len());
         handles.extend((0..count).map(Handle::Target));

@@ -4,7 +4,7 @@ use super::Context;
 use super::rig::{self, Error, Options, Rigged};
 use crate::design::{Design, Pose, Tendon};
 use crate::engine::target_error;
-use crate::rigging::{Checked, Method, RigError, TendonChoice};
+use crate::rigging::{Checked, Method, RigError, Sewn, TendonChoice};
 use crate::threads::in_order;
 use serde::Serialize;
 use std::sync::Arc;
@@ -22,7 +22,7 @@ pub struct Point {
     pub holes: usize,
     pub thread_mm: f64,
     pub poses: Vec<PoseError>,
-    /// The worst pose's error as a part of that at rest.
+    /// The worst pose's error as a part of that at rest: what a maker may expect ([`Sewn::expected`]) where it is to be sewn.
     pub worst: f64,
     /// To be put into the design.
     #[serde(skip)]
@@ -34,7 +34,18 @@ pub struct Point {
 pub struct PoseError {
     pub name: String,
     pub error: f64,
+    /// Without friction.
+    pub exact: f64,
+    /// What a hand leaves, where that was worked out.
+    pub sewn: Option<Sewn>,
     pub rest: f64,
+}
+
+impl PoseError {
+    /// What rigs are compared by.
+    fn part(&self) -> f64 {
+        self.sewn.map_or(self.error, |sewn| sewn.expected(self.error)) / self.rest.max(f64::MIN_POSITIVE)
+    }
 }
 
 /// Looks for a rig with each number of winches up to the most of `options`, and each number of tendons that they allow for every winch. The
@@ -61,7 +72,7 @@ pub fn run(
             let bounds = Options { max_winches: winches, tendons: choice, ..options.clone() };
             let searched = match rig::prepare(design, &bounds, context) {
                 Ok(rigged) => Some(point(design, winches, tendons, rigged, context)?),
-                Err(Error::Rig(RigError::NothingFound)) => None,
+                Err(Error::Rig(RigError::NothingFound | RigError::NothingToAdd)) => None,
                 Err(error) => return Err(error),
             };
             let of = |winches: usize, tendons: usize| {
@@ -100,11 +111,18 @@ fn point(design: &Design, winches: usize, tendons: usize, rigged: Rigged, contex
     let mut with = design.clone();
     rigged.clone().apply(&mut with)?;
     let cancel = context.cancel();
-    let posed: Vec<&Pose> = design.poses.iter().filter(|pose| !pose.targets.is_empty()).collect();
-    let poses = in_order(&posed, |pose| PoseError {
-        name: pose.name.clone(),
-        error: Checked::of(&with, &pose.targets, with.tendons.friction, cancel).real_error(),
-        rest: target_error(design, &pose.targets, &design.mesh.nodes),
+    let posed = design.poses.iter().filter(|pose| !pose.targets.is_empty());
+    let sewn = rigged.sewn.iter().copied().chain(std::iter::repeat(None));
+    let posed: Vec<(&Pose, Option<Sewn>)> = posed.zip(sewn).collect();
+    let poses = in_order(&posed, |(pose, sewn)| {
+        let checked = Checked::of(&with, &pose.targets, with.tendons.friction, cancel);
+        PoseError {
+            name: pose.name.clone(),
+            error: checked.real_error(),
+            exact: checked.error(),
+            sewn: *sewn,
+            rest: target_error(design, &pose.targets, &design.mesh.nodes),
+        }
     });
     context.check()?;
     let cables = rigged.networks.iter().flat_map(|network| &network.tendons);
@@ -114,7 +132,7 @@ fn point(design: &Design, winches: usize, tendons: usize, rigged: Rigged, contex
         takes: [rigged.networks.len(), cables.clone().count()],
         holes: cables.clone().map(Tendon::holes).sum(),
         thread_mm: cables.map(|tendon| tendon.cable_mm(&design.mesh.nodes)).sum(),
-        worst: poses.iter().map(|pose| pose.error / pose.rest.max(f64::MIN_POSITIVE)).fold(0.0, f64::max),
+        worst: poses.iter().map(PoseError::part).fold(0.0, f64::max),
         poses,
         rigged,
     })

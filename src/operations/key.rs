@@ -87,16 +87,24 @@ impl Keyed {
         }
         edit::set_keyframe(design, self.keyframe)
     }
+
+    /// [`Self::apply`]; the keyframe comes back as the timeline has it now.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn put(self, design: &mut Design) -> Result<Self, EditError> {
+        let notes = self.notes.clone();
+        let number = self.apply(design)?;
+        Ok(Self { keyframe: design.keyframes[number].clone(), notes })
+    }
 }
 
-/// [`prepare`] and [`Keyed::apply`] in one; the keyframe with its notes comes back.
+/// [`prepare`] and [`Keyed::put`] in one.
 ///
 /// # Errors
 /// As both; the design is as it was then.
 pub fn run(design: &mut Design, options: &Options, context: &Context) -> Result<Keyed, Error> {
-    let keyed = prepare(design, options, context)?;
-    keyed.clone().apply(design)?;
-    Ok(keyed)
+    Ok(prepare(design, options, context)?.put(design)?)
 }
 
 /// Names of the poses on the timeline that `before` had other winches, another body or other targets for: what their keyframes wind is old.
@@ -197,6 +205,18 @@ mod tests {
         }
         assert_ne!(strung.keyframes[1], design.keyframes[1]);
         assert_eq!((strung.keyframes.len(), &strung.keyframes[0]), (3, &design.keyframes[0]));
+    }
+
+    #[test]
+    fn a_winch_that_is_switched_off_keeps_what_it_winds_and_that_is_told() {
+        let mut design = testing::sample();
+        let pose = design.poses[0].name.clone();
+        let time_s = design.keyframes[1].time_s;
+        design.keyframes[1].activations_mm = vec![1.0, 12.5];
+        design.networks[1].muted = true;
+        let go = AtomicBool::new(false);
+        let keyed = run(&mut design, &at(Some(&pose), time_s), &Context::new(&go)).unwrap();
+        assert_eq!((&keyed.keyframe, keyed.keyframe.activations_mm[1]), (&design.keyframes[1], 12.5));
     }
 
     #[test]

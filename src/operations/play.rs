@@ -48,6 +48,8 @@ pub enum Action {
 pub enum Error {
     #[error("the design has no winch-tendon networks yet")]
     NoNetworks,
+    #[error("all winches of the design are switched off")]
+    AllOff,
     #[error("there are no controllers {name:?} that a computer can tell live; there are {}", known())]
     NoSuchFamily { name: String },
     #[error("{given} lengths for {winches} winches")]
@@ -112,9 +114,10 @@ fn known() -> String {
 /// # Errors
 /// No networks or no such family, and an animation that its motors cannot play.
 pub fn prepare(design: &Design, options: &Options) -> Result<Prepared, Error> {
-    let design = &*design.acting();
+    let (acting, all) = (design.acting(), design);
+    let design = &*acting;
     if design.networks.is_empty() {
-        return Err(Error::NoNetworks);
+        return Err(if all.networks.is_empty() { Error::NoNetworks } else { Error::AllOff });
     }
     let no_such = || Error::NoSuchFamily { name: options.family.clone() };
     let family = families::by_name(&options.family).ok_or_else(no_such)?;

@@ -160,7 +160,8 @@ pub fn fit(design: &mut Design) -> Result<(), Error> {
 /// # Errors
 /// As [`fit`].
 pub fn fitted(design: &Design) -> Result<Vec<(usize, f64)>, Error> {
-    let plan = Plan::of(design, TooFast::Stretch)?;
+    // Winches that are switched off ask for no time.
+    let plan = Plan::of(&design.acting(), TooFast::Stretch)?;
     let planned = plan.keyframes_s(design.keyframes.len());
     let (mut before, mut later) = ([0.0; 2], 0.0);
     let mut times = Vec::new();

@@ -6,7 +6,7 @@ use crate::design::edit::{self, EditError};
 use crate::design::{CopyOnWrite, Design, Easing, Keyframe, Network};
 use crate::mesh::Mesh;
 use crate::motion;
-use crate::rigging::{self, Found, RigError, Wound};
+use crate::rigging::{self, Found, RigError, Sewn, Wound};
 use std::fmt;
 
 pub use crate::rigging::{Method, RigOptions as Options, TendonChoice, Trims};
@@ -69,6 +69,8 @@ pub struct Rigged {
     /// Whether the search was told to stop, and this is the best that it had by then. Keyframes wind what the search did: nothing
     /// was checked.
     pub interrupted: bool,
+    /// What a hand leaves of each pose that has targets, where that was worked out.
+    pub sewn: Vec<Option<Sewn>>,
     /// Whether the networks replace those that are there.
     fresh: bool,
     /// What it was found for.
@@ -117,7 +119,8 @@ pub fn prepare(design: &Design, options: &Options, context: &mut Context) -> Res
         keyframes.iter_mut().for_each(|keyframe| keyframe.activations_mm = design.of_all(&keyframe.activations_mm));
     }
     let (mesh, present) = (rigged.mesh, design.networks.clone());
-    Ok(Rigged { networks, keyframes, notes, interrupted, fresh: options.fresh, mesh, present })
+    let sewn = wound.iter().map(|wound| wound.sewn).collect();
+    Ok(Rigged { networks, keyframes, notes, interrupted, sewn, fresh: options.fresh, mesh, present })
 }
 
 /// The design before it had winches: its keyframes at rest.
@@ -234,6 +237,7 @@ mod tests {
             keyframes: Vec::new(),
             notes: Vec::new(),
             interrupted: false,
+            sewn: Vec::new(),
             fresh: false,
             mesh: design.mesh.clone(),
             present: design.networks.clone(),
@@ -250,7 +254,7 @@ mod tests {
     fn keyframes_wind_what_their_poses_were_found_with() {
         let mut design = testing::sample();
         let pose = design.poses[0].name.clone();
-        let found = [Wound { pose: pose.clone(), activations_mm: vec![3.0, 5.0], checked: None }];
+        let found = [Wound { pose: pose.clone(), activations_mm: vec![3.0, 5.0], checked: None, sewn: None }];
         let windings = |design: &Design| -> Vec<(Option<String>, Vec<f64>)> {
             design.keyframes.iter().map(|k| (k.pose.clone(), k.activations_mm.clone())).collect()
         };

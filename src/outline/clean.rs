@@ -98,7 +98,7 @@ fn shaped(shapes: Shapes, longer: f64, import: &Import, changes: &mut Changes) -
     // Offsets of polygons much finer than their distance take quadratic time.
     let shapes = simplified(shapes, 0.25 * SIMPLIFY_FRACTION * longer)?;
     let shapes = smooth_enough(shapes, longer, import, changes)?;
-    let width = import.min_width_mm.unwrap_or(HAIRLINE_FRACTION * longer);
+    let width = import.min_width_mm.unwrap_or(HAIRLINE_FRACTION * longer).min(longer);
     let shapes = if width > 0.0 {
         let (opened, shaved) = opened(shapes, width, import.min_width_mm.is_some(), changes)?;
         if shaved {
@@ -153,7 +153,8 @@ fn without_gaps(
     changes: &mut Changes,
     aside: &mut Asides,
 ) -> Result<Shapes, OutlineError> {
-    let gap = import.gap_mm.map_or(gaps::GAP_FRACTION * units.longer, |mm| mm / units.mm);
+    // What is as wide as the drawing joins all of it.
+    let gap = import.gap_mm.map_or(gaps::GAP_FRACTION * units.longer, |mm| (mm / units.mm).min(units.longer));
     let before = regions::area(&shapes);
     let gaps::Closed { shapes, bridges } = gaps::closed(shapes, gap, import.gap_mm.is_some())?;
     if !bridges.is_empty() {

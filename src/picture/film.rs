@@ -27,9 +27,11 @@ pub fn gif(pngs: &[Vec<u8>], step: Duration) -> Result<Vec<u8>, String> {
     let mut bytes = Vec::new();
     let mut encoder = Encoder::new(&mut bytes, width, height, &[]).map_err(|e| failed(&e))?;
     encoder.set_repeat(Repeat::Infinite).map_err(|e| failed(&e))?;
-    let delay = (step.as_secs_f64() * 100.0).round() as u16;
+    // In hundredths, rounded from the beginning, so that nothing adds up.
+    let ends = |shown: usize| (shown as f64 * step.as_secs_f64() * 100.0).round();
     let mut before: Option<RgbaImage> = None;
-    for png in pngs {
+    for (shown, png) in pngs.iter().enumerate() {
+        let delay = (ends(shown + 1) - ends(shown)) as u16;
         let now = read(png).map_err(|e| failed(&e))?;
         if now.dimensions() != first.dimensions() {
             return Err(failed(&"its size differs from that of the first"));

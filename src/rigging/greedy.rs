@@ -74,7 +74,7 @@ pub(super) fn rig(
     let wound = if stopped() {
         let reached = poses.into_iter().zip(reached);
         reached
-            .map(|((pose, _), reached)| Wound { pose, activations_mm: reached.posture.beta, checked: None })
+            .map(|((pose, _), reached)| Wound { pose, activations_mm: reached.posture.beta, checked: None, sewn: None })
             .collect()
     } else {
         let added = &current.networks[design.networks.len()..];

@@ -253,15 +253,20 @@ impl<'a> Joint<'a> {
         stop: &(dyn Fn() -> bool + Sync),
     ) {
         (self.task, self.sampler, self.topology) = (task, sampler, topology);
-        for island in &mut self.islands {
+        let anew = |island: &Vec<Living>| {
             let again = in_order(island, |Living { fit, .. }| {
                 let begun = task.resume(fit.layout.clone(), fit, stop)?;
                 task.wound(task.improve(begun, STEPS, false, stop), STEPS, stop)
             });
-            *island = again.into_iter().flatten().map(Living::new).collect();
-            keep(island);
+            let mut island = again.into_iter().flatten().map(Living::new).collect();
+            keep(&mut island);
+            island
+        };
+        let islands: Vec<Vec<Living>> = self.islands.iter().map(anew).filter(|island| !island.is_empty()).collect();
+        // Told to stop, they come to nothing, and what lives is the best that there is.
+        if !stop() {
+            self.islands = islands;
         }
-        self.islands.retain(|island| !island.is_empty());
     }
 
     /// One more layout lives on the first island: one from elsewhere, with activations and positions of every pose.
@@ -305,7 +310,7 @@ impl<'a> Joint<'a> {
     /// The best few, by their worst pose, and as many as asked for that differ in kind from them and from each other.
     pub fn finalists(&self, count: usize, others: usize) -> Vec<Fit> {
         let mut all: Vec<Fit> = self.all().cloned().collect();
-        all.sort_by(|a, b| a.worst().total_cmp(&b.worst()));
+        all.sort_by(Fit::compare);
         all.dedup_by(|a, b| is_same(a, b));
         let rest = all.split_off(count.min(all.len()));
         let apart_mm = APART * self.task.design.body_length_mm();

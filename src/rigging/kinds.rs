@@ -8,15 +8,40 @@ pub const APART: f64 = 0.07;
 /// Places along a cable that are compared.
 const PLACES: usize = 12;
 
-/// How far two layouts are apart, mm: the distance of the winches, or the mean distance of the cables where that is more; each
-/// cable with the one nearest to it of the other. Infinite for different numbers of tendons.
+/// How far two layouts are apart, mm: the largest distance of a winch from its partner, where partners are chosen so that this is least.
+/// Infinite for different numbers of winches or tendons.
 pub fn distance(a: &Layout, b: &Layout) -> f64 {
-    let pairs = a.winches.iter().zip(&b.winches);
-    let alike = a.winches.len() == b.winches.len() && pairs.clone().all(|(p, q)| p.cables.len() == q.cables.len());
-    if alike { pairs.map(|(p, q)| apart(p, q)).fold(0.0, f64::max) } else { f64::INFINITY }
+    if a.winches.len() != b.winches.len() {
+        return f64::INFINITY;
+    }
+    let apart: Vec<Vec<f64>> = a.winches.iter().map(|p| b.winches.iter().map(|q| apart(p, q)).collect()).collect();
+    let mut steps: Vec<f64> = apart.iter().flatten().copied().filter(|mm| mm.is_finite()).collect();
+    steps.sort_by(f64::total_cmp);
+    let least = steps.partition_point(|&within| !are_partners(&apart, within));
+    steps.get(least).copied().unwrap_or(if a.winches.is_empty() { 0.0 } else { f64::INFINITY })
 }
 
+/// Whether each winch of the one layout has a partner of its own in the other, none farther off than `within` (augmenting paths).
+fn are_partners(apart: &[Vec<f64>], within: f64) -> bool {
+    fn find(winch: usize, apart: &[Vec<f64>], within: f64, seen: &mut [bool], of: &mut [Option<usize>]) -> bool {
+        (0..of.len()).any(|other| {
+            let is_new = apart[winch][other] <= within && !std::mem::replace(&mut seen[other], true);
+            let found = is_new && of[other].is_none_or(|before| find(before, apart, within, seen, of));
+            if found {
+                of[other] = Some(winch);
+            }
+            found
+        })
+    }
+    let mut of = vec![None; apart.len()];
+    (0..apart.len()).all(|winch| find(winch, apart, within, &mut vec![false; apart.len()], &mut of))
+}
+
+/// The distance of two winches, or the mean distance of their cables where that is more, each with the nearest of the other.
 fn apart(a: &Placed, b: &Placed) -> f64 {
+    if a.cables.len() != b.cables.len() {
+        return f64::INFINITY;
+    }
     let [mine, theirs] = [a, b].map(|winch| -> Vec<Vec<Point>> {
         winch.cables.iter().map(|cable| resampled(&[&[winch.at], &cable[..]].concat())).collect()
     });
@@ -76,6 +101,13 @@ mod tests {
         let turned = one(vec![vec![[10.0, 6.0]], vec![[10.0, 0.0]]]);
         assert_eq!(distance(&both, &turned), 0.0);
         assert_eq!(distance(&both, &straight), f64::INFINITY);
+        // Nor is the order of winches one.
+        let winch = |at: Point, layout: &Layout| Placed { at, ..layout.winches[0].clone() };
+        let pair = Layout { winches: vec![winch([0.0, 0.0], &straight), winch([50.0, 0.0], &both)] };
+        let swapped = Layout { winches: vec![winch([50.0, 0.0], &both), winch([0.0, 4.0], &straight)] };
+        assert_eq!((distance(&pair, &swapped), distance(&swapped, &pair)), (4.0, 4.0));
+        let others = Layout { winches: vec![winch([50.0, 0.0], &both), winch([0.0, 4.0], &both)] };
+        assert_eq!((distance(&pair, &others), distance(&pair, &straight)), (f64::INFINITY, f64::INFINITY));
         let mut elsewhere = straight.clone();
         elsewhere.winches[0].at = [0.0, 5.0];
         assert_eq!(distance(&straight, &elsewhere), 5.0);

@@ -7,6 +7,7 @@
 //! | `schedule` | when the search leaves its islands, gathers the best, drops the rules |
 //! | `layout`, `moves` | where winches and cables are at rest; random layouts, and random changes of one |
 //! | `kinds` | which networks are the same in kind |
+//! | `minimax` | what counts of the errors of several poses |
 //! | `refine` | all points of a layout and all activations improved together, on exact sensitivities |
 //! | `linear_score`, `annealing` | layouts ranked by the body linearised at rest, at its goals or in between, and annealed there, before any is simulated |
 //! | `sewable`, `depths` | the rules of sewing as figures that a search brings to zero; how deep points lie in a body |
@@ -37,6 +38,7 @@ mod joint;
 mod kinds;
 mod layout;
 mod linear_score;
+mod minimax;
 mod moves;
 mod options;
 mod propose;

@@ -162,11 +162,13 @@ pub struct Wound {
     pub activations_mm: Vec<f64>,
     /// The realizable plushie there, as a check has it; a search that was told to stop checks nothing.
     pub checked: Option<Shape>,
+    /// What a hand leaves of it, where that was worked out.
+    pub sewn: Option<Sewn>,
 }
 
 impl Wound {
     pub(super) fn checked(pose: String, shape: Shape) -> Self {
-        Self { pose, activations_mm: shape.activations_mm.clone(), checked: Some(shape) }
+        Self { pose, activations_mm: shape.activations_mm.clone(), checked: Some(shape), sewn: None }
     }
 }
 
@@ -179,6 +181,8 @@ pub enum RigError {
     NoModel,
     #[error("no network brings any pose closer to its targets")]
     NothingFound,
+    #[error("no further network brings any pose closer to its targets by what anybody would see")]
+    NothingToAdd,
     #[error("cancelled")]
     Cancelled,
 }

@@ -6,7 +6,7 @@ use super::refine::{Fit, KEPT, Task};
 
 /// All poses served to this part of their rest errors need no better rig.
 pub(super) const SERVED: f64 = 0.005;
-/// What is left out may make the worst pose worse by this part.
+/// What is left out may make a pose worse by this part; and one that is better than the worst, by what nobody sees.
 pub(super) const PRICE: f64 = 0.03;
 /// Steps of improvement after something was left out.
 const STEPS: usize = 25;
@@ -15,17 +15,24 @@ const STEPS: usize = 25;
 /// house and to wire: where a rig is to be sewn, none is kept for what nobody sees.
 pub(super) fn pruned(task: &Task, topology: &Topology, fit: Fit, stop: &dyn Fn() -> bool) -> Fit {
     let mut now = fit;
-    let unseen = if task.sewable.is_some() { task.unseen() } else { 0.0 };
+    let unseen = if task.sewable.is_some() { task.unseen() } else { vec![0.0; task.poses.len()] };
+    let hardly = unseen.iter().copied().fold(f64::INFINITY, f64::min);
     let kinds: [(Kind, f64); 3] =
-        [(without_a_winch, SERVED.max(unseen)), (without_a_tendon, SERVED), (without_a_point, SERVED)];
+        [(without_a_winch, SERVED.max(hardly)), (without_a_tendon, SERVED), (without_a_point, SERVED)];
     for (fewer, served) in kinds {
         loop {
-            let most = (now.worst() * (1.0 + PRICE)).max(served);
+            let worst = now.worst();
+            let most: Vec<f64> = now
+                .parts()
+                .zip(&unseen)
+                .map(|(part, unseen)| ((1.0 + PRICE) * part).max(served).max(unseen.min((1.0 + PRICE) * worst)))
+                .collect();
             let tried = fewer(&now.layout, topology).into_iter().filter_map(|(layout, kept)| {
                 let begun = task.resume(layout, &kept.map_or_else(|| now.clone(), |winch| now.without(winch)), stop)?;
                 let improved = task.wound(task.improve(begun, STEPS, false, stop), STEPS, stop)?;
                 let allowed = now.violation.max(KEPT);
-                (improved.worst() <= most && improved.violation <= allowed).then_some(improved)
+                let is_cheap = improved.parts().zip(&most).all(|(part, most)| part <= *most);
+                (is_cheap && improved.violation <= allowed).then_some(improved)
             });
             let Some(next) = tried.min_by(|a, b| a.cost.total_cmp(&b.cost)) else { break };
             if stop() {

@@ -6,6 +6,7 @@ use super::greedy;
 use super::joint::Joint;
 use super::layout::{Layout, rigs_of};
 use super::linear_score::Linear;
+use super::minimax::{self, worst_first, worst_helped};
 use super::moves::{Sampler, Topology};
 use super::options::{Found, Method, Progress, RigError, RigOptions, TendonChoice, Wound};
 use super::prune::{SERVED, pruned};
@@ -87,7 +88,6 @@ fn together(
     let mut found = layouts(searched, options, &topology, progress, cancel)?;
     let (found, coarse) = match coarse {
         Some(_) => {
-            found.sort_by(|a, b| a.worst().total_cmp(&b.worst()));
             found.truncate(CARRIED);
             carried(design, found, options, cancel)
         }
@@ -95,18 +95,29 @@ fn together(
     };
     let verified = judged(design, &found, options, cancel);
     if cancel.load(atomic::Ordering::Relaxed) {
-        let best = found.iter().min_by(|a, b| a.worst().total_cmp(&b.worst()));
+        let best = found.iter().min_by(|a, b| a.compare(b));
         return if options.keep { unchecked(design, best, coarse) } else { Err(RigError::Cancelled) };
     }
     let best = chosen(verified, options.rules).filter(|(_, poses)| helps(poses.iter().map(|p| p.error / p.rest)));
     let Some((rigged, poses)) = best else {
         return Err(RigError::NothingFound);
     };
+    // A motor more must be worth it.
+    if options.rules && !design.networks.is_empty() {
+        let posed: Vec<&Pose> = posed(design).collect();
+        let before =
+            in_order(&posed, |pose| Checked::of(design, &pose.targets, design.tendons.friction, cancel).real_error());
+        let gains = |(before, pose): (&f64, &Verified)| before - pose.real > SEEN;
+        if !before.iter().zip(&poses).any(gains) {
+            return Err(RigError::NothingToAdd);
+        }
+    }
     let tendons = rigged.networks[design.networks.len()..].iter().map(|n| n.tendons.len()).sum();
     let sewn = poses.iter().filter_map(|pose| pose.sewn).collect();
     let errors = poses.iter().map(|pose| (pose.name.clone(), pose.error)).collect();
     progress(Progress::Found { winches: rigged.networks.len() - design.networks.len(), tendons, errors, sewn });
-    let wound = poses.into_iter().map(|pose| Wound::checked(pose.name, pose.shape)).collect();
+    let wound = poses.into_iter().map(|pose| Wound { sewn: pose.sewn, ..Wound::checked(pose.name, pose.shape) });
+    let wound = wound.collect();
     Ok(Found { design: rigged, wound, coarse: false })
 }
 
@@ -126,25 +137,29 @@ fn unchecked(design: &Design, best: Option<&Fit>, coarse: bool) -> Result<Found,
     let posed = design.poses.iter().enumerate().filter(|(_, pose)| !pose.targets.is_empty());
     let wound = posed.map(|(k, pose)| {
         let activations_mm = served(k).map_or_else(|| at_rest.clone(), |posture| posture.beta.clone());
-        Wound { pose: pose.name.clone(), activations_mm, checked: None }
+        Wound { pose: pose.name.clone(), activations_mm, checked: None, sewn: None }
     });
     Ok(Found { wound: wound.collect(), design: with, coarse })
 }
 
-/// The layout whose worst pose is best as a part of its error at rest: as a hand sews it where it should, with friction where the design has it; a
-/// rig that has no figure there is the last choice. Where it is to be sewn, it is, of those that nobody can tell from it, one with the fewest
+/// The layout whose worst pose is best as a part of its error at rest: as a maker may expect it where it is to be sewn ([`Sewn::expected`]), with
+/// friction where the design has it; a rig that has no figure there is the last choice. Where it is to be sewn, it is, of those that nobody can tell from it, one with the fewest
 /// winches, and of these the one that pulls least: on the felt, on a hand, on a motor.
 fn chosen(mut verified: Vec<Candidate>, sewn: bool) -> Option<Candidate> {
-    let worst = |poses: &[Verified], error: fn(&Verified) -> f64| poses.iter().map(error).fold(0.0, f64::max);
-    let order = |poses: &[Verified]| (worst(poses, |p| p.real() / p.rest), worst(poses, |p| p.error / p.rest));
-    verified.sort_by(|a, b| order(&a.1).partial_cmp(&order(&b.1)).unwrap_or(Ordering::Equal));
+    let order = |(_, poses): &Candidate| {
+        let [expected, exact] = [Verified::expected, |p: &Verified| p.error]
+            .map(|error: fn(&Verified) -> f64| worst_first(poses.iter().map(|p| error(p) / p.rest)));
+        [expected, exact].concat()
+    };
+    verified.sort_by(|a, b| minimax::compare(&order(a), &order(b)));
     if !sewn {
         return verified.into_iter().next();
     }
-    let best: Vec<[f64; 2]> = verified.first()?.1.iter().map(|p| [p.real(), p.real]).collect();
-    let worse = |(p, best): (&Verified, &[f64; 2])| p.real() > best[0] + SEEN || p.real > best[1] + SEEN;
+    let best: Vec<[f64; 2]> = verified.first()?.1.iter().map(|p| [p.expected(), p.real]).collect();
+    let worse = |(p, best): (&Verified, &[f64; 2])| p.expected() > best[0] + SEEN || p.real > best[1] + SEEN;
     verified.retain(|(_, poses)| !poses.iter().zip(&best).any(worse));
-    let price = |(design, poses): &Candidate| (design.networks.len(), worst(poses, |p| p.pull_n));
+    let price =
+        |(design, poses): &Candidate| (design.networks.len(), poses.iter().map(|p| p.pull_n).fold(0.0, f64::max));
     verified.into_iter().min_by(|a, b| price(a).partial_cmp(&price(b)).unwrap_or(Ordering::Equal))
 }
 
@@ -160,7 +175,7 @@ fn judged(design: &Design, found: &[Fit], options: &RigOptions, cancel: &AtomicB
 /// Rigs with what a hand leaves of them, those left out that cannot be [`chosen`] any more: sewing makes no rig better than it is drawn, and winding
 /// five plushies of each is most of the work.
 fn as_sewn(mut verified: Vec<Candidate>, friction: f64, cancel: &AtomicBool) -> Vec<Candidate> {
-    let worst = |(_, poses): &Candidate| poses.iter().map(|p| p.real() / p.rest).fold(0.0, f64::max);
+    let worst = |(_, poses): &Candidate| poses.iter().map(|p| p.expected() / p.rest).fold(0.0, f64::max);
     // Part of the error at rest that nobody sees.
     let unseen = |(_, poses): &Candidate| poses.iter().map(|p| SEEN / p.rest).fold(0.0, f64::max);
     verified.sort_by(|a, b| worst(a).total_cmp(&worst(b)));
@@ -236,7 +251,7 @@ pub(super) fn sewable<'a>(design: &'a Design, rim: &'a Outline) -> Sewable<'a> {
     Sewable::new(design.sewing, &design.outline, rim, gap_mm, rigs_of(&design.networks, &design.mesh.nodes))
 }
 
-/// The best few layouts that a search finds on the design's own mesh; those that keep the rules, where any do.
+/// The best few layouts that a search finds on the design's own mesh, best first; those that keep the rules, where any do.
 fn layouts(
     design: &Design,
     options: &RigOptions,
@@ -280,7 +295,7 @@ fn layouts(
         if worst <= SERVED {
             break;
         }
-        schedule.note(here.worst());
+        schedule.note(worst_helped(here.parts()));
         joint.advance(&stop);
         if stop() {
             break;
@@ -297,12 +312,11 @@ fn layouts(
     if stop() {
         return so_far(joint.best(), options);
     }
+    finished.sort_by(Fit::compare);
     if options.rules {
-        let mut best: Vec<&Fit> = finished.iter().collect();
-        best.sort_by(|a, b| a.worst().total_cmp(&b.worst()));
-        best.truncate(STEADIED);
-        let steadied = in_order(&best, |fit| task.steadied(Fit::clone(fit), &stop));
-        finished.extend(steadied);
+        let best = &finished[..STEADIED.min(finished.len())];
+        let steadied = in_order(best, |fit| task.steadied(fit.clone(), &stop));
+        finished = each_with_its_own(finished, steadied);
     }
     if stop() {
         return so_far(joint.best(), options);
@@ -311,6 +325,17 @@ fn layouts(
         finished.retain(|fit| sewable.is_kept(&fit.layout));
     }
     Ok(finished)
+}
+
+/// Fits, best first, each followed by what it was steadied to, so that the first of them are of both kinds.
+fn each_with_its_own(fits: Vec<Fit>, steadied: Vec<Fit>) -> Vec<Fit> {
+    let mut steadied = steadied.into_iter();
+    fits.into_iter()
+        .flat_map(|fit| {
+            let own = steadied.next().filter(|own| own.layout != fit.layout);
+            std::iter::once(fit).chain(own)
+        })
+        .collect()
 }
 
 /// What Algorithm 2 builds, its parameters varied, with activations and positions of every pose: a start where no rule forbids it. It is
@@ -346,9 +371,9 @@ struct Verified {
 }
 
 impl Verified {
-    /// What a real plushie does.
-    fn real(&self) -> f64 {
-        self.sewn.map_or(self.real, |sewn| (0.5 * (sewn.median + sewn.worst)).max(self.real))
+    /// What a maker may expect.
+    fn expected(&self) -> f64 {
+        self.sewn.map_or(self.real, |sewn| sewn.expected(self.real))
     }
 }
 

@@ -3,6 +3,7 @@
 //! Panels have no fill of their own; the window is cleared to the background colour instead. A software rasteriser pays
 //! for every layer of every pixel, and the large ones are saved that way.
 
+use crate::numbers;
 use crate::picture::Color;
 use crate::picture::palette::{Palette, Theme, mix};
 use eframe::egui::style::{NumberFormatter, Selection, WidgetVisuals};
@@ -70,22 +71,11 @@ pub fn install(ctx: &egui::Context) {
         // Room for the scroll bar beside what is scrolled.
         style.spacing.scroll.floating_allocated_width = 6.0;
         style.number_formatter = NumberFormatter::new(|value, decimals| {
-            unsigned_zero(emath::format_with_decimals_in_range(value, decimals))
+            numbers::unsigned_zero(emath::format_with_decimals_in_range(value, decimals))
         });
         style.interaction.selectable_labels = false;
         style.interaction.tooltip_delay = 0.4;
     });
-}
-
-/// A number with so many decimals, never "-0".
-pub fn plain_number(value: f64, decimals: usize) -> String {
-    unsigned_zero(format!("{value:.decimals$}"))
-}
-
-/// A number as it is shown, without the sign where only zeros are left of it.
-fn unsigned_zero(text: String) -> String {
-    let is_zero = text.chars().all(|c| matches!(c, '-' | '\u{2212}' | '0' | '.'));
-    if is_zero { text.trim_start_matches(['-', '\u{2212}']).to_owned() } else { text }
 }
 
 pub fn set_theme(ctx: &egui::Context, theme: Theme) {
@@ -147,14 +137,4 @@ fn visuals(theme: Theme) -> Visuals {
     v.window_shadow = shadow;
     v.slider_trailing_fill = true;
     v
-}
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn nothing_is_less_than_nothing() {
-        for (value, decimals, text) in [(-0.04, 1, "0.0"), (-0.06, 1, "-0.1"), (0.04, 1, "0.0"), (-0.4, 0, "0")] {
-            assert_eq!(super::plain_number(value, decimals), text);
-        }
-    }
 }

@@ -42,7 +42,7 @@ impl Rigged {
         let start = Instant::now();
         let rigged = match rig(&bare, options, &mut |_| (), session.cancel) {
             Ok(found) => found.design,
-            Err(RigError::NothingFound) => bare,
+            Err(RigError::NothingFound | RigError::NothingToAdd) => bare,
             Err(RigError::Cancelled) => return Err(BenchError::Cancelled),
             Err(error @ (RigError::NoTargets | RigError::NoModel)) => {
                 return Err(BenchError::Nothing(format!("{}: {error}", design.name)));

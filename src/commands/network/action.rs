@@ -200,6 +200,10 @@ impl Action {
             &Self::AddHole { ref winch, tendon, piece, at, .. } => {
                 Edit::AddHole { winch: winch_of(winch)?, tendon: number(tendon)?, piece: number(piece)?, at }
             }
+            &Self::Remove { hole: Some(0), .. } => {
+                let words = "hole 0 is the winch itself; leave --tendon and --hole out to remove the winch with all its tendons";
+                return Err(CommandError::Usage(words.into()));
+            }
             &Self::Remove { ref winch, tendon, hole, .. } => Edit::Remove(part(winch_of(winch)?, tendon, hole)?),
             Self::AddTendon { winch, through, .. } => {
                 Edit::AddTendon { winch: winch_of(winch)?, through: through.clone() }

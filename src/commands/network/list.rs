@@ -74,7 +74,10 @@ fn print(design: &Design, listed: &[Listed], out: &mut dyn Write) -> Result<(), 
         say(out, &format!("{} {}{off}", winch + 1, network.name))?;
         for (tendon, listed) in network.tendons.iter().enumerate() {
             let places: Vec<String> = listed.places.iter().map(|p| format!("{:.3},{:.3}", p[0], p[1])).collect();
-            say(out, &format!("  tendon {}: {}", tendon + 1, places.join(" ")))?;
+            let ratio = if listed.ratio == 1.0 { String::new() } else { format!(", spool x {:.3}", listed.ratio) };
+            let slack =
+                if listed.slack_mm == 0.0 { String::new() } else { format!(", slack {:.1} mm", listed.slack_mm) };
+            say(out, &format!("  tendon {}: {}{ratio}{slack}", tendon + 1, places.join(" ")))?;
         }
     }
     Ok(())

@@ -58,6 +58,7 @@ impl NetworkCommand {
         let Files { design: from, target, json } = action.files();
         let (mut design, edit) = target.open(from, cancel)?;
         let change = action.edit(&design)?;
+        let before = design.clone();
         network::run(&mut design, &change, &Context::new(cancel)).map_err(failed)?;
         edit.save(&design, cancel)?;
         let (winches, tendons) =
@@ -69,6 +70,9 @@ impl NetworkCommand {
         }
         let done = change.label().to_lowercase();
         say(out, &format!("{}: {done}; {}", shown(target.path(from)), words::built(winches, tendons)))?;
+        if let Some(note) = words::outdated(&before, &design, target.path(from)) {
+            say(out, &format!("note: {note}"))?;
+        }
         let names = winch_labels(&design);
         breaches.iter().try_for_each(|breach| say(out, &format!("hard to sew: {}", breach.words(&names))))
     }

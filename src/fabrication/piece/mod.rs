@@ -43,9 +43,9 @@ pub struct Piece {
 
 impl Piece {
     /// The front of a design's skin.
-    pub fn front(design: &Design, cutting: &Cutting) -> Self {
+    pub fn front(design: &Design, corners: Corners) -> Self {
         let allowance_mm = design.fabrication.seam_allowance_mm;
-        let mut shapes = grown(&design.outline, allowance_mm, cutting.corners);
+        let mut shapes = grown(&design.outline, allowance_mm, corners);
         // The outline is one piece, and so is what is grown from it.
         let mut shape = if shapes.is_empty() { vec![design.outline.outer.clone()] } else { shapes.swap_remove(0) };
         let rim = shape.remove(0);
@@ -54,9 +54,26 @@ impl Piece {
         let notches = match_marks(&design.outline, &rim, &seam, allowance_mm);
         let pins = design.pins.iter().map(|p| design.mesh.position(&p.at, &design.mesh.nodes)).collect();
         let passages = passages(design);
-        let mut cut =
-            with_kerf(vec![std::iter::once(rim).chain(shape).collect()], cutting.kerf_mm).into_iter().flatten();
-        let (rim, shape) = (cut.next().unwrap_or_default(), cut.collect());
         Self { rim, cut_outs: shape, seam, inner_seams: design.outline.holes.clone(), closed, notches, passages, pins }
+    }
+
+    /// The piece as a cutter gets it that burns away so much, so that it comes out as it is here: the rim is moved outward by half of that, cut-outs,
+    /// holes and openings inward. A hole that is no wider than what is burned away is marked, not cut.
+    pub fn for_cutter(&self, kerf_mm: f64) -> Self {
+        if kerf_mm <= 0.0 {
+            return self.clone();
+        }
+        let mut piece = self.clone();
+        let shape = std::iter::once(self.rim.clone()).chain(self.cut_outs.iter().cloned()).collect();
+        let mut cut = with_kerf(vec![shape], kerf_mm).into_iter().flatten();
+        (piece.rim, piece.cut_outs) = (cut.next().unwrap_or_default(), cut.collect());
+        for passage in &mut piece.passages {
+            if 2.0 * passage.radius_mm > kerf_mm {
+                passage.radius_mm -= 0.5 * kerf_mm;
+            } else {
+                passage.is_cut = false;
+            }
+        }
+        piece
     }
 }

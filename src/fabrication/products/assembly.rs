@@ -4,7 +4,8 @@ use super::skin::{self, FACES};
 use super::threading::threads;
 use super::{routing, winches};
 use crate::defaults::CABLE_MM;
-use crate::fabrication::catalogue::{Kind, Motor};
+use crate::design::Design;
+use crate::fabrication::catalogue::{Fit, Kind, Motor};
 use crate::fabrication::error::ExportError;
 use crate::fabrication::guide::{Block, Guide};
 use crate::fabrication::preset::Preset;
@@ -12,6 +13,7 @@ use crate::fabrication::product::{Content, Part, Product, Source};
 use crate::fabrication::sheet::Sheet;
 use crate::fabrication::winch::{housing, housing_solid, spool};
 use crate::motion::winch_labels;
+use crate::numbers;
 use crate::outline::polygon::{bounding_box, length, signed_area};
 
 /// Sewing thread over the length of the seam: a back stitch by hand.
@@ -90,7 +92,7 @@ fn parts(guide: &mut Guide, source: &Source<'_>, motor: &Motor) {
             winches.to_string(),
             format!("winch-housing, {:.0} g of PLA in all", PLASTIC_G_PER_MM3 * housings),
         ),
-        row("Motors", winches.to_string(), format!("{}, or another one that fits (motors.csv)", motor.name)),
+        row("Motors", winches.to_string(), motors(source, motor)),
         row("Set screws M3 x 6", winches.to_string(), "clamp the spools on their shafts".into()),
         row("Motor screws", (motor.screws * winches).to_string(), screws(motor)),
         row("Control", "1".into(), control(motor).into()),
@@ -105,6 +107,20 @@ fn parts(guide: &mut Guide, source: &Source<'_>, motor: &Motor) {
     guide.blocks.push(Block::Rows { names, rows });
 }
 
+/// Which motor, and whether it does.
+fn motors(source: &Source<'_>, motor: &Motor) -> String {
+    let radius_mm = source.design.fabrication.spool_radius_mm;
+    let fits = source.demands().iter().filter(|d| matches!(motor.fit(d, radius_mm), Fit::Fits(_))).count();
+    match source.demands().len() - fits {
+        0 => format!("{}, or another one that fits (motors.csv)", motor.name),
+        misfits => format!(
+            "{} is the strongest of the catalogue, and not enough for {misfits} of {} winches (see below): what is drawn here is made for it",
+            motor.name,
+            source.demands().len()
+        ),
+    }
+}
+
 fn screws(motor: &Motor) -> String {
     match motor.screws {
         0 => "none: the motor is held by its own ears".into(),
@@ -112,9 +128,17 @@ fn screws(motor: &Motor) -> String {
     }
 }
 
+/// Whether servos of a kind are told over a serial line, by their names.
+fn is_on_bus(motor: &Motor) -> bool {
+    motor.name.to_lowercase().contains("bus")
+}
+
 fn control(motor: &Motor) -> &'static str {
     match motor.kind {
         Kind::Gearmotor => "a position controller with an encoder input for each motor, and its supply",
+        Kind::Servo if is_on_bus(motor) => {
+            "a serial adapter for the bus of these servos, and the supply that their data sheet names"
+        }
         Kind::Servo => {
             "a microcontroller (and a servo driver such as the PCA9685 for more than a few), and a supply of 5 to 6 V"
         }
@@ -149,10 +173,20 @@ fn steps(source: &Source<'_>, motor: &Motor) -> Vec<String> {
          knot it yet."
             .to_owned(),
         "Stuff limb by limb, firmly around the housings, so that nothing rattles. Close the seam by hand around the wires.".to_owned(),
-        "Pull each thread just straight, with all motors at rest, and knot it at its last hole. This is the zero of the motors.".to_owned(),
+        zero(source.design).to_owned(),
         "Send setup once, then motion as often as you like; stop before you let go (README).".to_owned(),
     ]);
     steps
+}
+
+/// How threads are when the motors are at zero.
+fn zero(design: &Design) -> &'static str {
+    if design.networks.iter().flat_map(|network| &network.tendons).any(|tendon| tendon.slack_mm != 0.0) {
+        "Pull each thread just straight, with all motors at rest, let it out again by its slack (in the list of threads below), and knot it at its last \
+         hole. This is the zero of the motors: a thread with slack pulls later than the others of its winch."
+    } else {
+        "Pull each thread just straight, with all motors at rest, and knot it at its last hole. This is the zero of the motors."
+    }
 }
 
 fn pictures(guide: &mut Guide, source: &Source<'_>, motor: &Motor) {
@@ -175,14 +209,13 @@ fn pictures(guide: &mut Guide, source: &Source<'_>, motor: &Motor) {
         let sheet = routing::sheet(source.skin, source.piece(), back);
         guide.figure(sheet, "Threads over the felt are thick, those under it thin; the dot is the knot.");
     }
-    let names = ["winch", "tendon", "groove front, back", "at rest (mm)", "cut (mm)", "way"].map(String::from).to_vec();
+    let names = ["winch", "tendon", "groove front, back", "at rest (mm)", "of it slack (mm)", "cut (mm)", "way"];
     let rows = threads(source.skin).into_iter().map(|t| {
         let grooves = format!("{}, {}", t.groove(false), t.groove(true));
-        let figures = [format!("{:.1}", t.length_mm), format!("{:.0}", t.cut_mm)];
-        let [rest, cut] = figures;
-        vec![t.winch.clone(), t.tendon.to_string(), grooves, rest, cut, t.way()]
+        let [rest, slack] = [t.length_mm, t.slack_mm].map(|mm| numbers::plain(mm, 1));
+        vec![t.winch.clone(), t.tendon.to_string(), grooves, rest, slack, format!("{:.0}", t.cut_mm), t.way()]
     });
-    guide.blocks.push(Block::Rows { names, rows: rows.collect() });
+    guide.blocks.push(Block::Rows { names: names.map(String::from).to_vec(), rows: rows.collect() });
     guide.heading("The winches");
     for sheet in winches::drawings(source, motor) {
         guide.figure(sheet, "Spool and housing; dimensions in mm.");
@@ -217,6 +250,9 @@ fn wiring(guide: &mut Guide, source: &Source<'_>, motor: &Motor) {
         Kind::Gearmotor => {
             "Each motor and its encoder go to a controller; the controllers share the supply and, on a network, the serial line. Give each its node \
              number before they are on one line."
+        }
+        Kind::Servo if is_on_bus(motor) => {
+            "The servos share one line to the adapter and a supply of their own. Give each its number before they are on one line."
         }
         Kind::Servo => {
             "Signal wires go to the channels below; plus and minus to a supply of their own, not to the microcontroller's 5 V. Join the minus of both."

@@ -1,5 +1,6 @@
 //! The programs for motor controllers, family by family.
 
+use crate::engine::winch_reach_mm;
 use crate::fabrication::demand::strong_enough;
 use crate::fabrication::error::ExportError;
 use crate::fabrication::product::{Content, Part, Product, Source};
@@ -9,6 +10,7 @@ use crate::motion::{
     Family, Following, Forecast, Machine, MotionError, Note, Plan, Sketch, Stream, Trajectory, commands_a_step, line,
     programs,
 };
+use std::collections::HashSet;
 
 /// Programs of every family that was asked for, or of all that can play this motion: `controller-<family>-setup`, `-motion`, `-stop`.
 pub(super) fn make(source: &Source<'_>) -> Result<Part, ExportError> {
@@ -46,7 +48,14 @@ fn chosen(source: &Source<'_>) -> Result<Vec<&'static Family>, MotionError> {
         families::by_name(name)
             .ok_or_else(|| MotionError::NoSuchFamily { name: name.clone(), known: families::names() })
     };
-    if names.is_empty() { Ok(families::ALL.to_vec()) } else { names.iter().map(named).collect() }
+    if names.is_empty() {
+        return Ok(families::ALL.to_vec());
+    }
+    let mut chosen: Vec<&'static Family> = names.iter().map(named).collect::<Result<_, _>>()?;
+    // Named twice, it is written once.
+    let mut seen = HashSet::new();
+    chosen.retain(|family| seen.insert(family.name));
+    Ok(chosen)
 }
 
 /// The files of a family.
@@ -182,6 +191,23 @@ fn remarks(source: &Source<'_>) -> Vec<Remark> {
     let (design, trajectory) = (source.design, source.trajectory);
     let mut remarks: Vec<Remark> = trajectory.notes.iter().map(|note| worded(note).into()).collect();
     let machine = Machine::new(design, trajectory);
+    for (network, travel_mm) in design.networks.iter().zip(&machine.travel_mm) {
+        let (name, reach_mm) = (&network.name, winch_reach_mm(design, network));
+        if *travel_mm > reach_mm {
+            let words = format!(
+                "Winch {name:?} winds up to {travel_mm:.1} mm, and its cables are as short as they may be at {reach_mm:.1} mm: work the keyframes out \
+                 again, or the motor pulls against itself."
+            );
+            remarks.push(Remark::from(words).grave());
+        } else if *travel_mm == 0.0 && !design.keyframes.is_empty() {
+            remarks.push(
+                format!(
+                    "Winch {name:?} never winds in this animation: switch it off, or work the keyframes out again."
+                )
+                .into(),
+            );
+        }
+    }
     if let Ok(classic) = classic::Classic::new(&machine) {
         let on_line = commands_a_step(&classic) as f64 * line::carried_s(&machine, line::COMMAND_BYTES);
         let steps = trajectory.times_s.windows(2).map(|times| times[1] - times[0]);
@@ -222,6 +248,9 @@ fn worded(note: &Note) -> String {
         ),
         Note::Rounded { winch, from_s, to_s } => format!(
             "From {from_s:.2} s to {to_s:.2} s winch {winch:?} moves as evenly as its motor can, not as the keyframe's easing would have it."
+        ),
+        Note::Jump { winch, from_s, to_s } => format!(
+            "From {from_s:.2} s to {to_s:.2} s winch {winch:?} is on its way to the next keyframe, although the one before is held: no motor jumps."
         ),
     }
 }

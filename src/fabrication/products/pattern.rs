@@ -22,7 +22,7 @@ const REFERENCE_ROW_MM: f64 = 10.0;
 pub(super) fn make(source: &Source<'_>) -> Result<Part, ExportError> {
     let (design, options) = (source.design, source.options);
     let piece = source.piece();
-    let (sheets, mut remarks) = sheets(source, piece);
+    let (sheets, mut remarks) = sheets(source, &piece.for_cutter(options.cutting.kerf_mm));
     remarks.extend(skin::remarks(design, piece, &options.cutting));
     let [width, height] = options.sheet.size_mm;
     let guide = format!(

@@ -90,6 +90,7 @@ fn threading(design: &Design) -> Table {
         Column::new("groove", Values::Counts(faces().map(|(t, face)| t.groove(face == "back") as i64).collect())),
         Column::new("length_mm", Values::Figures(faces().map(|(t, _)| t.length_mm).collect())),
         Column::new("cut_mm", Values::Figures(faces().map(|(t, _)| t.cut_mm).collect())),
+        Column::new("slack_mm", Values::Figures(faces().map(|(t, _)| t.slack_mm).collect())),
         Column::new("way", words(&|t, _| t.way())),
     ];
     Table { columns, ..Table::default() }

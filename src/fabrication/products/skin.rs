@@ -216,11 +216,22 @@ pub fn remarks(design: &Design, piece: &Piece, cutting: &Cutting) -> Vec<Remark>
         remarks.push(Remark::at(uncut.iter().map(|p| p.at), words));
     }
     if cutting.kerf_mm > 0.0 {
+        let kerf_mm = cutting.kerf_mm;
         let words = format!(
-            "Cutting lines are moved by half a kerf of {} mm: the pieces come out at their size.",
-            cutting.kerf_mm
+            "Lines that a machine cuts are moved by half a kerf of {kerf_mm} mm, rims outward, holes inward: the pieces come out at their size. The pattern on \
+             paper is not changed."
         );
         remarks.push(words.into());
+        let narrow: Vec<&Passage> =
+            piece.passages.iter().filter(|p| p.is_cut && 2.0 * p.radius_mm <= kerf_mm).collect();
+        if !narrow.is_empty() {
+            let numbers: Vec<String> = narrow.iter().map(|p| p.number.to_string()).collect();
+            let words = format!(
+                "Marked, not cut, because they are no wider than the kerf of {kerf_mm} mm: hole {}. Punch them.",
+                numbers.join(", ")
+            );
+            remarks.push(Remark::at(narrow.iter().map(|p| p.at), words));
+        }
     }
     remarks
 }

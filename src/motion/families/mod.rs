@@ -7,6 +7,7 @@ pub mod grbl;
 pub mod sdo;
 pub mod servo;
 mod servo_sketch;
+mod shortened;
 mod stored;
 mod v3_script;
 

@@ -4,6 +4,7 @@
 
 use super::family::{Family, Sketch};
 use super::servo::{Servos, UNCONFIRMED};
+use super::shortened::{Steps, shortened};
 use crate::motion::error::MotionError;
 use crate::motion::machine::Machine;
 use crate::motion::trajectory::Trajectory;
@@ -54,7 +55,7 @@ fn sketch(
     extension: &'static str,
 ) -> Result<Vec<Sketch>, MotionError> {
     let servos = Servos::new(machine)?;
-    let rows = table(&servos, machine, trajectory);
+    let rows = table(&servos, machine, trajectory)?;
     let list = |values: &mut dyn Iterator<Item = i64>| values.map(|v| v.to_string()).collect::<Vec<_>>().join(", ");
     let mut lines = String::new();
     for (ms, pulses) in &rows {
@@ -104,20 +105,29 @@ fn fastest(machine: &Machine, trajectory: &Trajectory) -> f64 {
     machine.degrees(speeds.fold(0.0, f64::max))
 }
 
-/// Rows of the motion: milliseconds since the one before, and pulses. As many as the table has room for, evenly; times are rounded from the beginning, so
-/// that nothing adds up. The first row is the rest.
-fn table(servos: &Servos, machine: &Machine, trajectory: &Trajectory) -> Vec<(u64, Vec<i64>)> {
+/// Rows of the motion: milliseconds since the one before, and pulses. As few as the motion needs, and as many as the table has room for; times are rounded
+/// from the beginning, so that nothing adds up. The first row is the rest.
+fn table(servos: &Servos, machine: &Machine, trajectory: &Trajectory) -> Result<Vec<(u64, Vec<i64>)>, MotionError> {
     let room = TABLE_BYTES / (FIGURE_BYTES * (machine.winches.len() + 1));
-    let last = trajectory.times_s.len().saturating_sub(1);
-    let kept = last.min(room);
-    let ms = |k: usize| (1e3 * (trajectory.times_s[k] - trajectory.times_s[0])).round() as u64;
-    let mut before = 0;
-    (0..=kept)
-        .map(|row| {
-            let k = (row * last).checked_div(kept).unwrap_or(0);
-            let passed = (ms(k) - before).min(LONGEST_MS);
-            before = ms(k);
-            (passed, trajectory.lengths_mm[k].iter().map(|&length| servos.pulse(length)).collect())
-        })
-        .collect()
+    let (times, lengths) = (&trajectory.times_s, &trajectory.lengths_mm);
+    let ms = |k: usize| (1e3 * (times[k] - times[0])).round() as u64;
+    // What lasts longer than a row can is several.
+    let parts = |pair: &[usize]| (ms(pair[1]) - ms(pair[0])).div_ceil(LONGEST_MS).max(1);
+    let even = |_: usize, _: usize| 0.0;
+    let all = Steps { times_s: times, lengths_mm: lengths, winches: 0..machine.winches.len(), uneven_mm: &even };
+    let fits = |kept: &[usize]| kept.windows(2).map(parts).sum::<u64>() < room as u64;
+    let kept = shortened(&all, fits, "the table of a sketch")?;
+    let pulses = |row: &[f64]| row.iter().map(|&length| servos.pulse(length)).collect();
+    let mut rows = vec![(0, pulses(&lengths[0]))];
+    for pair in kept.windows(2) {
+        let (begin, end, parts) = (ms(pair[0]), ms(pair[1]), parts(pair));
+        let at = |part: u64| begin + (end - begin) * part / parts;
+        for part in 1..=parts {
+            let done = part as f64 / parts as f64;
+            let between = |(from, to): (&f64, &f64)| from + done * (to - from);
+            let row: Vec<f64> = lengths[pair[0]].iter().zip(&lengths[pair[1]]).map(between).collect();
+            rows.push((at(part) - at(part - 1), pulses(&row)));
+        }
+    }
+    Ok(rows)
 }

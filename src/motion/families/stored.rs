@@ -8,6 +8,7 @@
 
 use super::classic::{self, END};
 use super::family::{Family, Sketch};
+use super::shortened::{Steps, shortened};
 use crate::motion::error::MotionError;
 use crate::motion::machine::Machine;
 use crate::motion::trajectory::Trajectory;
@@ -27,14 +28,14 @@ pub(super) static FAMILY: Family = Family {
 
 /// The longest `DELAY`, in its unit (unconfirmed: two bytes).
 const LONGEST_DELAY: u64 = 65_535;
-/// A stored program takes no more steps: the flash is small (unconfirmed). Between these times a drive runs evenly.
+/// A stored program takes no more steps: the flash is small (unconfirmed).
 const MOST_STEPS: usize = 200;
 
 fn sketches(machine: &Machine, trajectory: &Trajectory) -> Result<Vec<Sketch>, MotionError> {
     classic::checked(machine)?;
     let mut parts = [("setup", String::new()), ("motion", String::new()), ("stop", String::new())];
     for winch in 0..machine.winches.len() {
-        let own = [setup(machine, winch), stored(&motion(machine, trajectory, winch)), stop(machine)];
+        let own = [setup(machine, winch), stored(&motion(machine, trajectory, winch)?), stop(machine)];
         for ((_, text), commands) in parts.iter_mut().zip(own) {
             *text += &commands.iter().map(|command| format!("{}{command}{END}", winch + 1)).collect::<String>();
         }
@@ -55,11 +56,11 @@ fn stored(commands: &[String]) -> Vec<String> {
     first.into_iter().chain(commands.iter().cloned()).chain(last).collect()
 }
 
-fn motion(machine: &Machine, trajectory: &Trajectory, winch: usize) -> Vec<String> {
+fn motion(machine: &Machine, trajectory: &Trajectory, winch: usize) -> Result<Vec<String>, MotionError> {
     let following = machine.controller.drives.following_acceleration;
     let mut commands = vec![format!("AC{following}"), format!("DEC{following}"), "EN".into()];
     let (times, lengths) = (&trajectory.times_s, &trajectory.lengths_mm);
-    let steps: Vec<usize> = thinned(times.len());
+    let steps = steps(machine, trajectory, winch, "a stored program")?;
     let units = |k: usize| ((times[k] - times[0]) / machine.controller.drives.delay_unit_s).round() as u64;
     for pair in steps.windows(2) {
         let (from, to) = (machine.counts(lengths[pair[0]][winch]), machine.counts(lengths[pair[1]][winch]));
@@ -71,14 +72,27 @@ fn motion(machine: &Machine, trajectory: &Trajectory, winch: usize) -> Vec<Strin
             rest -= rest.min(LONGEST_DELAY);
         }
     }
-    commands
+    Ok(commands)
 }
 
-/// The steps of a trajectory that are kept: evenly, with both ends, at most [`MOST_STEPS`].
-pub(super) fn thinned(steps: usize) -> Vec<usize> {
-    let last = steps.saturating_sub(1);
-    let kept = last.min(MOST_STEPS);
-    (0..=kept).map(|k| (k * last).checked_div(kept).unwrap_or(0)).collect()
+/// The steps of a winch that are kept, at most [`MOST_STEPS`].
+pub(super) fn steps(
+    machine: &Machine,
+    trajectory: &Trajectory,
+    winch: usize,
+    what: &'static str,
+) -> Result<Vec<usize>, MotionError> {
+    let (times, lengths) = (&trajectory.times_s, &trajectory.lengths_mm);
+    // Speeds are whole revolutions a minute, rounded up: a drive comes too early, and waits.
+    let uneven_mm = |from: usize, to: usize| {
+        let (by, lasts_s) = (lengths[to][winch] - lengths[from][winch], times[to] - times[from]);
+        let counts = machine.counts(lengths[to][winch]) - machine.counts(lengths[from][winch]);
+        let there_s =
+            60.0 * counts.abs() as f64 / (f64::from(machine.rpm(counts, lasts_s)) * f64::from(machine.resolution()));
+        by.abs() * (1.0 - there_s / lasts_s).max(0.0)
+    };
+    let own = Steps { times_s: times, lengths_mm: lengths, winches: winch..winch + 1, uneven_mm: &uneven_mm };
+    shortened(&own, |kept| kept.len() <= MOST_STEPS + 1, what)
 }
 
 fn stop(machine: &Machine) -> Vec<String> {

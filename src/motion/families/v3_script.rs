@@ -5,7 +5,7 @@
 
 use super::classic;
 use super::family::{Family, Sketch};
-use super::stored::thinned;
+use super::stored;
 use crate::motion::error::MotionError;
 use crate::motion::machine::Machine;
 use crate::motion::trajectory::Trajectory;
@@ -32,16 +32,17 @@ fn sketches(machine: &Machine, trajectory: &Trajectory) -> Result<Vec<Sketch>, M
     let of = |winch: usize| {
         let parts = [
             ("setup", setup(machine, winch)),
-            ("motion", motion(machine, trajectory, winch)),
+            ("motion", motion(machine, trajectory, winch)?),
             ("stop", stop(machine, winch)),
         ];
-        parts.map(|(part, text)| Sketch {
+        Ok(parts.map(|(part, text)| Sketch {
             part: if machine.winches.len() == 1 { part.into() } else { format!("{}-{part}", winch + 1) },
             extension: FAMILY.extension,
             text,
-        })
+        }))
     };
-    Ok((0..machine.winches.len()).flat_map(of).collect())
+    let sketches: Vec<[Sketch; 3]> = (0..machine.winches.len()).map(of).collect::<Result<_, _>>()?;
+    Ok(sketches.into_iter().flatten().collect())
 }
 
 /// Comments and the manual's macros.
@@ -85,7 +86,7 @@ END FUNCTION
 
 ";
 
-fn motion(machine: &Machine, trajectory: &Trajectory, winch: usize) -> String {
+fn motion(machine: &Machine, trajectory: &Trajectory, winch: usize) -> Result<String, MotionError> {
     let mut text = head(machine, winch, "as often as you like, from the rest position.") + STEP;
     let following = machine.controller.drives.following_acceleration;
     let _ =
@@ -93,13 +94,13 @@ fn motion(machine: &Machine, trajectory: &Trajectory, winch: usize) -> String {
     let (times, lengths) = (&trajectory.times_s, &trajectory.lengths_mm);
     let unit_s = machine.controller.drives.script_delay_unit_s;
     let units = |k: usize| ((times[k] - times[0]) / unit_s).round() as u64;
-    for pair in thinned(times.len()).windows(2) {
+    for pair in stored::steps(machine, trajectory, winch, "a script")?.windows(2) {
         let (from, to) = (machine.counts(lengths[pair[0]][winch]), machine.counts(lengths[pair[1]][winch]));
         let speed = machine.rpm(to - from, times[pair[1]] - times[pair[0]]);
         // Writing to a string cannot fail.
         let _ = writeln!(text, "Wind({to}, {speed}, {})", units(pair[1]) - units(pair[0]));
     }
-    text + "END\n"
+    Ok(text + "END\n")
 }
 
 fn stop(machine: &Machine, winch: usize) -> String {

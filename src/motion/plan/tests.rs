@@ -86,7 +86,8 @@ fn a_held_value_jumps_as_late_and_as_quickly_as_the_motor_can() {
     assert_eq!(plan.at(2.0 - takes - 1e-6), [0.0]);
     assert!((plan.at(2.0 - 0.5 * takes)[0] - 15.0).abs() < 1e-6);
     assert!((plan.at(2.0)[0] - 30.0).abs() < 1e-6);
-    assert!(matches!(plan.notes[..], [Note::Rounded { .. }]), "{:?}", plan.notes);
+    let [Note::Jump { from_s, to_s: 2.0, .. }] = plan.notes[..] else { panic!("{:?}", plan.notes) };
+    assert!((from_s - (2.0 - takes)).abs() < 1e-12, "{from_s}");
 }
 
 #[test]

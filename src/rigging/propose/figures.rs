@@ -50,7 +50,7 @@ impl<'a> Subject<'a> {
         with.keyframes.clear();
         let own = with.networks.len() - 1;
         let tendons = with.networks[..own].iter().map(|n| n.tendons.len()).sum::<usize>();
-        let (mut poses, mut force_n, mut preview) = (Vec::new(), 0.0_f64, None);
+        let (mut poses, mut force_n, mut spool_n, mut preview) = (Vec::new(), 0.0_f64, 0.0_f64, None);
         let own_alone = |found: Vec<Breach>| found.into_iter().filter(|b| b.winches().any(|winch| winch == own));
         let mut breaches: Vec<Breach> = own_alone(with.breaches()).collect();
         for (k, (name, targets, before)) in self.poses.iter().enumerate() {
@@ -58,7 +58,9 @@ impl<'a> Subject<'a> {
             if cancel.load(Ordering::Relaxed) {
                 return None;
             }
-            force_n = after.shape.tendon_tensions.iter().skip(tendons).fold(force_n, |m, t| m.max(*t));
+            let tensions = &after.shape.tendon_tensions[tendons.min(after.shape.tendon_tensions.len())..];
+            force_n = tensions.iter().fold(force_n, |m, t| m.max(*t));
+            spool_n = spool_n.max(network.tendons.iter().zip(tensions).map(|(tendon, t)| tendon.ratio * t).sum());
             breaches.extend(own_alone(with.breaches_in(&after.shape.nodes)));
             let rubbed = after.with_friction.map(|after| [before.real_error(), after]);
             poses.push(PoseServed {
@@ -83,6 +85,7 @@ impl<'a> Subject<'a> {
             turn_degrees: turns.fold(0.0, f64::max),
             turning_degrees: cables.iter().map(|cable| sewing::turning(cable)).fold(0.0, f64::max),
             force_n,
+            spool_n,
             breaches,
             preview: preview?,
             paper: origin,

@@ -52,6 +52,8 @@ pub struct Proposal {
     pub turning_degrees: f64,
     /// Largest force in one of its cables over all poses, without friction, N.
     pub force_n: f64,
+    /// Largest pull of all its cables together over all poses, each by its ratio, N: with the spool's radius what they ask of the motor.
+    pub spool_n: f64,
     /// Rules of sewing that the design would break and in which this network has a part, at rest and in every pose.
     pub breaches: Vec<Breach>,
     /// The realizable plushie with this network, in the pose at hand.

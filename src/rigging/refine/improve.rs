@@ -85,7 +85,7 @@ impl Task<'_> {
             sharp.wound(sharp.improve(begun, steps, false, stop), 0, stop)
         };
         let allowed = fit.violation.max(KEPT);
-        improved().filter(|new| new.worst() < fit.worst() && new.violation <= allowed).unwrap_or(fit)
+        improved().filter(|new| new.compare(&fit).is_lt() && new.violation <= allowed).unwrap_or(fit)
     }
 }
 

@@ -5,10 +5,12 @@ use crate::engine::compile::{Plushie, compile_with, objective};
 use crate::mesh::BodyPoint;
 use crate::outline::Point;
 use crate::rigging::layout::Layout;
+use crate::rigging::minimax::{self, worst_first};
 use crate::rigging::options::Trims;
 use crate::rigging::sewable::{Sewable, posed_violation};
 use crate::soft_ik::routing::RoutingPoint;
 use crate::soft_ik::{Actuation, Objective, Posture, Question};
+use std::cmp::Ordering;
 
 /// Power of the misses while searching.
 pub(super) const POWER: f64 = 2.0;
@@ -77,9 +79,20 @@ impl Fit {
         out
     }
 
+    /// The errors of the poses as parts of those at rest.
+    pub fn parts(&self) -> impl Iterator<Item = f64> {
+        self.misses.iter().map(|miss| miss.sqrt())
+    }
+
     /// The worst pose's error as a part of that at rest.
     pub fn worst(&self) -> f64 {
-        self.misses.iter().fold(0.0_f64, |m, f| m.max(*f)).sqrt()
+        self.parts().fold(0.0, f64::max)
+    }
+
+    /// Whether it serves its poses better than another, the worst first, or worse.
+    pub fn compare(&self, other: &Self) -> Ordering {
+        let [own, others] = [self, other].map(|fit| worst_first(fit.parts()));
+        minimax::compare(&own, &others)
     }
 }
 
@@ -113,13 +126,13 @@ impl<'a> Task<'a> {
         Self { design, poses, served, sewable, fixed, trims: Trims::default(), rings, power: POWER, whole: 1.0 }
     }
 
-    /// The part of its error at rest that nobody sees in any pose ([`SEEN`]).
-    pub(in crate::rigging) fn unseen(&self) -> f64 {
+    /// The part of its error at rest that nobody sees in a pose ([`SEEN`]), for each.
+    pub(in crate::rigging) fn unseen(&self) -> Vec<f64> {
         let seen_mm = SEEN * self.design.body_length_mm();
         let part = |(targets, miss): &(Vec<Target>, f64)| {
             seen_mm * (targets.iter().map(|t| t.weight).sum::<f64>() / miss).sqrt()
         };
-        self.poses.iter().map(part).fold(f64::INFINITY, f64::min)
+        self.poses.iter().map(part).collect()
     }
 
     /// With more unknowns of cables.

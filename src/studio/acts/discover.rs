@@ -15,7 +15,7 @@ pub fn start_propose(session: &mut Session) {
         return;
     }
     session.discovery.cancel();
-    [true, false].into_iter().for_each(|rules| session.messages.take_back(nothing(rules)));
+    take_back(session);
     let (design, targets) = (session.design().clone(), session.targets().to_vec());
     session.discovery.ask(&design, &targets);
     let options = session.discovery.options.clone();
@@ -52,7 +52,15 @@ pub fn follow(session: &mut Session) {
         let (design, targets) = (session.design().clone(), session.targets().to_vec());
         session.discovery.follow(&design, &targets);
         session.discovery.take_coming();
+        if !session.discovery.has_asked() {
+            take_back(session);
+        }
     }
+}
+
+/// Nothing was found, but for another body or pose.
+fn take_back(session: &mut Session) {
+    [true, false].into_iter().for_each(|rules| session.messages.take_back(nothing(rules)));
 }
 
 /// The search is over.
@@ -61,7 +69,8 @@ pub fn take_proposals(session: &mut Session, serial: u64, proposals: Vec<Arc<Pro
         return;
     }
     session.discovery.running = None;
-    if proposals.is_empty() {
+    let (design, targets) = (session.design().clone(), session.targets().to_vec());
+    if proposals.is_empty() && session.discovery.is_for(&design, &targets) {
         session.messages.warning(nothing(session.discovery.options.rules));
     }
     session.discovery.take(proposals);

@@ -22,19 +22,21 @@ use std::time::Duration;
 pub struct Gallery {
     pictures: Pictures,
     asked_cards: Option<(Vec<Arc<Proposal>>, Theme)>,
-    asked_poses: Option<Arc<Proposal>>,
+    asked_poses: Option<(Arc<Proposal>, Theme)>,
 }
 
 /// A picture of every proposal on a list.
 struct Cards {
     of: Vec<Arc<Proposal>>,
     theme: Theme,
-    pictures: Vec<Arc<Preview>>,
+    /// None of one that cannot be drawn.
+    pictures: Vec<Option<Arc<Preview>>>,
 }
 
 /// One proposal in every pose.
 struct Poses {
     of: Arc<Proposal>,
+    theme: Theme,
     struck: Vec<Struck>,
 }
 
@@ -79,7 +81,7 @@ pub fn show(ui: &mut Ui, session: &Session, gallery: &mut Gallery, actions: &mut
             for index in discovery.sorted() {
                 let found = &discovery.proposals[index];
                 let of = pictures.and_then(|cards| cards.of.iter().position(|of| Arc::ptr_eq(of, found)));
-                let picture = pictures.zip(of).and_then(|(cards, at)| cards.pictures.get(at));
+                let picture = pictures.zip(of).and_then(|(cards, at)| cards.pictures.get(at)?.as_ref());
                 let strip = poses.filter(|poses| Arc::ptr_eq(&poses.of, found)).map(|poses| poses.struck.as_slice());
                 let paint = (&mut gallery.pictures, picture, strip.unwrap_or(&[]));
                 if proposal::card(ui, session, index, found, paint, actions) {
@@ -148,7 +150,7 @@ fn cards<'s>(session: &'s Session, gallery: &mut Gallery, theme: Theme, actions:
         let work = Arc::new(move |cancel: &AtomicBool| -> Told {
             let drawn = |proposal: &Arc<Proposal>| picture(&design, &proposal.preview, proposal, theme);
             let go_on = |_: &&Arc<Proposal>| !cancel.load(Ordering::Relaxed);
-            let pictures = of.iter().take_while(go_on).filter_map(drawn).collect();
+            let pictures = of.iter().take_while(go_on).map(drawn).collect();
             Arc::new(Cards { of: of.clone(), theme, pictures })
         });
         actions.push(Action::Start(Task { owner: CARDS, name: mark("Pictures of proposals"), work }));
@@ -164,15 +166,17 @@ fn poses<'s>(
     theme: Theme,
     actions: &mut Actions,
 ) -> Option<&'s Poses> {
-    let known = session.tasks().told::<Poses>(POSES).filter(|poses| Arc::ptr_eq(&poses.of, proposal));
-    let begun = gallery.asked_poses.as_ref().is_some_and(|of| Arc::ptr_eq(of, proposal));
+    let known = session.tasks().told::<Poses>(POSES);
+    let known = known.filter(|poses| Arc::ptr_eq(&poses.of, proposal) && poses.theme == theme);
+    let begun =
+        gallery.asked_poses.as_ref().is_some_and(|(of, of_theme)| Arc::ptr_eq(of, proposal) && *of_theme == theme);
     // While networks are looked for all processors are busy with that.
     let idle = session.discovery().running.is_none();
     if known.is_none() && !begun && idle && session.design().poses.len() > 1 {
-        gallery.asked_poses = Some(proposal.clone());
+        gallery.asked_poses = Some((proposal.clone(), theme));
         let (of, design) = (proposal.clone(), session.design().clone());
         let work = Arc::new(move |cancel: &AtomicBool| -> Told {
-            Arc::new(Poses { of: of.clone(), struck: struck(&design, &of, theme, cancel) })
+            Arc::new(Poses { of: of.clone(), theme, struck: struck(&design, &of, theme, cancel) })
         });
         actions.push(Action::Start(Task { owner: POSES, name: mark("A proposal in every pose"), work }));
     }

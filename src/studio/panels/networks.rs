@@ -5,6 +5,7 @@ use super::gallery::Gallery;
 use super::panel::{Entry, Panel};
 use super::widgets::{heading, name_field};
 use super::{buttons, sewable, tendons, winding};
+use crate::numbers;
 use crate::operations::network::{Edit, Part};
 use crate::picture::Color;
 use crate::picture::palette::Palette;
@@ -18,7 +19,6 @@ use crate::studio::icons::{self, Icon};
 use crate::studio::language::{t, tf, tn};
 use crate::studio::session::{Renamed, Selection, Session};
 use crate::studio::style;
-use crate::studio::style::plain_number;
 use crate::studio::viewport::thumbnail::Thumbnails;
 use eframe::egui::{
     Align, Button, Color32, Layout, Popup, RichText, Role, ScrollArea, Sense, Stroke, Ui, WidgetInfo, vec2,
@@ -87,7 +87,7 @@ fn rows(ui: &mut Ui, session: &Session, breaches: &[Breach], actions: &mut Actio
                 let wound = newest.as_ref().and_then(|s| s.activations_mm.get(index));
                 let wound = match network.muted {
                     true => t("off").to_owned(),
-                    false => format!("{:>5} mm", plain_number(wound.copied().unwrap_or(0.0), 1)),
+                    false => format!("{:>5} mm", numbers::plain(wound.copied().unwrap_or(0.0), 1)),
                 };
                 let tendons = network.tendons.len();
                 let detail = format!("{}  {wound}", tn!(tendons, "{tendons} tendon", "{tendons} tendons"));

@@ -1,8 +1,9 @@
 //! The next step on the way to a plushie, as one button: pin, pose, propose, accept, key, export.
 
+use crate::engine::target_error;
 use crate::motion::{Why, winch_labels};
 use crate::operations::network::Part;
-use crate::sewing::most_severe;
+use crate::sewing::{Breach, most_severe};
 use crate::studio::action::{Action, Actions};
 use crate::studio::canvas::Hit;
 use crate::studio::commands::Command;
@@ -21,8 +22,9 @@ use eframe::egui::{Button, RichText, Stroke, Ui};
 /// Least width that is left for it, logical pixels: where there is less, it is not shown.
 const LEAST: f32 = 190.0;
 
-/// A pose that misses its targets by more is not done, body lengths.
+/// A pose that misses its targets by more, body lengths, and keeps more than this part of its error at rest is not served yet.
 const FAR_OFF: f64 = 0.05;
+const UNSERVED: f64 = 0.4;
 
 /// What comes next, and the words for it.
 pub fn next(session: &Session) -> Option<(&'static Command, &'static str)> {
@@ -51,16 +53,32 @@ pub fn next(session: &Session) -> Option<(&'static Command, &'static str)> {
         (&FIT, t("Make it fit"))
     } else if session.pose().is_some_and(|pose| is_missed(session, pose)) {
         (&PROPOSE, t("Propose for this pose"))
-    } else if let (false, Some(tool)) = (session.judging().breaches().is_empty(), tools::take(TENDON)) {
+    } else if let (Some(_), Some(tool)) = (to_mend(session), tools::take(TENDON)) {
         (tool, t("Mend a cable"))
     } else {
         (&EXPORT, t("Export the blueprint"))
     })
 }
 
-/// Whether all that the winches can do leaves a pose far off.
+/// Whether all that the winches can do leaves a pose far off, and networks for it were not looked for in vain.
 fn is_missed(session: &Session, pose: usize) -> bool {
-    session.judging().error(pose).is_some_and(|known| known.fresh && known.thorough && known.error > FAR_OFF)
+    let in_vain = session.discovery().has_asked() && session.discovery().proposals.is_empty();
+    if in_vain || session.cannot_propose().is_some() {
+        return false;
+    }
+    let design = session.design();
+    let Some(targets) = design.poses.get(pose).map(|pose| &pose.targets) else { return false };
+    let known = session.judging().error(pose).filter(|known| known.fresh && known.thorough);
+    known.is_some_and(|known| known.error > FAR_OFF.max(UNSERVED * target_error(design, targets, &design.mesh.nodes)))
+}
+
+/// The gravest place that the tendon tool can mend, and its winch. What is wrong with the body or the turning gap is told by the panels.
+fn to_mend(session: &Session) -> Option<(Breach, usize)> {
+    let of_cables = |b: &&Breach| !matches!(b, Breach::HousingAtGap { .. }) && b.winches().next().is_some();
+    let breaches: Vec<Breach> = session.judging().breaches().iter().filter(of_cables).cloned().collect();
+    let worst = most_severe(&breaches, 1).into_iter().next()?;
+    let winch = worst.winches().next()?;
+    Some((worst, winch))
 }
 
 pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
@@ -72,16 +90,14 @@ pub fn show(ui: &mut Ui, session: &Session, actions: &mut Actions) {
     let button = Button::new(text).stroke(Stroke::new(1.0, accent)).corner_radius(12);
     let response = ui.add(button).accessible_name(tf!("Next step: {words}", words));
     response.context_menu(|ui| super::buttons::entry(ui, session, &GUIDE, Hit::Nothing, actions));
-    let severe = |breaches| most_severe(breaches, 1).into_iter().next();
-    let worst = (command.id == TENDON).then(|| severe(session.judging().breaches())).flatten();
+    let worst = (command.id == TENDON).then(|| to_mend(session)).flatten();
     let why = match &worst {
-        Some(breach) => breach.words(&winch_labels(session.design())).to_string(),
+        Some((breach, _)) => breach.words(&winch_labels(session.design())).to_string(),
         None => command.refused(session, session.selected()).unwrap_or(t(command.tip)).to_owned(),
     };
     if response.on_hover_text(tf!("{why}. Right-click to hide this", why)).clicked() {
         // With the tool, what it is for.
-        let broken = worst.and_then(|breach| breach.winches().next());
-        actions.extend(broken.map(|winch| Action::Select(Selection::Part(Part::Winch(winch)))));
+        actions.extend(worst.map(|(_, winch)| Action::Select(Selection::Part(Part::Winch(winch)))));
         actions.push(Action::Run(command, session.selected()));
     }
 }

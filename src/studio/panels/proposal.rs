@@ -105,9 +105,9 @@ fn figures(ui: &mut Ui, design: &Design, proposal: &Proposal) {
     }
 }
 
-/// What its strongest cable asks of a motor at the spool, and all its cables at least.
+/// What its cables ask of the motor at most.
 fn torque_nmm(design: &Design, proposal: &Proposal) -> f64 {
-    design.fabrication.spool_radius_mm * proposal.force_n
+    design.fabrication.spool_radius_mm * proposal.spool_n
 }
 
 /// One of the other poses.
@@ -155,11 +155,7 @@ fn details(design: &Design, proposal: &Proposal) -> String {
         turning_degrees
     ));
     let (torque_nmm, limit) = (torque_nmm(design, proposal), design.controller.torque_nmm);
-    lines.push(tf!(
-        "At the spool {torque_nmm:.0} N mm or more, of {limit:.0} that its motor keeps up",
-        torque_nmm,
-        limit
-    ));
+    lines.push(tf!("At the spool {torque_nmm:.0} N mm, of {limit:.0} that its motor keeps up", torque_nmm, limit));
     if let Some((parameters, _)) = &proposal.paper {
         let Parameters { seed_num, join_depth, join_len, phi, .. } = parameters;
         lines.push(tf!("Found by Algorithm 2: {seed_num} seeds, {join_depth} rounds of {join_len} edges, phi {phi:.2}; moved since", seed_num, join_depth, join_len, phi));

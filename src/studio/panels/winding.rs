@@ -3,12 +3,12 @@
 use super::buttons;
 use crate::engine::winch_reach_mm;
 use crate::motion::{spool_degrees, winch_loads};
+use crate::numbers;
 use crate::studio::action::{Action, Actions};
 use crate::studio::commands::animation::ADD_KEYFRAME;
 use crate::studio::commands::networks::SLACKEN;
 use crate::studio::language::{t, tf};
 use crate::studio::session::{Mode, Session};
-use crate::studio::style::plain_number;
 use crate::studio::viewport::{is_beyond, limit, load_words};
 use eframe::egui::{CollapsingHeader, DragValue, RichText, Slider, Ui};
 
@@ -63,7 +63,7 @@ fn slider(ui: &mut Ui, session: &Session, winch: usize, actions: &mut Actions) {
             ui.add(slider).accessible_name(tf!("Cable of {name}", name = network.name));
             let value = DragValue::new(&mut wound).range(-reach..=reach).speed(0.2).fixed_decimals(1).suffix(" mm");
             ui.add(value).accessible_name(tf!("Cable of {name} in mm", name = network.name));
-            let degrees = plain_number(spool_degrees(design, wound), 0);
+            let degrees = numbers::plain(spool_degrees(design, wound), 0);
             ui.label(RichText::new(format!("{degrees}°")).small().weak()).on_hover_text(t("Turn of the spool"));
             if wound != before {
                 actions.push(Action::Wind(winch, wound));

@@ -118,15 +118,19 @@ impl Discovery {
         self.asked = Some(Asked { targets: targets.to_vec(), basis: Basis::new(design) });
     }
 
+    /// Whether the last question was about this body and these targets.
+    pub(crate) fn is_for(&mut self, design: &Arc<Design>, targets: &[Target]) -> bool {
+        self.asked.as_mut().is_some_and(|asked| asked.basis.holds(design) && asked.targets == targets)
+    }
+
     /// Whether there was a question.
-    pub(crate) fn has_asked(&self) -> bool {
+    pub fn has_asked(&self) -> bool {
         self.asked.is_some()
     }
 
     /// Finds out whether the list is stale. A stale one is not shown in the views.
     pub(crate) fn follow(&mut self, design: &Arc<Design>, targets: &[Target]) {
-        let Some(asked) = &mut self.asked else { return };
-        self.stale = !asked.basis.holds(design) || asked.targets != targets;
+        self.stale = self.has_asked() && !self.is_for(design, targets);
         if self.stale && self.running.is_none() && self.proposals.is_empty() {
             // Nothing is there that could be taken for this pose's.
             self.clear();
@@ -234,6 +238,7 @@ mod tests {
             turn_degrees: 0.0,
             turning_degrees: 0.0,
             force_n: 1.0,
+            spool_n: 1.0,
             breaches: Vec::new(),
             preview: Arc::default(),
             paper: None,

@@ -113,7 +113,7 @@ fn where_nothing_was_found_the_window_says_what_to_do_until_something_is() {
     let empty = Arc::new(AtomicBool::new(true));
     let nothing = empty.clone();
     let propose: Propose = Arc::new(move |design, _, _, _, _| {
-        let strong = plushwright::rigging::Proposal { force_n: 50.0, ..proposal(design, 0.05) };
+        let strong = plushwright::rigging::Proposal { force_n: 20.0, spool_n: 50.0, ..proposal(design, 0.05) };
         if nothing.load(Ordering::Relaxed) { Vec::new() } else { vec![Arc::new(strong)] }
     });
     let mut window = window_with(bar(), Services { propose, ..services() });

@@ -203,7 +203,7 @@ fn what_the_motors_cannot_follow_is_red_and_is_made_to_fit() {
     window.get_by_role_and_label(accesskit::Role::ComboBox, "Easing").click();
     window.run();
     click(&mut window, "Hold");
-    window.get_by_label_contains("no motor jumps: winch 1 is on its way all the time instead. To stay, copy");
+    window.get_by_label_contains("no motor jumps: winch 1 is on its way here instead. To have it elsewhere, copy");
     click(&mut window, "Undo");
     // What drives make of it, and their loads.
     click(&mut window, "Drives");

@@ -30,6 +30,7 @@ pub fn proposal(design: &Design, error_after: f64) -> Proposal {
         turn_degrees: 0.0,
         turning_degrees: 0.0,
         force_n: 5.0,
+        spool_n: 5.0,
         breaches: Vec::new(),
         preview: Arc::new(Shape { nodes: design.mesh.nodes.clone(), ..Shape::default() }),
         paper: Some(Default::default()),

@@ -2,7 +2,7 @@
 
 use super::axis::{Axis, RULER};
 use super::drives::Drives;
-use crate::design::{Design, Easing, Keyframe, animation};
+use crate::design::animation;
 use crate::engine::winch_reach_mm;
 use crate::motion::{Doubt, Why};
 use crate::picture::palette::Palette;
@@ -47,7 +47,7 @@ pub fn show(ui: &mut Ui, session: &Session, axis: &Axis, drives: Option<&Drives>
     let height = f64::from(axis.base() - axis.rect.top() - ABOVE).max(1.0);
     let scale = Scale { base: axis.base(), pixels_per_mm: height / most_mm, most_mm };
     for doubt in session.timing().doubts() {
-        doubted(ui, axis, doubt, jumps(design, doubt));
+        doubted(ui, axis, doubt);
     }
     limits(ui, axis, &scale, &reach);
     let samples = ((axis.x(end) - axis.x(0.0)) / SAMPLE).clamp(8.0, 600.0) as usize;
@@ -60,7 +60,7 @@ pub fn show(ui: &mut Ui, session: &Session, axis: &Axis, drives: Option<&Drives>
         let color = color.gamma_multiply(if network.muted { 0.3 } else { 0.85 });
         let point = |(x, row): &(f32, Vec<f64>)| pos2(*x, scale.y(row.get(winch).copied().unwrap_or(0.0)));
         ui.painter_at(axis.rect).add(Shape::line(rows.iter().map(point).collect(), Stroke::new(1.8, color)));
-        if let Some(drives) = drives {
+        if let Some(drives) = drives.filter(|_| !network.muted) {
             ghost(ui, axis, &scale, drives, winch, color);
         }
     }
@@ -97,23 +97,17 @@ fn level(ui: &Ui, [left, right]: [f32; 2], y: f32, color: Color32) -> Shape {
     Shape::mesh(mesh)
 }
 
-/// Whether a keyframe is held until the next one in a stretch, and the winches jump there.
-fn jumps(design: &Design, doubt: &Doubt) -> bool {
-    let meets = |pair: &[Keyframe]| pair[0].time_s < doubt.to_s && pair[1].time_s > doubt.from_s;
-    design.keyframes.windows(2).any(|pair| pair[0].easing == Easing::Hold && meets(pair))
-}
-
-/// A stretch that the motors do not play as it is; `jumps`: for a jump that no motor can follow.
-fn doubted(ui: &mut Ui, axis: &Axis, doubt: &Doubt, jumps: bool) {
+/// A stretch that the motors do not play as it is.
+fn doubted(ui: &mut Ui, axis: &Axis, doubt: &Doubt) {
     let visuals = ui.visuals();
     let (color, words) = match &doubt.why {
         Why::TooFast { needs_s } => (visuals.error_fg_color, tf!("Too fast: it takes {needs_s:.2} s", needs_s)),
         Why::TooFar { winch, reach_mm } => {
             (visuals.error_fg_color, tf!("Too far: {winch} winds {reach_mm:.0} mm and no more", winch, reach_mm))
         }
-        Why::Rounded { winch } if jumps => {
+        Why::Jump { winch } => {
             let words = tf!(
-                "A keyframe that holds ends in a jump, and no motor jumps: {winch} is on its way all the time instead. To stay, copy the keyframe to where it should end",
+                "A keyframe that holds ends in a jump, and no motor jumps: {winch} is on its way here instead. To have it elsewhere, copy the keyframe to where its hold should end",
                 winch
             );
             (visuals.warn_fg_color, words)
