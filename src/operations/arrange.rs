@@ -326,6 +326,21 @@ mod tests {
     }
 
     #[test]
+    fn what_is_named_twice_is_moved_once() {
+        let pin = |handles: &[Handle]| {
+            let mut design = testing::sample();
+            let options = Options {
+                handles: handles.to_vec(),
+                motion: Motion { by: [2.0, 0.0], ..Motion::default() },
+                ..Options::default()
+            };
+            let count = run(&mut design, &options, &Context::new(&AtomicBool::new(false))).unwrap();
+            (count, design.pins[0])
+        };
+        assert_eq!(pin(&[Handle::Pin(0), Handle::Pin(0)]), pin(&[Handle::Pin(0)]));
+    }
+
+    #[test]
     fn what_is_not_there_is_refused_and_nothing_changes() {
         let mut design = testing::sample();
         let before = design.clone();

@@ -109,6 +109,17 @@ mod tests {
     }
 
     #[test]
+    fn a_film_lasts_as_long_as_what_it_shows() {
+        let pngs: Vec<Vec<u8>> = (0..60).map(|k| png(4 * k)).collect();
+        for rate in [7.0, 24.0, 30.0, 60.0] {
+            let gif = gif(&pngs, Duration::from_secs_f64(1.0 / rate)).unwrap();
+            let frames = GifDecoder::new(Cursor::new(gif)).unwrap().into_frames().collect_frames().unwrap();
+            let ms: u32 = frames.iter().map(|f| f.delay().numer_denom_ms().0).sum();
+            assert!((f64::from(ms) - 60e3 / rate).abs() <= 5.0, "{rate}: {ms} ms");
+        }
+    }
+
+    #[test]
     fn what_does_not_move_stays_in_every_picture() {
         // A square that wanders over a ground with a frame.
         let picture = |at: u32| {

@@ -136,6 +136,27 @@ fn a_rig_names_its_winches_and_what_a_check_would_say() {
 }
 
 #[test]
+fn a_pose_out_of_reach_costs_the_others_nothing() {
+    let mut design = bar(80);
+    let pinned = design.pins[0].at;
+    design.pins.iter_mut().for_each(|pin| pin.stiffness = 1e5);
+    let go = AtomicBool::new(false);
+    let options =
+        RigOptions { max_winches: 2, tendons: TendonChoice::Between(1, 2), rounds: 1, ..RigOptions::default() };
+    let parts = |design: &Design| -> Vec<f64> {
+        let found = rig(design, &options, &mut |_| (), &go).unwrap();
+        let rest = |targets: &[Target]| target_error(design, targets, &design.mesh.nodes);
+        let shapes = found.wound.iter().zip(&design.poses);
+        shapes.map(|(wound, pose)| wound.checked.as_ref().unwrap().target_error / rest(&pose.targets)).collect()
+    };
+    let alone = parts(&design);
+    let stuck = Pose { name: "stuck".into(), targets: vec![Target { at: pinned, to: [30.0, 40.0], weight: 1.0 }] };
+    design.poses.push(stuck);
+    let beside = parts(&design);
+    assert!(beside[2] > 0.9 && beside[..2].iter().zip(&alone).all(|(b, a)| *b < a + 0.1), "{beside:?} {alone:?}");
+}
+
+#[test]
 fn options_that_leave_nothing_to_build_find_nothing() {
     let go = AtomicBool::new(false);
     let of = |design: &Design, options: &RigOptions| rig(design, options, &mut |_| (), &go);

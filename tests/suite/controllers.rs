@@ -1,7 +1,7 @@
 //! Programs for motor controllers, read back and run by others: a compiler, an interpreter, a parser, a drive written apart from the tool's own.
 
 use crate::support::rigged;
-use plushwright::design::{Design, Material, bundled};
+use plushwright::design::{Design, Easing, Keyframe, Material, bundled};
 use plushwright::engine::{Setpoint, solve_once};
 use plushwright::fabrication::{Options, Remark, blueprint};
 use plushwright::live::{Order, Remote, Status};
@@ -367,4 +367,91 @@ fn stored_programs_last_as_long_as_the_track_and_end_where_it_does() {
         assert_eq!(ends, calls.last().map(|call| call[0] as f64));
     }
     assert!(!motion.iter().any(|c| c.1 == "HO") && !script(1).contains("6098"), "zero is set once");
+}
+
+/// Where a stored program has a winch at a time: its moves run evenly, one after the other; counts.
+fn at_time(moves: &[(f64, f64)], time_s: f64) -> f64 {
+    let (mut begin, mut from) = (0.0, 0.0);
+    for &(to, lasts) in moves {
+        if time_s <= begin + lasts {
+            return from + (to - from) * (time_s - begin) / lasts;
+        }
+        (begin, from) = (begin + lasts, to);
+    }
+    from
+}
+
+#[test]
+fn a_long_animation_is_stored_with_every_keyframe_or_left_out_by_name() {
+    let waves = |times: usize| {
+        let mut design = rigged();
+        let [rest, pulled] = [&design.keyframes[0], &design.keyframes[1]].map(|key| key.activations_mm.clone());
+        let key = |k: usize| Keyframe {
+            time_s: 2.0 * k as f64,
+            activations_mm: if k.is_multiple_of(2) { rest.clone() } else { pulled.clone() },
+            pose: None,
+            easing: Easing::Smooth,
+        };
+        design.keyframes = (0..=2 * times).map(key).collect();
+        // A long rest in the middle takes no room.
+        let middle = design.keyframes[2 * (times / 2)].time_s;
+        design.keyframes.iter_mut().filter(|key| key.time_s > middle).for_each(|key| key.time_s += 100.0);
+        design
+    };
+    let design = waves(8);
+    let files = files(&design);
+    let rows = rows(&files);
+    let stored = stored(&text(&files, "controller-ascii-stored-motion.txt"));
+    let script = |winch: usize| text(&files, &format!("controller-v3-script-{}-motion.bas", winch + 1));
+    let scale = 4.0 * f64::from(design.controller.encoder_lines) * design.controller.gear_ratio
+        / (2.0 * std::f64::consts::PI * design.fabrication.spool_radius_mm);
+    for winch in 0..2 {
+        let own = stored.iter().filter(|c| c.0 == winch + 1);
+        let mut moves: Vec<(f64, f64)> = Vec::new();
+        for (_, name, figure) in own {
+            match (name.as_str(), figure) {
+                ("LA", Some(to)) => moves.push((*to, 0.0)),
+                ("DELAY", Some(units)) => moves.last_mut().expect("a move before").1 += units / 100.0,
+                _ => {}
+            }
+        }
+        let calls: Vec<(f64, f64)> = script(winch)
+            .lines()
+            .filter_map(|line| line.strip_prefix("Wind(")?.strip_suffix(')'))
+            .map(|figures| figures.split(", ").map(|v| v.parse().expect("a figure")).collect::<Vec<f64>>())
+            .map(|call| (call[0], call[2] / 1e3))
+            .collect();
+        for moves in [moves, calls] {
+            assert!(moves.len() <= 200, "{}", moves.len());
+            for (time_s, row) in &rows {
+                let off = (at_time(&moves, *time_s) / scale - row[winch]).abs();
+                assert!(off < 0.6, "{winch} at {time_s} s: {off} mm");
+            }
+        }
+    }
+    // Of so many waves each would be a stroke or two: that is another motion.
+    let options = Options { too_fast: TooFast::Stretch, ..Options::default() };
+    let (files, manifest) = blueprint(&waves(120), &options).expect("a blueprint");
+    assert!(!files.iter().any(|file| file.name.contains("stored") || file.name.contains("v3-script")));
+    let told = |name: &str| manifest.remarks.iter().any(|r| r.contains(name) && r.contains("no room for this motion"));
+    assert!(told("ascii-stored") && told("v3-script"), "{:?}", manifest.remarks);
+    let asked = Options { controllers: vec!["ascii-stored".into(), "ascii-stored".into()], ..options };
+    let refused = blueprint(&waves(120), &asked).map(drop).expect_err("no room").to_string();
+    assert!(refused.contains("make the animation shorter"), "{refused}");
+    assert!(blueprint(&design, &asked).is_ok(), "named twice, written once");
+}
+
+#[test]
+fn a_keyframe_beyond_the_cable_is_refused_and_one_beyond_the_reach_told() {
+    let mut design = rigged();
+    let options = Options { too_fast: TooFast::Stretch, ..Options::default() };
+    // The shorter tendon of the left winch is 40 mm long.
+    design.keyframes[1].activations_mm[0] = 40.5;
+    let refused = blueprint(&design, &options).map(drop).expect_err("no cable").to_string();
+    assert!(refused.contains("winds 40.5 mm on winch \"left\", which has 40.0 mm"), "{refused}");
+    design.keyframes[1].activations_mm[0] = 39.5;
+    design.keyframes[1].activations_mm[1] = 0.0;
+    let (_, manifest) = blueprint(&design, &options).expect("a blueprint");
+    let told = |what: &str| manifest.remarks.iter().any(|remark| remark.contains(what));
+    assert!(told("\"left\" winds up to 39.5 mm") && told("\"right\" never winds"), "{:?}", manifest.remarks);
 }

@@ -117,3 +117,34 @@ fn its_keys_stay_and_a_rig_goes_round_it() {
     assert!(design.keyframes.len() == 3 && design.keyframes[1].activations_mm[1..].iter().any(|mm| *mm > 0.0));
     assert!(design.keyframes.iter().all(|key| key.activations_mm.len() == count && key.activations_mm[0] == 0.0));
 }
+
+#[test]
+fn what_is_refused_says_which_winch_and_that_all_are_off() {
+    let mut design = rigged();
+    design.networks[1].tendons[0].slack_mm = 3.5;
+    let folder = tempfile::tempdir().unwrap();
+    let f = folder.path();
+    file::write(&f.join("a.plush"), &design).unwrap();
+    let before = std::fs::read(f.join("a.plush")).unwrap();
+    let network = |args: &[&str]| crate::files::run(f, &[&["network"][..], args].concat());
+    for (args, told) in [
+        (&["remove", "a.plush", "--winch", "1", "--tendon", "1", "--hole", "0"][..], "hole 0 is the winch itself"),
+        (&["reorder", "a.plush", "--winch", "1", "--to", "9"], "there is no network 9, there are 2"),
+        (&["add-hole", "a.plush", "--winch", "1", "--tendon", "1", "--piece", "9", "--at", "10,10"], "no piece 9"),
+    ] {
+        let output = network(args);
+        let words = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.code() == Some(2) && words.contains(told), "{args:?}: {words}");
+        assert_eq!(std::fs::read(f.join("a.plush")).unwrap(), before);
+    }
+    let listed = network(&["list", "a.plush"]).stdout;
+    assert!(String::from_utf8_lossy(&listed).contains(", slack 3.5 mm"));
+    for winch in ["left", "right"] {
+        crate::files::succeed(f, &["network", "mute", "a.plush", "--winch", winch]);
+    }
+    for args in [&["export", "a.plush", "-o", "out"][..], &["play", "a.plush", "--port", "simulated"]] {
+        let output = crate::files::run(f, args);
+        let words = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(!output.status.success() && words.contains("switched off") && words.contains("unmute"), "{words}");
+    }
+}

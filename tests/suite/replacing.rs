@@ -209,3 +209,26 @@ fn commands_that_make_one_design_at_once_lose_nothing_without_a_word() {
     let codes = running.into_iter().map(|mut command| command.wait().unwrap().code());
     assert_eq!(codes.filter(|&code| code == Some(0)).count(), 1, "the others are refused");
 }
+
+#[test]
+fn what_does_not_say_that_it_is_ours_is_not_replaced_whatever_its_name() {
+    let folder = place();
+    let f = folder.path();
+    for (name, theirs, args) in [
+        ("package.json", "{\"name\": \"my-app\"}", &["solve", "problem.json", "-o", "package.json"][..]),
+        ("list.json", "[1, 2, 3]", &["solve", "problem.json", "-o", "list.json"]),
+        ("game.ron", "Config(window: (800, 600))", &["drawing", "bar.plush", "-o", "game.ron"]),
+        ("photo.png", "RIFF....WEBP", &["render", "bar.plush", "-o", "photo.png"]),
+    ] {
+        fs::write(f.join(name), theirs).unwrap();
+        assert!(refused(&run(f, args), name).contains("--force"), "{name}");
+        assert_eq!(fs::read_to_string(f.join(name)).unwrap(), theirs);
+        succeed(f, &[args, &["--force"]].concat());
+        // What was written is ours.
+        succeed(f, args);
+        fs::write(f.join(name), "").unwrap();
+        succeed(f, args);
+    }
+    let curve = ["rig", "bar.plush", "-o", "x.plush", "--explore", "--csv", "t.csv", "--plot", "t.csv"];
+    assert!(refused(&run(f, &curve), "t.csv").contains("both"));
+}

@@ -182,6 +182,34 @@ fn more_winches_and_tendons_are_compared_in_a_table_a_file_and_a_plot() {
 }
 
 #[test]
+fn compared_rigs_are_one_record_for_programs_and_a_winch_too_many_is_refused() {
+    let folder = place();
+    let f = folder.path();
+    let args =
+        ["rig", "bar.plush", "-o", "best.plush", "--fresh", "--max-winches", "1", "--tendons", "1", "--rounds", "1"];
+    let told = succeed(f, &[&args[..], &["--explore", "--json"]].concat());
+    let record: Value = serde_json::from_str(&told).unwrap_or_else(|error| panic!("{error}: {told}"));
+    let points = record["points"].as_array().unwrap();
+    assert_eq!((points.len(), record["interrupted"].as_bool()), (1, Some(false)));
+    let check: Value = serde_json::from_str(&succeed(f, &["check", "best.plush", "--json"])).unwrap();
+    assert_eq!(record["poses"][0]["error_realizable"], check["poses"][0]["error_realizable"]);
+    // Where the pose is reached, one more winch is worth nothing, and none is added.
+    let more = ["rig", "best.plush", "-o", "more.plush", "--max-winches", "1", "--tendons", "1", "--rounds", "1"];
+    let mut output = run(f, &more);
+    for _ in 0..3 {
+        if !output.status.success() {
+            break;
+        }
+        let noted = String::from_utf8_lossy(&output.stdout).into_owned();
+        assert!(noted.contains("keyframes of bend wind what they did before"), "{noted}");
+        std::fs::rename(f.join("more.plush"), f.join("best.plush")).unwrap();
+        output = run(f, &more);
+    }
+    let words = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.code() == Some(3) && words.contains("no further network"), "{words}");
+}
+
+#[test]
 fn parameters_of_algorithm_2_belong_to_it() {
     let folder = place();
     let f = folder.path();

@@ -77,3 +77,30 @@ impl Piece {
         piece
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::testing;
+    use crate::outline::polygon::bounding_box;
+
+    #[test]
+    fn a_cutter_gets_lines_that_leave_the_piece_as_it_is() {
+        let piece = Piece::front(&testing::sample(), Corners::Mitred);
+        let radii = |piece: &Piece| piece.passages.iter().map(|p| p.radius_mm).collect::<Vec<_>>();
+        let cut = piece.for_cutter(0.4);
+        let ((low, high), (cut_low, cut_high)) = (bounding_box(&piece.rim), bounding_box(&cut.rim));
+        for axis in 0..2 {
+            assert!((low[axis] - cut_low[axis] - 0.2).abs() < 1e-3 && (cut_high[axis] - high[axis] - 0.2).abs() < 1e-3);
+        }
+        assert!(!piece.passages.is_empty());
+        for (own, cut) in radii(&piece).iter().zip(radii(&cut)) {
+            assert!((own - cut - 0.2).abs() < 1e-12);
+        }
+        assert_eq!((cut.seam, cut.notches), (piece.seam.clone(), piece.notches.clone()));
+        // What the kerf is as wide as is marked.
+        let widest = 2.0 * radii(&piece).into_iter().fold(0.0, f64::max);
+        assert!(piece.for_cutter(widest).passages.iter().all(|passage| !passage.is_cut));
+        assert_eq!(piece.for_cutter(0.0), piece);
+    }
+}

@@ -38,7 +38,8 @@ pub(super) fn shortened(
         if room(&kept) {
             return if off_mm <= MOST_OFF_MM { Ok(kept) } else { Err(MotionError::NoRoom { what, off_mm }) };
         }
-        off_mm *= 2.0;
+        // The most that is allowed is tried as well.
+        off_mm = if off_mm < MOST_OFF_MM { (2.0 * off_mm).min(MOST_OFF_MM) } else { 2.0 * off_mm };
     }
     Err(MotionError::NoRoom { what, off_mm })
 }

@@ -1,9 +1,12 @@
 //! The craft of the window: where it speaks, what has the focus, how large its questions are.
 
-use crate::support::window::{Window, bar, click, network, on_screen, pose, press, session, settle, wait, window};
+use crate::support::window::{
+    Window, bar, click, network, on_screen, pose, press, services, session, settle, wait, window, window_with,
+};
 use eframe::egui::{self, Key, Modifiers};
 use egui_kittest::kittest::Queryable;
-use plushwright::studio::session::Overlay;
+use plushwright::design::{Easing, Keyframe, Pose, Target};
+use plushwright::studio::session::{Overlay, Services};
 
 #[test]
 fn every_stop_of_the_tab_key_is_seen() {
@@ -156,6 +159,41 @@ fn the_next_step_leads_from_a_bare_body_to_a_network() {
         click(&mut window, "Undo");
     }
     assert!(session(&window).design().pins.is_empty() && session(&window).design().poses.is_empty());
+}
+
+#[test]
+fn the_next_step_is_not_asked_for_in_vain() {
+    let mut design = bar();
+    let at = design.mesh.locate_nearest([119.0, 20.0], &design.mesh.nodes).unwrap().0;
+    // Its cable bends the bar up.
+    let targets = vec![Target { at, to: [110.0, -30.0], weight: 1.0 }];
+    design.poses.push(Pose { name: "down".into(), targets });
+    design.networks.push(network());
+    let rest = |time_s| Keyframe { time_s, activations_mm: vec![0.0], pose: None, easing: Easing::Smooth };
+    design.keyframes = vec![rest(0.0), rest(2.0)];
+    let nothing = Services { propose: std::sync::Arc::new(|_, _, _, _, _| Vec::new()), ..services() };
+    let mut window = window_with(design, nothing);
+    click(&mut window, "down");
+    let offered = |window: &Window| window.query_by_label("Next step: Propose for this pose").is_some();
+    wait(&mut window, |s| s.judging().error(0).is_some_and(|known| known.fresh && known.thorough));
+    settle(&mut window);
+    assert!(offered(&window));
+    // It would be refused while the animation plays.
+    window.get_by_label("Play").click();
+    wait(&mut window, |s| s.playback().playing);
+    window.run_steps(2);
+    assert!(!offered(&window));
+    window.key_press(Key::Space);
+    wait(&mut window, |s| !s.playback().playing);
+    click(&mut window, "down");
+    assert!(offered(&window));
+    click(&mut window, "Next step: Propose for this pose");
+    assert!(!offered(&window));
+    window.get_by_label("Next step: Mend a cable");
+    // What was not found was not found for this pose alone.
+    assert!(window.query_by_label_contains("No network that can be sewn").is_some());
+    click(&mut window, "Rest");
+    assert!(window.query_by_label_contains("No network that can be sewn").is_none());
 }
 
 #[test]
