@@ -2,7 +2,8 @@
 
 use std::cmp::Ordering;
 
-/// A pose that keeps this part of its error at rest, or more, counts as one that keeps all of it.
+/// A pose that keeps this part of its error at rest, or more, counts as one that keeps all of it: a tenth less is what a body's drift gives away, and no
+/// maker would call that served. Less: poses that are hard to serve would count for nothing.
 const HELPED: f64 = 0.9;
 
 /// Parts of their errors at rest that poses keep, in the order in which rigs [compare](compare): the largest first.

@@ -44,7 +44,8 @@ pub(super) fn shortened(
     Err(MotionError::NoRoom { what, off_mm })
 }
 
-/// The fewest steps, from the first on, between which the trajectory stays within a tolerance of straight lines.
+/// Steps between which the trajectory stays within a tolerance of straight lines: from each the farthest that will do. Not always the fewest that there
+/// are, in one pass.
 fn within(steps: &Steps, tolerance_mm: f64) -> Vec<usize> {
     let last = steps.times_s.len().saturating_sub(1);
     let mut kept = vec![0];
@@ -67,7 +68,7 @@ fn within(steps: &Steps, tolerance_mm: f64) -> Vec<usize> {
             if sees && uneven_mm <= tolerance_mm {
                 to = k;
             }
-            // Farther on, neither gets better.
+            // No later step is seen from here; and what runs unevenly seldom gets better, while looking on along a slow run would take its square.
             if slopes.iter().any(|[low, high]| low > high) || uneven_mm > 2.0 * tolerance_mm {
                 break;
             }

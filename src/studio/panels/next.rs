@@ -22,7 +22,8 @@ use eframe::egui::{Button, RichText, Stroke, Ui};
 /// Least width that is left for it, logical pixels: where there is less, it is not shown.
 const LEAST: f32 = 190.0;
 
-/// A pose that misses its targets by more, body lengths, and keeps more than this part of its error at rest is not served yet.
+/// A pose that misses its targets by more, body lengths, and keeps more than this part of its error at rest is not served yet. A network that was
+/// accepted leaves a quarter or so; to ask for another one then would never end.
 const FAR_OFF: f64 = 0.05;
 const UNSERVED: f64 = 0.4;
 
