@@ -229,7 +229,7 @@ impl Body {
         let f = self.deformation_gradient(k, x);
         let c = match form {
             HessianForm::Exact => self.material.tangent(&f),
-            HessianForm::Projected => project(self.material.descent_tangent(&f)),
+            HessianForm::Projected => project(self.material.descent_tangent(&f), &f),
         } * self.weights[k];
         // Columns of `C h`, the change of stress per displacement of each node along x and y.
         let g = &self.gradients[k];

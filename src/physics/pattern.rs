@@ -164,19 +164,29 @@ impl Pattern {
         Slot { base: base as u32, stride: (2 * blocks - 1) as u32, transposed: i < j }
     }
 
-    /// `y = H v` for the symmetric matrix with these lower-triangle values.
+    /// `y = H v` for the symmetric matrix with these lower-triangle values, block by block.
     pub fn multiply(&self, values: &[f64], v: &[f64], y: &mut [f64]) {
         y.fill(0.0);
-        let unknowns: Vec<usize> = self.unknowns().collect();
-        for (place, &column) in unknowns.iter().enumerate() {
-            let stored = self.column_starts[place]..self.column_starts[place + 1];
-            for (&row, value) in self.row_indices[stored.clone()].iter().zip(&values[stored]) {
-                let row = unknowns[row];
-                y[row] += value * v[column];
-                if row != column {
-                    y[column] += value * v[row];
-                }
+        for column in 0..self.nodes {
+            let blocks = self.block_start[column]..self.block_start[column + 1];
+            let count = blocks.len();
+            let (first, next) = (self.column_starts[2 * column], self.column_starts[2 * column + 1]);
+            // The second scalar column lacks the entry above its diagonal.
+            let (left, right) = (&values[first..next], &values[next..next + 2 * count - 1]);
+            let n = 2 * self.order[column] as usize;
+            let [vx, vy] = [v[n], v[n + 1]];
+            let mut sum = [left[0] * vx + left[1] * vy, left[1] * vx + right[0] * vy];
+            let below = left[2..].chunks_exact(2).zip(right[1..].chunks_exact(2));
+            for (&row, (l, r)) in self.block_rows[blocks][1..].iter().zip(below) {
+                let m = 2 * self.order[row] as usize;
+                y[m] += l[0] * vx + r[0] * vy;
+                y[m + 1] += l[1] * vx + r[1] * vy;
+                let [wx, wy] = [v[m], v[m + 1]];
+                sum[0] += l[0] * wx + l[1] * wy;
+                sum[1] += r[0] * wx + r[1] * wy;
             }
+            y[n] += sum[0];
+            y[n + 1] += sum[1];
         }
     }
 }

@@ -22,7 +22,7 @@ const SAME: f64 = 1e-3;
 /// Nor where one ends this part above another: where the targets cannot be reached, what begins with slack elements is no match for the
 /// all-at-once method (of 60 seeded problems, those that are just taut were never better then).
 const WORSE: f64 = 1e-2;
-/// After the best, what was explored is followed to the end only where it is at most this part above what the best came to.
+/// Where the best has not come to its end, what was explored is followed as well if it is at most this part above.
 const HOPEFUL: f64 = 2e-3;
 /// Steps of the all-at-once method that are worth taking towards a start, and what ends them earlier.
 const FORMING_ITERATIONS: usize = 80;
@@ -97,7 +97,8 @@ pub(super) fn solve(question: &mut Question, start: &Posture, budget: &Budget) -
         let Some(from) = posture(question, kind, start, budget, &mut best) else { continue };
         best.starts += 1;
         let exploring = Budget { iterations: budget.iterations.min(EXPLORING_ITERATIONS), stop: budget.stop };
-        let found = Newton { relative_decrease: EXPLORED }.solve(question, &from, &exploring);
+        let rival = ends.iter().map(|end| end.posture.objective).fold(f64::INFINITY, f64::min);
+        let found = Newton { relative_decrease: EXPLORED, rival }.solve(question, &from, &exploring);
         let value = found.posture.objective;
         let same = ends.iter().any(|other| (other.posture.objective - value).abs() <= SAME * value);
         let worse = ends.iter().any(|other| value > (1.0 + WORSE) * other.posture.objective);
@@ -108,7 +109,8 @@ pub(super) fn solve(question: &mut Question, start: &Posture, budget: &Budget) -
     }
     ends.sort_by(|a, b| a.posture.objective.total_cmp(&b.posture.objective));
     for (rank, mut end) in ends.into_iter().enumerate() {
-        let hopeful = rank == 0 || end.posture.objective <= (1.0 + HOPEFUL) * best.posture.objective;
+        let near = end.posture.objective <= (1.0 + HOPEFUL) * best.posture.objective;
+        let hopeful = rank == 0 || !best.converged && near;
         if hopeful && !end.converged && !(budget.stop)() {
             let spent = [end.iterations, end.factorizations];
             end = Newton::default().solve(question, &end.posture, budget);

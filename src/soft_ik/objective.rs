@@ -100,6 +100,21 @@ impl Objective {
         }
     }
 
+    /// Adds `Q dx`, by how much `dO/dx` of the position part changes.
+    pub fn add_position_curvature(&self, dx: &[f64], out: &mut [f64]) {
+        for (i, q) in self.rest_weights.iter().enumerate() {
+            out[2 * i] += q * dx[2 * i];
+            out[2 * i + 1] += q * dx[2 * i + 1];
+        }
+        for t in &self.targets {
+            for axis in 0..2 {
+                let parts = || t.nodes.iter().zip(&t.weights);
+                let moved: f64 = parts().map(|(&n, w)| w * dx[2 * n + axis]).sum();
+                parts().for_each(|(&n, w)| out[2 * n + axis] += t.weight * w * moved);
+            }
+        }
+    }
+
     /// Root mean square distance of the targets, unweighted; zero without targets.
     pub fn target_error(&self, x: &[f64]) -> f64 {
         if self.targets.is_empty() {

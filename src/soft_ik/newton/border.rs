@@ -2,19 +2,20 @@
 
 use super::form::NotConvex;
 use super::rows::Rows;
-use super::saddle::{Saddle, put, take};
+use super::saddle::{Local, Saddle, put, take};
 use crate::soft_ik::Question;
 use nalgebra::{DMatrix, DVector};
 
 impl Saddle {
     /// The Schur complement of the border: dense, as wide as there are free winches on it.
-    pub(super) fn factorize_border(&mut self, question: &mut Question, rows: &Rows) -> Result<(), NotConvex> {
+    pub(super) fn factorize_border(&mut self, question: &mut Question, local: &Local) -> Result<(), NotConvex> {
         self.schur = None;
         let width = self.border.len();
         if width == 0 {
             return Ok(());
         }
-        self.solve_columns(question, rows);
+        let rows = &local.rows;
+        self.solve_columns(question, local);
         let mut schur = DMatrix::zeros(width, width);
         for (a, &j) in self.border.iter().enumerate() {
             for (b, &k) in self.border.iter().enumerate() {
@@ -34,7 +35,8 @@ impl Saddle {
     }
 
     /// `K^-1 u` for the winches on the border; for few winches, of all, which neither bounds nor damping change.
-    fn solve_columns(&mut self, question: &mut Question, rows: &Rows) {
+    fn solve_columns(&mut self, question: &mut Question, local: &Local) {
+        let rows = &local.rows;
         let n = self.z.len();
         if let Some(factor) = &mut self.factor {
             self.columns.clear();
@@ -61,14 +63,13 @@ impl Saddle {
         }
         question.model.solve_many(&mut sides, count);
         for (column, side) in self.columns.chunks_exact_mut(n).zip(sides.chunks_exact_mut(n / 2)) {
-            self.z.fill(0.0);
-            put(side, &mut self.z, 0);
-            self.pattern.multiply(&self.base, &self.z, &mut self.product);
-            for (p, u) in self.product.iter_mut().zip(column.iter()) {
-                *p = u - *p;
+            let bent = local.bent(question, self.form, side);
+            let (x, p) = (side.chunks_exact_mut(2), bent.chunks_exact(2));
+            for ((side, p), column) in x.zip(p).zip(column.chunks_exact_mut(4)) {
+                let u = [column[0], column[1]];
+                column[..2].copy_from_slice(side);
+                side.copy_from_slice(&[u[0] - p[0], u[1] - p[1]]);
             }
-            put(side, column, 0);
-            take(&self.product, side, 0);
         }
         question.model.solve_many(&mut sides, count);
         for (column, side) in self.columns.chunks_exact_mut(n).zip(sides.chunks_exact(n / 2)) {

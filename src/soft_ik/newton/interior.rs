@@ -126,7 +126,7 @@ impl Interior {
             damping[side.winch] += side.z / s;
         }
         let rows = &model.local.rows;
-        model.saddle.factorize(model.question, rows, model.form, &damping, &self.held)?;
+        model.saddle.factorize(model.question, model.local, model.form, &damping, &self.held)?;
         let none = vec![0.0; self.sides.len()];
         let affine = model.saddle.solve(rows, &self.forces(&distances, 0.0, &none))?;
         let dual = self.dual_step(&distances, &affine, 0.0, &none);

@@ -7,6 +7,7 @@
 //! It is a local method: what it finds depends on where it starts (`super::fibers`). An element that is slack feels
 //! nothing but the regulariser.
 
+mod active;
 mod border;
 mod damped;
 mod form;
@@ -26,16 +27,21 @@ use saddle::{Local, Saddle, Step};
 pub struct Newton {
     /// Ends where iterations gain less than this part of `O`, each, `PATIENCE` times in a row; 0: only where converged.
     pub relative_decrease: f64,
+    /// A value of `O` that others have: ends where it is out of reach at the pace of the last iterations.
+    pub rival: f64,
 }
 
 impl Default for Newton {
     fn default() -> Self {
-        Self { relative_decrease: 0.0 }
+        Self { relative_decrease: 0.0, rival: f64::INFINITY }
     }
 }
 
 /// Iterations of little gain after which a search is given up.
 const PATIENCE: usize = 3;
+/// A search is given up as well after so many iterations in a row in which it gains less than this part of what it is behind its rival.
+const LEFT_BEHIND: usize = 2;
+const CATCHING_UP: f64 = 0.15;
 /// Converged where the [`projected_gradient`] is at most this part of `O`: no winch, moved by its whole length, would change `O` by
 /// more to first order. A tenth of it is more than statics can resolve where targets are all but reached.
 pub const TOLERANCE: f64 = 1e-4;
@@ -49,7 +55,7 @@ const LARGEST_DAMPING: f64 = 1e16;
 const LEAST_CURVATURE: f64 = 1e-7;
 /// Longest step of a node, as a part of the body, and of a winch, as a part of its length: beyond it the linearised lengths mean
 /// nothing.
-const LONGEST_MOVE: f64 = 0.3;
+const LONGEST_MOVE: f64 = 0.1;
 const LONGEST_PULL: f64 = 0.5;
 /// Gain ratios: a step is taken above the first; damping falls above the second, and grows below the third.
 const TAKEN: f64 = 1e-4;
@@ -59,6 +65,12 @@ const POOR: f64 = 0.25;
 const RELAXED: f64 = 0.1;
 const REJECTED: f64 = 8.0;
 const DOUBTED: f64 = 2.0;
+/// By what the damping of a step that was not taken counts less from one good step to the next.
+const FORGOTTEN: f64 = 0.5;
+/// Parts to which a step is shortened at least and at most that is not taken, since damping may leave it as long as it was; and by what later
+/// ones may be longer than a good one.
+const SHORTENED: [f64; 2] = [0.25, 0.5];
+const LENGTHENED: f64 = 4.0;
 /// Iterations for which a form of the Hessian is used that is convex, before the exact one is tried again.
 const CONVEX_AFTER: usize = 2;
 /// Forms and dampings that are tried in an iteration before Gauss-Newton takes the place of the convexified Hessian.
@@ -91,7 +103,7 @@ impl Method for Newton {
             return answer;
         }
         if let Some(mut search) = Search::new(question) {
-            search.run(question, self.relative_decrease, budget, &mut answer);
+            search.run(question, self, budget, &mut answer);
         }
         let contractions = question.actuation.contractions(&answer.posture.beta);
         question.model.contractile.set_contractions(&contractions);
@@ -123,6 +135,10 @@ struct Search {
     size: f64,
     lengths: Vec<f64>,
     damping: f64,
+    /// The damping that it does not fall below at once: of the last step that was not taken, a little raised.
+    refused: f64,
+    /// How far steps are trusted, in the longest ones.
+    reach: f64,
     /// Iterations for which Gauss-Newton is used without a try of the exact Hessian.
     convex: usize,
     /// Iterations for which the convexified form is used without a try of the exact one.
@@ -139,14 +155,16 @@ impl Search {
             size: question.body_size(),
             lengths: rows::lengths(question.actuation, &question.model.contractile.elements),
             damping: FIRST_DAMPING,
+            refused: 0.0,
+            reach: 1.0,
             convex: 0,
             convexified: 0,
             believed: false,
         })
     }
 
-    fn run(&mut self, question: &mut Question, relative_decrease: f64, budget: &Budget, answer: &mut Answer) {
-        let mut idle = 0;
+    fn run(&mut self, question: &mut Question, ends: &Newton, budget: &Budget, answer: &mut Answer) {
+        let (mut idle, mut behind) = (0, 0);
         // The smallest projected gradient where `O` is no longer resolved, and the believed steps since.
         let mut kept: Option<(f64, Posture)> = None;
         let mut believed = 0;
@@ -174,8 +192,9 @@ impl Search {
                 break;
             }
             let gain = before - answer.posture.objective;
-            idle = if gain < relative_decrease * before { idle + 1 } else { 0 };
-            if idle >= PATIENCE {
+            idle = if gain < ends.relative_decrease * before { idle + 1 } else { 0 };
+            behind = if gain < CATCHING_UP * (answer.posture.objective - ends.rival) { behind + 1 } else { 0 };
+            if idle >= PATIENCE || behind >= LEFT_BEHIND {
                 break;
             }
         }
@@ -188,7 +207,7 @@ impl Search {
     fn improve(&mut self, question: &mut Question, budget: &Budget, answer: &mut Answer) -> bool {
         let mut form = self.first_form();
         self.saddle.assemble(question, &self.local, form);
-        let (first, mut raised) = (self.damping, 0);
+        let (first, mut raised, mut refused) = (self.damping, 0, false);
         while self.damping <= LARGEST_DAMPING && !(budget.stop)() {
             let Ok(step) = self.minimise(question, form, answer) else {
                 raised += 1;
@@ -208,7 +227,8 @@ impl Search {
                 }
                 continue;
             };
-            let t = self.longest(&step).min(1.0);
+            let longest = self.longest(&step);
+            let t = (self.reach.min(1.0) * longest).min(1.0);
             let promised = -(t * step.slope + t * t * step.curvature);
             if promised <= NO_PROMISE * answer.posture.objective {
                 // The bounds leave nothing of a step this long.
@@ -222,20 +242,16 @@ impl Search {
             self.believed = promised <= RESOLVED * answer.posture.objective && !told;
             let kept = self.believed && -gain <= RESOLVED * answer.posture.objective;
             let taken = trial.in_equilibrium() && (ratio > TAKEN || kept);
-            if taken && (ratio > GOOD || self.believed) && t == 1.0 {
-                self.damping = (RELAXED * self.damping).max(LEAST_DAMPING);
-            } else if !taken {
-                self.raise();
-            } else if ratio < POOR {
-                self.damping *= DOUBTED;
-            }
             if taken {
+                self.trust(t / longest, ratio, t == 1.0 && !refused);
                 let from = std::mem::replace(&mut answer.posture, trial);
                 if raised > 0 && ratio > GOOD && t == 1.0 {
                     self.extend(question, budget, &from, &step, answer);
                 }
                 return true;
             }
+            refused = true;
+            self.distrust(t / longest, if trial.in_equilibrium() { ratio } else { f64::NEG_INFINITY });
             // Statics has left its own factor behind.
             let contractions = question.actuation.contractions(&answer.posture.beta);
             question.model.contractile.set_contractions(&contractions);
@@ -257,6 +273,25 @@ impl Search {
         self.convex = self.convex.saturating_sub(1);
         self.convexified = self.convexified.saturating_sub(1);
         form
+    }
+
+    /// After a step that was taken, of this length in the longest ones, with this gain ratio: longer ones later, and less damping after a
+    /// `whole` one, of the model's own length and before which none was refused.
+    fn trust(&mut self, length: f64, ratio: f64, whole: bool) {
+        self.reach = self.reach.max(if ratio > POOR { LENGTHENED * length } else { length });
+        if whole && (ratio > GOOD || self.believed) {
+            self.damping = (RELAXED * self.damping).max(self.refused).max(LEAST_DAMPING);
+            self.refused *= FORGOTTEN;
+        } else if ratio < POOR {
+            self.damping *= DOUBTED;
+        }
+    }
+
+    /// After a step that was not taken: the next is shorter, to where the parabola through both values has its least, and damped more.
+    fn distrust(&mut self, length: f64, ratio: f64) {
+        self.reach = length * (1.0 / (2.0 - ratio)).clamp(SHORTENED[0], SHORTENED[1]);
+        self.refused = REJECTED.sqrt() * self.damping;
+        self.raise();
     }
 
     fn raise(&mut self) {

@@ -1,18 +1,16 @@
 //! The quadratic model within the bounds.
 //!
-//! First a projected Newton method (Bertsekas, SIAM J. Control Optim. 20, 1982): winches at a bound that the model's gradient
-//! pushes against are held; the others take the model's Newton step, projected to the bounds and shortened until the model falls.
-//! That ends at once where few bounds play a part. Where many do it creeps, and a primal-dual interior-point method takes over
-//! ([`interior`]; Mehrotra, SIAM J. Optim. 2, 1992), whose count of steps does not depend on them. A step of either is one factorisation of the
-//! saddle-point matrix; values and gradients of the model are two solves with the factor of `H`.
+//! First by active sets ([`active`]), which a few rounds find where those of the last linearisation are nearly right. Where they go round
+//! in circles a primal-dual interior-point method takes over ([`interior`]; Mehrotra, SIAM J. Optim. 2, 1992), whose count of steps
+//! does not depend on the bounds, and a projected Newton step puts what it found on them (Bertsekas, SIAM J. Control Optim. 20, 1982).
+//! A round, or a step, of each is one factorisation of the saddle-point matrix; values and gradients of the model are two solves with
+//! the factor of `H`.
 
 use super::damped::{Model, Point};
 use super::form::NotConvex;
-use super::interior;
 use super::saddle::Step;
+use super::{active, interior};
 
-/// Projected Newton steps before the interior-point method.
-const PROJECTED_STEPS: usize = 2;
 /// Halvings of a projected step before it counts as failed.
 const MOST_HALVINGS: usize = 8;
 /// The part of the first-order decrease that a projected step must bring.
@@ -26,15 +24,12 @@ pub(super) fn minimise(model: &mut Model, factorizations: &mut usize) -> Result<
     let count = model.room.len();
     let still = Step { beta: vec![0.0; count], x: vec![0.0; model.saddle.coordinates()], slope: 0.0, curvature: 0.0 };
     let mut best = Point { step: still, slopes: model.local.gradient.clone(), value: 0.0 };
-    for _ in 0..PROJECTED_STEPS {
-        *factorizations += model.saddle.cost();
-        let (next, done) = model.project(&best)?;
-        if let Some(next) = next {
-            best = next;
-        }
-        if done {
-            return Ok(best.step);
-        }
+    let (found, exact) = active::minimise(model, factorizations)?;
+    if found.value < best.value {
+        best = found;
+    }
+    if exact {
+        return Ok(best.step);
     }
     let inner = interior::minimise(model, &best, factorizations)?;
     if inner.value < best.value {
@@ -63,7 +58,7 @@ impl Model<'_, '_> {
         let moved = base != from.step.beta;
         let start = if moved { Some(self.evaluate(base)) } else { None };
         let start = start.as_ref().unwrap_or(from);
-        self.saddle.factorize(self.question, &self.local.rows, self.form, self.damping, &held)?;
+        self.saddle.factorize(self.question, self.local, self.form, self.damping, &held)?;
         let step = self.saddle.solve(&self.local.rows, &start.slopes)?;
         let mut t = 1.0;
         for _ in 0..MOST_HALVINGS {

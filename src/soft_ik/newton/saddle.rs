@@ -36,6 +36,19 @@ pub(super) struct Local {
     pub rows: Rows,
 }
 
+impl Local {
+    /// `L_xx dx`.
+    pub fn bent(&self, question: &Question, form: Form, dx: &[f64]) -> Vec<f64> {
+        let mut out = vec![0.0; dx.len()];
+        if let Some(k) = form.index() {
+            question.model.pattern().multiply(&self.bend[k], dx, &mut out);
+            out.iter_mut().for_each(|v| *v = -*v);
+        }
+        question.objective.add_position_curvature(dx, &mut out);
+        out
+    }
+}
+
 /// A step of all winches.
 pub(super) struct Step {
     pub beta: Vec<f64>,
@@ -82,8 +95,11 @@ pub(super) struct Saddle {
 impl Saddle {
     /// Puts in what does not depend on which winches are free.
     pub fn assemble(&mut self, question: &Question, local: &Local, form: Form) {
-        self.base.fill(0.0);
         self.fresh = false;
+        if self.factor.is_none() {
+            return;
+        }
+        self.base.fill(0.0);
         let bend = form.index().map(|k| &local.bend[k]);
         for (k, (place, h)) in self.places.iter().zip(&local.hessian).enumerate() {
             let [xx, px, xp] = place.map(|p| p as usize);
@@ -113,11 +129,12 @@ impl Saddle {
     pub fn factorize(
         &mut self,
         question: &mut Question,
-        rows: &Rows,
+        local: &Local,
         form: Form,
         damping: &[f64],
         held: &[bool],
     ) -> Result<(), NotConvex> {
+        let rows = &local.rows;
         self.form = form;
         if self.factor.is_some() {
             self.values.copy_from_slice(&self.base);
@@ -144,7 +161,7 @@ impl Saddle {
                 return Err(NotConvex);
             }
         }
-        self.factorize_border(question, rows)
+        self.factorize_border(question, local)
     }
 
     /// The Newton step from a point at which the model has these `slopes`, with the last factor: the step, zero for held winches, and
@@ -202,17 +219,18 @@ impl Saddle {
         take(&self.z, &mut x, 2);
         question.model.solve(&mut x);
         self.z.fill(0.0);
-        put(&x, &mut self.z, 0);
-        self.pattern.multiply(&self.base, &self.z, &mut self.product);
         if form != Form::GaussNewton {
             for (j, d) in beta.iter().enumerate().filter(|(_, d)| **d != 0.0) {
-                rows.add(&self.stencils, j, *d, &mut self.product, form);
+                rows.add(&self.stencils, j, *d, &mut self.z, form);
             }
         }
-        let mut p = vec![0.0; self.coordinates()];
-        take(&self.product, &mut p, 0);
-        p.iter_mut().for_each(|p| *p = -*p);
+        let mut p = local.bent(question, form, &x);
+        for (p, z) in p.chunks_exact_mut(2).zip(self.z.chunks_exact(4)) {
+            p[0] = -p[0] - z[0];
+            p[1] = -p[1] - z[1];
+        }
         question.model.solve(&mut p);
+        put(&x, &mut self.z, 0);
         put(&p, &mut self.z, 2);
         let (mut slope, mut curvature) = (0.0, 0.0);
         let slopes = (0..beta.len())

@@ -1,6 +1,7 @@
 //! More winches: Newton's method from several starts.
 
 use super::rays::reach;
+use super::walk::passing;
 use crate::soft_ik::contraction::GaussNewton;
 use crate::soft_ik::newton::Newton;
 use crate::soft_ik::{Actuation, Answer, Budget, Method, Posture, Question, Winch};
@@ -13,12 +14,19 @@ const NEWTON_DECREASE: f64 = 1e-3;
 const SEQUENTIAL_LIMIT: usize = 12;
 /// Steps in which a new winch is wound over its range.
 const SEQUENTIAL_STEPS: usize = 8;
+/// Recruiting may take so many times the factorisations of the starts before, which may all have ended in the same, poor valley.
+const SEQUENTIAL_WORK: f64 = 2.0;
+/// A winch is not wound on where `O` has risen so many times in a row, and to so many times its least.
+const RISES: usize = 2;
+const FAR: f64 = 1.5;
+/// How well forces balance in these, as a part of those at work: enough to see where the body comes closest.
+const BALANCE: f64 = 1e-2;
 /// Parts of the winches' range, from taut to their upper bounds, at which a search begins.
 const PARTS: [f64; 3] = [0.15, 0.4, 0.7];
-/// Starts are no longer tried once so many in a row have ended in the value that is the best.
+/// Starts are no longer tried once so many have ended in the value that is the best.
 const REPEATS: usize = 2;
-/// Two values are the same where they differ by less than this part.
-const SAME_VALUE: f64 = 1e-4;
+/// Two values are the same where they differ by less than this part: so much is left to gain where exploring ends.
+const SAME_VALUE: f64 = 1e-3;
 
 /// The best of several starts, and of recruiting the winches one by one.
 pub fn from_several(question: &mut Question, start: &Posture, budget: &Budget) -> Answer {
@@ -36,15 +44,20 @@ pub fn from_several(question: &mut Question, start: &Posture, budget: &Budget) -
         if posture.in_equilibrium() {
             let before = best.posture.objective;
             let answer = method.solve(question, &posture, &exploring);
-            let same = (answer.posture.objective - before).abs() <= SAME_VALUE * before;
-            repeats = if same { repeats + 1 } else { 0 };
+            let after = answer.posture.objective;
+            repeats = match () {
+                _ if (after - before).abs() <= SAME_VALUE * before => repeats + 1,
+                _ if after < before => 0,
+                _ => repeats,
+            };
             best.starts += 1;
             best.absorb(answer);
         }
     }
-    if count > 1 && count <= SEQUENTIAL_LIMIT && repeats < REPEATS {
+    if count > 1 && count <= SEQUENTIAL_LIMIT && !(budget.stop)() {
         best.starts += 1;
-        best.absorb(one_by_one(question, start, method.as_ref(), &exploring));
+        let most = (SEQUENTIAL_WORK * best.factorizations as f64) as usize;
+        best.absorb(one_by_one(question, start, method.as_ref(), &exploring, most));
     }
     let from = best.posture.clone();
     let last: Box<dyn Method> =
@@ -62,7 +75,7 @@ fn has_newton(question: &Question) -> bool {
 
 fn exploring(question: &Question) -> Box<dyn Method> {
     if has_newton(question) {
-        Box::new(Newton { relative_decrease: NEWTON_DECREASE })
+        Box::new(Newton { relative_decrease: NEWTON_DECREASE, ..Newton::default() })
     } else {
         Box::new(GaussNewton { relative_decrease: EXPLORING_DECREASE })
     }
@@ -70,7 +83,9 @@ fn exploring(question: &Question) -> Box<dyn Method> {
 
 /// Recruits the winches one after another: each is wound over its range, then adjusted together with those before it, while
 /// those after it wait. Large bends that one winch must begin are found this way.
-fn one_by_one(question: &mut Question, start: &Posture, method: &dyn Method, budget: &Budget) -> Answer {
+///
+/// After `most` factorisations no further one is recruited.
+fn one_by_one(question: &mut Question, start: &Posture, method: &dyn Method, budget: &Budget, most: usize) -> Answer {
     let all = question.actuation;
     // Waiting winches pay out as far as they may: a cable that is not yet in use must not hold the body back.
     let mut beta: Vec<f64> =
@@ -78,6 +93,9 @@ fn one_by_one(question: &mut Question, start: &Posture, method: &dyn Method, bud
     let (posture, factorizations) = question.settle(&beta, &start.x, budget.stop);
     let mut best = Answer { factorizations, ..Answer::at(&posture) };
     for count in 1..=all.winches.len() {
+        if best.factorizations > most {
+            break;
+        }
         let some = Actuation { winches: all.winches[..count].to_vec(), fixed: all.contractions(&beta) };
         let mut inner = Question { model: &mut *question.model, actuation: &some, objective: question.objective };
         let winch = &all.winches[count - 1];
@@ -88,21 +106,25 @@ fn one_by_one(question: &mut Question, start: &Posture, method: &dyn Method, bud
         best.factorizations += factorizations;
         // Wind the new winch slowly and go on from where the body came closest.
         let mut closest = posture.clone();
+        let mut rises = 0;
         let slack = posture.beta[count - 1].max(0.0_f64.max(winch.lower));
         for step in 1..=SEQUENTIAL_STEPS {
-            if (budget.stop)() {
+            if (budget.stop)() || rises >= RISES && posture.objective > FAR * closest.objective {
                 break;
             }
             let mut tried = from.beta.clone();
             tried[count - 1] = slack + (upper - slack) * step as f64 / SEQUENTIAL_STEPS as f64;
             some.clamp(&mut tried);
-            let (next, factorizations) = inner.settle(&tried, &posture.x, budget.stop);
+            let (next, factorizations) = inner.settle_to(&tried, &posture.x, &passing(BALANCE), budget.stop);
             best.factorizations += factorizations;
+            rises = if next.objective > posture.objective { rises + 1 } else { 0 };
             posture = next;
             if posture.in_equilibrium() && posture.objective < closest.objective {
                 closest = posture.clone();
             }
         }
+        let (closest, factorizations) = inner.settle(&closest.beta, &closest.x, budget.stop);
+        best.factorizations += factorizations;
         best.absorb(method.solve(&mut inner, &closest, budget));
         beta[..count].copy_from_slice(&best.posture.beta);
     }
