@@ -37,13 +37,13 @@ pub(super) fn minimise(model: &mut Model, factorizations: &mut usize) -> Result<
     }
     // Now the active set is right, or nearly; what was put on its bound has left slopes behind.
     *factorizations += model.saddle.cost();
-    let (last, _) = model.project(&best)?;
+    let last = model.project(&best)?;
     Ok(last.unwrap_or(best).step)
 }
 
 impl Model<'_, '_> {
-    /// A projected Newton step from `from`, if one lowers the model; and whether it is the minimiser.
-    fn project(&mut self, from: &Point) -> Result<(Option<Point>, bool), NotConvex> {
+    /// A projected Newton step from `from`, if one lowers the model.
+    fn project(&mut self, from: &Point) -> Result<Option<Point>, NotConvex> {
         let count = self.room.len();
         let mut base = from.step.beta.clone();
         let mut held = vec![false; count];
@@ -64,17 +64,13 @@ impl Model<'_, '_> {
         for _ in 0..MOST_HALVINGS {
             let way = start.step.beta.iter().zip(&step).map(|(b, d)| b + t * d);
             let tried: Vec<f64> = way.zip(&self.room).map(|(d, [low, high])| d.max(*low).min(*high)).collect();
-            let inside =
-                t == 1.0 && start.step.beta.iter().zip(&step).zip(&tried).all(|((b, d), tried)| b + d == *tried);
             let first: f64 = tried.iter().zip(&start.step.beta).zip(&start.slopes).map(|((d, b), g)| g * (d - b)).sum();
             let point = self.evaluate(tried);
             if point.value < from.value && point.value <= start.value + SUFFICIENT * first {
-                let pulled_in = |j: usize| held[j] && (point.slopes[j] > 0.0) != (start.slopes[j] > 0.0);
-                let done = inside && !(0..count).any(pulled_in);
-                return Ok((Some(point), done));
+                return Ok(Some(point));
             }
             t *= 0.5;
         }
-        Ok((None, false))
+        Ok(None)
     }
 }
