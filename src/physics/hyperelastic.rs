@@ -69,13 +69,21 @@ pub fn project(tangent: Matrix4<f64>, f: &Matrix2<f64>) -> Matrix4<f64> {
     let value = |v: &Vector4<f64>| v.dot(&(tangent * v));
     let (along, across) = (value(&grown), value(&sheared));
     let coupling = sheared.dot(&(tangent * grown));
-    // Eigenvalues and eigenvectors of the block of sizes.
+    let mut out = tangent;
+    let mut lift = |value: f64, v: Vector4<f64>| {
+        if value < 0.0 {
+            out -= v * v.transpose() * value;
+        }
+    };
+    lift(value(&turned), turned);
+    lift(value(&flipped), flipped);
     let (mean, apart) = (0.5 * (along + across), (0.5 * (along - across)).hypot(coupling));
-    let angle = 0.5 * (2.0 * coupling).atan2(along - across);
-    let [large, small] = [angle.cos() * grown + angle.sin() * sheared, angle.cos() * sheared - angle.sin() * grown];
-    let all = [(value(&turned), turned), (value(&flipped), flipped), (mean + apart, large), (mean - apart, small)];
-    let negative = all.into_iter().filter(|(value, _)| *value < 0.0);
-    negative.fold(tangent, |left, (value, v)| left - v * v.transpose() * value)
+    if mean < apart {
+        let (s, c) = (0.5 * (2.0 * coupling).atan2(along - across)).sin_cos();
+        lift(mean + apart, c * grown + s * sheared);
+        lift(mean - apart, c * sheared - s * grown);
+    }
+    out
 }
 
 /// The cofactor matrix `dJ/dF`; `F^-T = cof F / J`.

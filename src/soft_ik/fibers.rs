@@ -8,7 +8,8 @@
 //!
 //! `O` has many valleys: an element that is slack feels nothing of the targets, so what is slack at the start tends to stay so. The
 //! starts are the answer of the all-at-once method, in whose objective slack elements take part; the activations given; and all
-//! elements just taut. Each is followed by Newton's method until it gains little, and the best one to the end.
+//! elements just taut. Each is followed by Newton's method until it gains little, or too little to reach the best, and the
+//! best one to the end.
 
 use super::newton::Newton;
 use super::tension::AllAtOnce;

@@ -366,7 +366,7 @@ fn all_at_once_is_as_good_as_gauss_newton_on_reachable_targets() {
 
 /// Minutes: the same with more questions, and Gauss-Newton run to its end.
 #[test]
-#[ignore = "long"]
+#[ignore = "takes long; scripts/peers compares the same methods, optimised"]
 fn all_at_once_is_as_good_as_gauss_newton_on_many_reachable_targets() {
     compare_on_reachable_targets(0..20, 100);
 }

@@ -9,16 +9,17 @@
 use super::damped::{Model, Point};
 use super::form::NotConvex;
 
-/// Rounds before other methods take over.
+/// Rounds before other methods take over: those that settle take 2 to 6 as a rule, and up to ten.
 const MOST_ROUNDS: usize = 16;
-/// The sets go round in circles where more winches change than so many times the fewest that did, and this part of all.
+/// The sets go round in circles where more winches change than so many times the fewest that did, and this part of all: a few that come
+/// and go near the end are not yet a circle.
 const RISE: usize = 2;
 const MANY: f64 = 0.02;
 
 /// A point within the bounds, and whether it is the minimiser there. Counts its factorisations.
 ///
 /// # Errors
-/// [`NotConvex`] where that shows on the first sets.
+/// [`NotConvex`] where that shows on the first sets, or a system could not be solved.
 pub(super) fn minimise(model: &mut Model, factorizations: &mut usize) -> Result<(Point, bool), NotConvex> {
     let count = model.room.len();
     let mut step = vec![0.0; count];

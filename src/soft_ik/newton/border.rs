@@ -63,7 +63,7 @@ impl Saddle {
         }
         question.model.solve_many(&mut sides, count);
         for (column, side) in self.columns.chunks_exact_mut(n).zip(sides.chunks_exact_mut(n / 2)) {
-            let bent = local.bent(question, self.form, side);
+            let bent = local.lagrangian_product(question, self.form, side);
             let (x, p) = (side.chunks_exact_mut(2), bent.chunks_exact(2));
             for ((side, p), column) in x.zip(p).zip(column.chunks_exact_mut(4)) {
                 let u = [column[0], column[1]];

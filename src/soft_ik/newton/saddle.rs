@@ -38,7 +38,7 @@ pub(super) struct Local {
 
 impl Local {
     /// `L_xx dx`.
-    pub fn bent(&self, question: &Question, form: Form, dx: &[f64]) -> Vec<f64> {
+    pub fn lagrangian_product(&self, question: &Question, form: Form, dx: &[f64]) -> Vec<f64> {
         let mut out = vec![0.0; dx.len()];
         if let Some(k) = form.index() {
             question.model.pattern().multiply(&self.bend[k], dx, &mut out);
@@ -61,6 +61,8 @@ pub(super) struct Step {
 
 /// Structure, factor and buffers.
 pub(super) struct Saddle {
+    pub(super) coordinates: usize,
+    /// Empty, as all that stands in it, where there is no factor.
     pub(super) pattern: Pattern,
     /// None where there are few winches: all of them stand on the border, and what is left is solved with the factor of `H` alone.
     pub(super) factor: Option<Indefinite>,
@@ -157,7 +159,7 @@ impl Saddle {
         }
         if let Some(factor) = &mut self.factor {
             let inertia = factor.factorize(&self.pattern, &self.values);
-            if inertia.singular > 0 || inertia.negative != self.pattern.dimension() / 2 {
+            if inertia.singular > 0 || inertia.negative != self.coordinates {
                 return Err(NotConvex);
             }
         }
@@ -224,7 +226,7 @@ impl Saddle {
                 rows.add(&self.stencils, j, *d, &mut self.z, form);
             }
         }
-        let mut p = local.bent(question, form, &x);
+        let mut p = local.lagrangian_product(question, form, &x);
         for (p, z) in p.chunks_exact_mut(2).zip(self.z.chunks_exact(4)) {
             p[0] = -p[0] - z[0];
             p[1] = -p[1] - z[1];
@@ -274,7 +276,7 @@ impl Saddle {
 
     /// Coordinates of the body.
     pub fn coordinates(&self) -> usize {
-        self.pattern.dimension() / 2
+        self.coordinates
     }
 
     /// Subtracts `u u^T / w` of winch `j`.

@@ -5,7 +5,7 @@ use super::rows::Stencils;
 use super::saddle::Saddle;
 use crate::physics::Energy;
 use crate::physics::indefinite::Indefinite;
-use crate::physics::pattern::Pattern;
+use crate::physics::pattern::{Pattern, Slots};
 use crate::soft_ik::Question;
 
 /// Up to this many winches the dense border costs less than a factorisation of the saddle-point matrix.
@@ -21,6 +21,38 @@ impl Saddle {
         let winches = &question.actuation.winches;
         let few = winches.len() <= FEW;
         let eliminated: Vec<bool> = winches.iter().map(|w| !few && w.members.len() == 1).collect();
+        let element_slots = {
+            let contractile = &model.contractile;
+            model.pattern().slots((0..contractile.stencils()).map(|k| contractile.stencil(k)))
+        };
+        let coordinates = model.dimension();
+        let z = vec![0.0; 2 * coordinates];
+        let mut this = Self {
+            coordinates,
+            pattern: Pattern::new(0, std::iter::empty()),
+            factor: None,
+            eliminated,
+            stencils,
+            places: Vec::new(),
+            slots: Slots::default(),
+            element_slots,
+            weights: Vec::new(),
+            base: Vec::new(),
+            values: Vec::new(),
+            form: Form::GaussNewton,
+            weights_now: Vec::new(),
+            border: Vec::new(),
+            columns: Vec::new(),
+            fresh: false,
+            schur: None,
+            rest: z.clone(),
+            product: z.clone(),
+            z,
+        };
+        if few {
+            return Some(this);
+        }
+        let (eliminated, stencils) = (&this.eliminated, &this.stencils);
         let single: Vec<Vec<usize>> =
             (0..stencils.count()).map(|j| if eliminated[j] { twice(stencils.nodes(j)) } else { Vec::new() }).collect();
         let coupled = coupled(model.pattern());
@@ -29,7 +61,6 @@ impl Saddle {
         let all = pairs.iter().chain(&single).chain(&held).map(|s| s.as_slice());
         let pattern = Pattern::new(2 * nodes, all);
         let slots = pattern.slots(single.iter().map(|s| s.as_slice()));
-        let factor = if few { None } else { Some(Indefinite::new(&pattern)?) };
         let mut places = Vec::with_capacity(model.pattern().nonzeros());
         let spread: Vec<usize> = model.pattern().unknowns().map(|d| 4 * (d / 2) + d % 2).collect();
         for column in 0..model.dimension() {
@@ -49,32 +80,11 @@ impl Saddle {
                 }
             }
         }
-        let contractile = &model.contractile;
-        let element_slots = model.pattern().slots((0..contractile.stencils()).map(|k| contractile.stencil(k)));
-        let n = pattern.dimension();
-        let (base, values) = (vec![0.0; pattern.nonzeros()], vec![0.0; pattern.nonzeros()]);
-        let (z, rest, product) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
-        Some(Self {
-            pattern,
-            factor,
-            eliminated,
-            stencils,
-            places,
-            slots,
-            element_slots,
-            weights,
-            base,
-            values,
-            form: Form::GaussNewton,
-            weights_now: Vec::new(),
-            border: Vec::new(),
-            columns: Vec::new(),
-            fresh: false,
-            schur: None,
-            z,
-            rest,
-            product,
-        })
+        let values = vec![0.0; pattern.nonzeros()];
+        this.factor = Some(Indefinite::new(&pattern)?);
+        (this.pattern, this.places, this.slots, this.weights) = (pattern, places, slots, weights);
+        (this.base, this.values) = (values.clone(), values);
+        Some(this)
     }
 }
 

@@ -16,7 +16,8 @@ const SEQUENTIAL_LIMIT: usize = 12;
 const SEQUENTIAL_STEPS: usize = 8;
 /// Recruiting may take so many times the factorisations of the starts before, which may all have ended in the same, poor valley.
 const SEQUENTIAL_WORK: f64 = 2.0;
-/// A winch is not wound on where `O` has risen so many times in a row, and to so many times its least.
+/// A winch is not wound on where `O` has risen so many times in a row, and to so many times its least: it has drawn the body past the
+/// targets.
 const RISES: usize = 2;
 const FAR: f64 = 1.5;
 /// How well forces balance in these, as a part of those at work: enough to see where the body comes closest.
@@ -84,7 +85,7 @@ fn exploring(question: &Question) -> Box<dyn Method> {
 /// Recruits the winches one after another: each is wound over its range, then adjusted together with those before it, while
 /// those after it wait. Large bends that one winch must begin are found this way.
 ///
-/// After `most` factorisations no further one is recruited.
+/// After `most` factorisations no further one is recruited: those that wait stay paid out.
 fn one_by_one(question: &mut Question, start: &Posture, method: &dyn Method, budget: &Budget, most: usize) -> Answer {
     let all = question.actuation;
     // Waiting winches pay out as far as they may: a cable that is not yet in use must not hold the body back.
